@@ -1,0 +1,58 @@
+// Calibration of a differential drive from whole recordings with outside truth.
+//
+// The likelihood is that of Kalman innovations: odometry errors accumulate, so absolute pose errors are not independent
+// and plain least squares on them claims far too small a covariance. See README.md in this folder for the equations.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+struct LeastSquaresOptions {
+  // Estimated beside radii and wheelbase, because a wrong one would bend them.
+  bool fit_truth_mounting = true;
+  bool fit_truth_clock = true;
+  int most_iterations = 30;
+};
+
+// One estimated parameter.
+struct ParameterEstimate {
+  std::string name;        // the vehicle file's key: "wheel_radius_left_m", "truth_mounting.x_m", ...
+  std::string unit;
+  double nominal = 0.0;
+  double value = 0.0;
+  double stderr_value = 0.0;
+  bool determined = true;  // false: the recordings hold no information on it; the value is the nominal one
+};
+
+// Sizes of the random errors, estimated from the same recordings.
+struct FittedNoise {
+  double wheel_m_per_sqrt_m = 0.0;    // each wheel's distance error grows with the square root of its travel
+  double truth_position_m = 0.0;
+  double truth_heading_rad = 0.0;
+};
+
+struct LeastSquaresCalibration {
+  Vehicle vehicle;                            // with the estimates put in
+  std::vector<ParameterEstimate> parameters;
+  std::vector<double> covariance;             // of the determined parameters in their order, row by row
+  FittedNoise noise;
+  std::vector<std::string> cannot_tell;       // what the recordings cannot determine, and which drive would, in words
+  std::vector<std::string> warnings;
+  int innovations = 0;                        // scalar measurements used
+  int outliers = 0;                           // truth samples set aside because they contradict their neighbours
+  double normalised_chi2_nominal = 0.0;       // of the innovations, with the noise as fitted; 1 is a perfect fit
+  double normalised_chi2 = 0.0;
+};
+
+// Needs wheel samples and two truth samples or more in each recording.
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                                        const LeastSquaresOptions& options = {}, const Progress& progress = {});
+
+}  // namespace odolab

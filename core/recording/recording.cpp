@@ -1,0 +1,140 @@
+#include "core/recording/recording.h"
+
+#include <cmath>
+#include <limits>
+
+namespace odolab {
+
+namespace {
+
+// Raw counts made continuous across the wrap of a counter of the given width.
+std::vector<double> unwrapped_counts(const std::vector<double>& raw, int counter_bits) {
+  if (counter_bits <= 0) return raw;
+  const double range = std::ldexp(1.0, counter_bits);
+  std::vector<double> counts = raw;
+  double previous_raw = std::numeric_limits<double>::quiet_NaN(), total = 0.0;
+  for (double& count : counts) {
+    if (std::isnan(count)) continue;
+    total = std::isnan(previous_raw) ? count : total + std::remainder(count - previous_raw, range);
+    previous_raw = count;
+    count = total;
+  }
+  return counts;
+}
+
+// Empty cells filled linearly between the neighbours that have a value; cells before the first and after the last stay.
+void fill_between(const std::vector<double>& time_s, std::vector<double>& values) {
+  std::size_t last = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (last < i) {
+      const double span = time_s[i] - time_s[last];
+      for (std::size_t k = last + 1; k < i; ++k) {
+        const double u = span > 0.0 ? (time_s[k] - time_s[last]) / span : 1.0;
+        values[k] = values[last] + u * (values[i] - values[last]);
+      }
+    }
+    last = i;
+  }
+}
+
+}  // namespace
+
+const Channel* Recording::channel(std::string_view wanted) const {
+  for (const Channel& c : channels)
+    if (c.name == wanted) return &c;
+  return nullptr;
+}
+
+Channel& Recording::add_channel(std::string channel_name) {
+  channels.push_back({std::move(channel_name), std::vector<double>(time_s.size(), std::numeric_limits<double>::quiet_NaN())});
+  return channels.back();
+}
+
+std::vector<std::string> problems_in(const Recording& recording) {
+  std::vector<std::string> problems;
+  for (const Channel& c : recording.channels) {
+    if (c.values.size() != recording.time_s.size())
+      problems.push_back(c.name + ": found " + std::to_string(c.values.size()) + " cells, expected one for each of the " +
+                         std::to_string(recording.time_s.size()) + " times");
+    for (std::size_t i = 0; i < c.values.size(); ++i)
+      if (std::isinf(c.values[i])) {
+        problems.push_back(c.name + ": found an infinite value in row " + std::to_string(i + 1) + ", expected a number");
+        break;
+      }
+  }
+  for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
+    if (!std::isfinite(recording.time_s[i])) {
+      problems.push_back("time_s: found no number in row " + std::to_string(i + 1) + ", expected a time");
+      break;
+    }
+    if (i > 0 && recording.time_s[i] < recording.time_s[i - 1]) {
+      problems.push_back("time_s: found time going back in row " + std::to_string(i + 1) + ", expected times that never decrease");
+      break;
+    }
+  }
+  return problems;
+}
+
+std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive) {
+  std::vector<double> left, right;
+  if (const Channel *l = recording.channel("left_wheel_rad"), *r = recording.channel("right_wheel_rad"); l && r) {
+    left = l->values;
+    right = r->values;
+  } else if (const Channel *lt = recording.channel("left_ticks"), *rt = recording.channel("right_ticks"); lt && rt) {
+    const double rad_per_count = 2.0 * kPi / drive.counts_per_wheel_turn();
+    left = unwrapped_counts(lt->values, drive.counter_bits);
+    right = unwrapped_counts(rt->values, drive.counter_bits);
+    for (double& v : left) v *= rad_per_count;
+    for (double& v : right) v *= rad_per_count;
+  } else {
+    return {};
+  }
+  std::vector<char> sampled(left.size());
+  for (std::size_t i = 0; i < left.size(); ++i) sampled[i] = !std::isnan(left[i]) || !std::isnan(right[i]);
+  fill_between(recording.time_s, left);
+  fill_between(recording.time_s, right);
+  std::vector<WheelSample> samples;
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (sampled[i] && !std::isnan(left[i]) && !std::isnan(right[i])) samples.push_back({recording.time_s[i], left[i], right[i]});
+  return samples;
+}
+
+std::vector<CommandSample> command_samples(const Recording& recording) {
+  const Channel* v = recording.channel("command_speed_mps");
+  const Channel* w = recording.channel("command_yaw_rate_radps");
+  if (!v || !w) return {};
+  std::vector<CommandSample> samples;
+  for (std::size_t i = 0; i < recording.time_s.size(); ++i)
+    if (!std::isnan(v->values[i]) && !std::isnan(w->values[i]))
+      samples.push_back({recording.time_s[i], v->values[i], w->values[i]});
+  return samples;
+}
+
+std::vector<TruthSample> truth_samples(const Recording& recording) {
+  const Channel* x = recording.channel("truth_x_m");
+  const Channel* y = recording.channel("truth_y_m");
+  const Channel* heading = recording.channel("truth_heading_rad");
+  if (!x || !y) return {};
+  std::vector<TruthSample> samples;
+  std::optional<double> previous;
+  for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
+    if (std::isnan(x->values[i]) || std::isnan(y->values[i])) continue;
+    TruthSample sample{recording.time_s[i], {x->values[i], y->values[i]}, std::nullopt};
+    if (heading && !std::isnan(heading->values[i])) {
+      sample.heading_rad = previous ? unwrapped(heading->values[i], *previous) : heading->values[i];
+      previous = sample.heading_rad;
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+Track truth_track(const Recording& recording) {
+  Track track;
+  for (const TruthSample& s : truth_samples(recording))
+    if (s.heading_rad) track.push_back({s.time_s, {s.position.x_m, s.position.y_m, *s.heading_rad}});
+  return track;
+}
+
+}  // namespace odolab

@@ -1,0 +1,74 @@
+#include "core/scenario/scenario.h"
+
+#include <cstdio>
+
+namespace odolab {
+
+std::vector<std::string> problems_in(const Scenario& s) {
+  std::vector<std::string> problems;
+  const auto demand = [&](bool holds, const char* key, double found, const char* expected) {
+    if (holds) return;
+    char text[200];
+    std::snprintf(text, sizeof text, "%s: found %g, expected %s", key, found, expected);
+    problems.emplace_back(text);
+  };
+  const auto demand_positive = [&](const char* key, double value, const char* unit) {
+    char expected[64];
+    std::snprintf(expected, sizeof expected, "a value above 0 %s", unit);
+    demand(std::isfinite(value) && value > 0.0, key, value, expected);
+  };
+  if (const auto* drive = std::get_if<DifferentialDrive>(&s.vehicle.kind))
+    for (const std::string& p : problems_in(*drive)) problems.push_back("vehicle." + p);
+  demand_positive("actual.wheel_radius_left_m", s.actual.wheel_radius_left_m, "m");
+  demand_positive("actual.wheel_radius_right_m", s.actual.wheel_radius_right_m, "m");
+  demand_positive("actual.wheelbase_m", s.actual.wheelbase_m, "m");
+  demand(std::abs(s.actual.toe_left_rad) < 0.5, "actual.toe_left_rad", s.actual.toe_left_rad, "an angle within 0.5 rad");
+  demand(std::abs(s.actual.toe_right_rad) < 0.5, "actual.toe_right_rad", s.actual.toe_right_rad, "an angle within 0.5 rad");
+  demand_positive("actual.mass_kg", s.actual.mass_kg, "kg");
+  demand_positive("actual.moment_of_inertia_kgm2", s.actual.moment_of_inertia_kgm2, "kg m2");
+  demand(s.actual.drive_wheel_load_share > 0.0 && s.actual.drive_wheel_load_share <= 1.0, "actual.drive_wheel_load_share",
+         s.actual.drive_wheel_load_share, "a share above 0, at most 1");
+  demand_positive("motor.wheel_inertia_kgm2", s.motor.wheel_inertia_kgm2, "kg m2");
+  demand_positive("motor.torque_limit_nm", s.motor.torque_limit_nm, "N m");
+  demand(s.motor.proportional_gain > 0.0, "motor.proportional_gain", s.motor.proportional_gain, "a gain above 0");
+  demand(s.motor.integral_gain >= 0.0, "motor.integral_gain", s.motor.integral_gain, "a gain of 0 or more");
+  for (const std::string& p : problems_in(s.floor)) problems.push_back(p);
+  demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
+  demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
+  demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
+  demand_positive("driving.turn_acceleration_radps2", s.driving.turn_acceleration_radps2, "rad/s2");
+  demand(s.step_s >= 1e-5 && s.step_s <= 0.02, "step_s", s.step_s, "1e-5 to 0.02 s");
+  demand(s.sensors.encoder_period_s >= s.step_s, "sensors.encoder_period_s", s.sensors.encoder_period_s, "no less than step_s");
+  demand(s.sensors.truth_period_s >= 0.0, "sensors.truth_period_s", s.sensors.truth_period_s, "0 (only start and end) or more");
+  demand(s.sensors.truth_position_noise_m >= 0.0, "sensors.truth_position_noise_m", s.sensors.truth_position_noise_m, "0 m or more");
+  demand(s.sensors.truth_heading_noise_rad >= 0.0, "sensors.truth_heading_noise_rad", s.sensors.truth_heading_noise_rad, "0 rad or more");
+  if (const auto* square = std::get_if<SquarePath>(&s.path)) demand_positive("path.side_m", square->side_m, "m");
+  if (const auto* straight = std::get_if<StraightPath>(&s.path)) demand_positive("path.length_m", straight->length_m, "m");
+  if (const auto* eight = std::get_if<FigureEightPath>(&s.path)) {
+    demand_positive("path.radius_m", eight->radius_m, "m");
+    demand(eight->loops >= 1 && eight->loops <= 1000, "path.loops", eight->loops, "1 to 1000");
+  }
+  if (const auto* way = std::get_if<WaypointPath>(&s.path))
+    demand(!way->points.empty(), "path.point", 0.0, "one point or more");
+  if (const auto* wheel = std::get_if<WheelSpeedPath>(&s.path)) {
+    demand(!wheel->phases.empty(), "path.phase", 0.0, "one phase or more");
+    demand(wheel->ramp_s >= 0.0, "path.ramp_s", wheel->ramp_s, "0 s or more");
+    for (const WheelSpeeds& phase : wheel->phases) demand(phase.duration_s > 0.0, "path.phase.duration_s", phase.duration_s, "a time above 0 s");
+  }
+  if (s.benchmark) {
+    demand(s.benchmark->runs_each_way >= 1 && s.benchmark->runs_each_way <= 1000, "benchmark.runs_each_way",
+           s.benchmark->runs_each_way, "1 to 1000");
+    demand(std::holds_alternative<SquarePath>(s.path), "benchmark", 1.0, "a square path, which UMBmark drives in both directions");
+  }
+  return problems;
+}
+
+ActualDrive as_drawn(const DifferentialDrive& nominal) {
+  ActualDrive actual;
+  actual.wheel_radius_left_m = nominal.wheel_radius_left_m;
+  actual.wheel_radius_right_m = nominal.wheel_radius_right_m;
+  actual.wheelbase_m = nominal.wheelbase_m;
+  return actual;
+}
+
+}  // namespace odolab

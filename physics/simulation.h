@@ -1,0 +1,72 @@
+// One run of a scenario in the planar world, step by step: the true motion, the encoders, and the robot's own belief.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/track.h"
+#include "core/recording/recording.h"
+#include "core/scenario/scenario.h"
+
+namespace odolab {
+
+// What one wheel does in a step.
+struct WheelState {
+  double rotation_rad = 0.0;        // true, since the start
+  double speed_radps = 0.0;
+  double slip_speed_mps = 0.0;      // tread against floor, along the wheel
+  double traction_n = 0.0;          // force of the floor on the wheel, along it
+  bool on_bump = false;
+  bool in_slip_zone = false;
+};
+
+struct SimulationState {
+  double time_s = 0.0;
+  Pose true_pose;        // of the axle's centre
+  Pose estimated_pose;   // by the robot's dead reckoning, in the floor's frame from the same start
+  double true_speed_mps = 0.0;
+  double true_yaw_rate_radps = 0.0;
+  WheelState left, right;
+  bool finished = false;
+};
+
+// The same scenario, seed and steps give the same bits, whoever calls step() and however often.
+class Simulation {
+ public:
+  // The scenario has no problems (problems_in). `replayed` is the recording of a ReplayPath and may be null otherwise.
+  Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed = nullptr);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  // Advances by step_s; does nothing once finished.
+  void step();
+
+  const SimulationState& state() const;
+  double expected_duration_s() const;  // a guess for progress bars and timelines
+
+  // While it runs: the floor may change, a person may drive (only with a HandPath), a push may come from outside.
+  void set_floor(const Floor& floor);
+  void drive_by_hand(double speed_mps, double yaw_rate_radps);
+  void push(Vec2 impulse_ns);
+
+  // Sampled so far. The tracks hold a pose for each encoder sample.
+  const Track& true_track() const;
+  const Track& estimated_track() const;
+  // What the robot and the outside measurement recorded so far.
+  Recording recording() const;
+  // The absolute measurements at the start and, once finished, at the end (sonar corner).
+  Pose measured_start() const;
+  Pose measured_end() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Runs to the end, or to `longest_s`.
+void run_to_end(Simulation& simulation, double longest_s = 1e9);
+
+}  // namespace odolab
