@@ -1,0 +1,189 @@
+#include "physics/planar_world.h"
+
+#include <box2d/box2d.h>
+
+namespace odolab {
+
+namespace {
+
+// Impulses of two or three wheels settle in a few sweeps, and what is left over is taken up in the next step.
+constexpr int kVelocityIterations = 8;
+constexpr int kPositionIterations = 3;
+
+b2Vec2 single(Vec2 v) { return {static_cast<float>(v.x_m), static_cast<float>(v.y_m)}; }
+Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
+Vec2 turned(Vec2 v, double c, double s) { return {c * v.x_m - s * v.y_m, s * v.x_m + c * v.y_m}; }
+
+struct Body {
+  Pose pose;
+  Vec2 velocity_mps;
+  double yaw_rate_radps = 0.0;
+  Vec2 force_n;
+  double torque_nm = 0.0;
+  double mass_kg = 1.0;
+  double inertia_kgm2 = 1.0;
+  b2Body* solved = nullptr;
+  // In the frame of the solution, during a step:
+  Vec2 place;
+  double cos_turn = 1.0, sin_turn = 0.0;
+};
+
+struct Tread {
+  int body = 0;
+  Vec2 place;
+  Vec2 velocity_mps;
+  Vec2 force_n;
+  b2Body* floor = nullptr;
+  b2FrictionJoint* joint = nullptr;
+};
+
+}  // namespace
+
+struct PlanarWorld::Solver {
+  explicit Solver(double step) : step_s(step), world(b2Vec2(0.0f, 0.0f)) {
+    world.SetAllowSleeping(false);
+    world.SetContinuousPhysics(false);
+  }
+
+  double step_s;
+  b2World world;
+  std::vector<Body> bodies;
+  std::vector<Tread> treads;
+};
+
+PlanarWorld::PlanarWorld(double step_s) : solver_(std::make_unique<Solver>(step_s)) {}
+PlanarWorld::~PlanarWorld() = default;
+PlanarWorld::PlanarWorld(PlanarWorld&&) noexcept = default;
+PlanarWorld& PlanarWorld::operator=(PlanarWorld&&) noexcept = default;
+
+int PlanarWorld::add_body(const BodyDefinition& definition) {
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  def.allowSleep = false;
+  Body body;
+  body.pose = definition.pose;
+  body.mass_kg = definition.mass_kg;
+  body.inertia_kgm2 = definition.moment_of_inertia_kgm2;
+  body.solved = solver_->world.CreateBody(&def);
+  b2MassData mass;
+  mass.mass = static_cast<float>(definition.mass_kg);
+  mass.I = static_cast<float>(definition.moment_of_inertia_kgm2);
+  mass.center.SetZero();
+  body.solved->SetMassData(&mass);
+  solver_->bodies.push_back(body);
+  return static_cast<int>(solver_->bodies.size()) - 1;
+}
+
+int PlanarWorld::add_tread(int body, Vec2 place) {
+  b2BodyDef def;
+  def.type = b2_kinematicBody;
+  def.allowSleep = false;
+  Tread tread;
+  tread.body = body;
+  tread.place = place;
+  tread.floor = solver_->world.CreateBody(&def);
+  b2FrictionJointDef joint;
+  joint.bodyA = tread.floor;
+  joint.bodyB = solver_->bodies[body].solved;
+  joint.localAnchorA.SetZero();
+  joint.localAnchorB = single(place);
+  joint.maxForce = 0.0f;
+  joint.maxTorque = 0.0f;
+  tread.joint = static_cast<b2FrictionJoint*>(solver_->world.CreateJoint(&joint));
+  solver_->treads.push_back(tread);
+  return static_cast<int>(solver_->treads.size()) - 1;
+}
+
+int PlanarWorld::add_spring(const SpringDefinition& d) {
+  b2Body* a = solver_->bodies[d.body_a].solved;
+  b2Body* b = solver_->bodies[d.body_b].solved;
+  b2DistanceJointDef joint;
+  joint.bodyA = a;
+  joint.bodyB = b;
+  joint.localAnchorA = single(d.anchor_a);
+  joint.localAnchorB = single(d.anchor_b);
+  joint.length = static_cast<float>(d.rest_length_m);
+  joint.minLength = 0.0f;
+  joint.maxLength = static_cast<float>(10.0 * d.rest_length_m);
+  joint.collideConnected = true;
+  b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz), static_cast<float>(d.damping_ratio), a, b);
+  solver_->world.CreateJoint(&joint);
+  return 0;
+}
+
+void PlanarWorld::set_tread(int tread, Vec2 velocity_mps, double grip_n) {
+  solver_->treads[tread].velocity_mps = velocity_mps;
+  solver_->treads[tread].joint->SetMaxForce(static_cast<float>(grip_n));
+}
+
+void PlanarWorld::apply_force(int body, Vec2 force_n, double torque_nm) {
+  solver_->bodies[body].force_n = solver_->bodies[body].force_n + force_n;
+  solver_->bodies[body].torque_nm += torque_nm;
+}
+
+void PlanarWorld::step() {
+  const double h = solver_->step_s;
+  std::vector<Body>& bodies = solver_->bodies;
+  std::vector<Tread>& treads = solver_->treads;
+
+  // The frame of the solution: where body 0 will be at the middle of the step, moving with it (README, Eqs. 1, 2).
+  const Body& lead = bodies[0];
+  const double frame_rad = lead.pose.heading_rad + 0.5 * h * lead.yaw_rate_radps;
+  const double c = std::cos(frame_rad), s = std::sin(frame_rad);
+  const Vec2 frame_place = lead.pose.position() + (0.5 * h) * lead.velocity_mps;
+  const Vec2 frame_velocity = turned(lead.velocity_mps, c, -s);
+  const double frame_rate = lead.yaw_rate_radps;
+  const auto frame_velocity_at = [&](Vec2 p) {
+    return Vec2{frame_velocity.x_m - frame_rate * p.y_m, frame_velocity.y_m + frame_rate * p.x_m};
+  };
+
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    double turn_rad = 0.0;
+    if (i > 0) {
+      const Vec2 middle = body.pose.position() + (0.5 * h) * body.velocity_mps;
+      body.place = turned(middle - frame_place, c, -s);
+      turn_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps - frame_rad;
+      body.cos_turn = std::cos(turn_rad);
+      body.sin_turn = std::sin(turn_rad);
+    }
+    const Vec2 pushed = body.velocity_mps + (h / body.mass_kg) * body.force_n;
+    const double pushed_rate = body.yaw_rate_radps + h / body.inertia_kgm2 * body.torque_nm;
+    body.solved->SetTransform(single(body.place), static_cast<float>(turn_rad));
+    body.solved->SetLinearVelocity(single(turned(pushed, c, -s) - frame_velocity_at(body.place)));
+    body.solved->SetAngularVelocity(static_cast<float>(pushed_rate - frame_rate));
+    body.force_n = {};
+    body.torque_nm = 0.0;
+  }
+  for (Tread& tread : treads) {
+    const Body& body = bodies[tread.body];
+    const Vec2 place = body.place + turned(tread.place, body.cos_turn, body.sin_turn);
+    const Vec2 velocity = turned(tread.velocity_mps, body.cos_turn, body.sin_turn);
+    tread.floor->SetTransform(single(place), 0.0f);
+    tread.floor->SetLinearVelocity(single(velocity - frame_velocity_at(place)));
+  }
+
+  solver_->world.Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
+
+  for (Body& body : bodies) {
+    const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
+    const double rate = frame_rate + body.solved->GetAngularVelocity();
+    const Vec2 old_velocity_turn{1.0, 0.5 * h * (rate - body.yaw_rate_radps)};  // middle heading as it came out (Eq. 4)
+    body.velocity_mps = turned(velocity, c, s);
+    body.yaw_rate_radps = rate;
+    const Vec2 travel = h * turned(body.velocity_mps, old_velocity_turn.x_m, old_velocity_turn.y_m);
+    body.pose = {body.pose.x_m + travel.x_m, body.pose.y_m + travel.y_m, body.pose.heading_rad + h * rate};
+  }
+  const float inverse_step = 1.0f / static_cast<float>(h);
+  for (Tread& tread : treads) {
+    const Body& body = bodies[tread.body];
+    tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
+  }
+}
+
+const Pose& PlanarWorld::pose(int body) const { return solver_->bodies[body].pose; }
+Vec2 PlanarWorld::velocity_mps(int body) const { return solver_->bodies[body].velocity_mps; }
+double PlanarWorld::yaw_rate_radps(int body) const { return solver_->bodies[body].yaw_rate_radps; }
+Vec2 PlanarWorld::tread_force_n(int tread) const { return solver_->treads[tread].force_n; }
+
+}  // namespace odolab

@@ -1,0 +1,61 @@
+// Rigid bodies in the plane that stand on wheels, solved by Box2D but kept in double precision.
+//
+// Wheels are moving treads inside the solver, and every step is solved in a frame that moves along with the first body,
+// so that single precision sees small deviations only. README.md in this folder has the equations and what they reach.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/geometry/pose.h"
+
+namespace odolab {
+
+struct BodyDefinition {
+  Pose pose;                       // of the centre of mass on the floor
+  double mass_kg = 50.0;
+  double moment_of_inertia_kgm2 = 3.0;
+};
+
+// A spring between two bodies (a damped distance constraint).
+struct SpringDefinition {
+  int body_a = 0;
+  int body_b = 1;
+  Vec2 anchor_a, anchor_b;         // in the frame of each body
+  double rest_length_m = 1.0;
+  double frequency_hz = 2.0;
+  double damping_ratio = 0.7;
+};
+
+class PlanarWorld {
+ public:
+  explicit PlanarWorld(double step_s);
+  ~PlanarWorld();
+  PlanarWorld(PlanarWorld&&) noexcept;
+  PlanarWorld& operator=(PlanarWorld&&) noexcept;
+
+  // Each returns the number by which the thing is named from then on. Body 0 carries the frame of the solution.
+  int add_body(const BodyDefinition& definition);
+  int add_tread(int body, Vec2 place);  // where a wheel touches the floor, in the body's frame
+  int add_spring(const SpringDefinition& definition);
+
+  // What the tread does in the next step: the velocity over the floor that the wheel would give the body's point above
+  // it if it did not slip (in the body's frame), and the force at which it starts to slip.
+  void set_tread(int tread, Vec2 velocity_mps, double grip_n);
+  // Acts during the next step alone; in the floor's frame, at the centre of mass.
+  void apply_force(int body, Vec2 force_n, double torque_nm = 0.0);
+
+  void step();
+
+  const Pose& pose(int body) const;
+  Vec2 velocity_mps(int body) const;       // in the floor's frame
+  double yaw_rate_radps(int body) const;
+  // Force of the floor on the body through this tread, mean over the last step, in the body's frame.
+  Vec2 tread_force_n(int tread) const;
+
+ private:
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace odolab
