@@ -9,21 +9,12 @@
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
+#include "physics/vehicles/planar_differential_drive.h"
 
 namespace odolab {
 
-// What one wheel does in a step.
-struct WheelState {
-  double rotation_rad = 0.0;        // true, since the start
-  double speed_radps = 0.0;
-  double slip_speed_mps = 0.0;      // tread against floor, along the wheel
-  double traction_n = 0.0;          // force of the floor on the wheel, along it
-  bool on_bump = false;
-  bool in_slip_zone = false;
-};
-
 struct SimulationState {
-  double time_s = 0.0;
+  double time_s = 0.0;   // since the start; in a replay on the recording's clock
   Pose true_pose;        // of the axle's centre
   Pose estimated_pose;   // by the robot's dead reckoning, in the floor's frame from the same start
   double true_speed_mps = 0.0;

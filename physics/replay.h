@@ -1,0 +1,31 @@
+// A recording driven through the planar vehicle: the simulated track beside the recorded truth.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/geometry/track.h"
+#include "core/recording/recording.h"
+#include "core/scenario/scenario.h"
+
+namespace odolab {
+
+// What a replay shows. All tracks are those of the point that the truth measures, on the truth's clock.
+struct Replay {
+  Track truth;
+  Track simulated;       // the planar vehicle, driven by the recorded wheel rotation or commands
+  Track dead_reckoned;   // the vehicle file's odometry from the same start, without any physics
+  // Against the truth; none where the truth has no heading or fewer than two samples.
+  std::optional<TrackError> simulated_error;
+  std::optional<TrackError> dead_reckoned_error;
+};
+
+// A scenario that replays with a vehicle just as its file says, on a plain floor.
+Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording);
+
+// Runs the scenario, whose path is a ReplayPath. An error where the recording holds nothing to drive by.
+Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress = {});
+
+}  // namespace odolab

@@ -1,0 +1,278 @@
+#include "physics/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/odometry/differential_drive.h"
+#include "physics/driver/path_follower.h"
+#include "physics/driver/recorded_motion.h"
+#include "physics/sensors/absolute_pose.h"
+#include "physics/sensors/encoder.h"
+
+namespace odolab {
+
+namespace {
+
+// Streams of random numbers, one for each thing that draws.
+enum Stream : std::uint64_t { kFloorStream = 1, kEncoderStream = 2, kTruthStream = 3 };
+
+const DifferentialDrive& nominal_drive(const Scenario& scenario) { return std::get<DifferentialDrive>(scenario.vehicle.kind); }
+
+Side inside_of(const Path& path) {
+  const auto* square = std::get_if<SquarePath>(&path);
+  return square && square->clockwise ? Side::right : Side::left;
+}
+
+// The wheel speeds that a base speed and turn rate ask for, by the nominal geometry.
+WheelPair wheel_speeds(const BaseCommand& command, const DifferentialDrive& drive) {
+  const double half_base = 0.5 * drive.wheelbase_m * command.yaw_rate_radps;
+  return {(command.speed_mps - half_base) / drive.wheel_radius_left_m, (command.speed_mps + half_base) / drive.wheel_radius_right_m};
+}
+
+Pose start_of(const Scenario& scenario, const Recording* replayed) {
+  if (!replayed) return scenario.start;
+  const std::vector<TruthSample> truth = truth_samples(*replayed);
+  if (truth.empty()) return scenario.start;
+  const Pose tracked{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)};
+  return tracked * inverse(scenario.vehicle.truth.axle_T_tracked);
+}
+
+// Steps between two readings of a sensor.
+std::int64_t steps_in(double period_s, double step_s) { return std::max<std::int64_t>(1, std::llround(period_s / step_s)); }
+
+}  // namespace
+
+struct Simulation::Parts {
+  Parts(const Scenario& given, std::uint64_t seed, std::shared_ptr<const Recording> recorded)
+      : scenario(given),
+        replayed(std::move(recorded)),
+        drive(nominal_drive(scenario)),
+        floor_seed(seed_of_stream(seed, kFloorStream)),
+        ground(scenario.floor, inside_of(scenario.path), floor_seed),
+        start(start_of(scenario, replayed.get())),
+        vehicle(scenario.actual, scenario.motor, start, scenario.step_s),
+        route(route_of(scenario.path, start)),
+        follower(route, scenario.driving, scenario.sensors.encoder_period_s),
+        rotation(replays(ReplayPath::By::wheels) ? wheel_samples(*replayed, drive) : std::vector<WheelSample>{}),
+        commands(replays(ReplayPath::By::commands) ? command_samples(*replayed) : std::vector<CommandSample>{}),
+        encoder_steps(steps_in(scenario.sensors.encoder_period_s, scenario.step_s)),
+        truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s) : 0),
+        encoder_phase(seed_of_stream(seed, kEncoderStream)),
+        left_encoder(drive.counts_per_wheel_turn(), encoder_phase.uniform()),
+        right_encoder(drive.counts_per_wheel_turn(), encoder_phase.uniform()),
+        truth_noise(seed_of_stream(seed, kTruthStream)) {
+    plan_duration();
+    state.time_s = begin_s;
+    state.true_pose = state.estimated_pose = start;
+    sample_encoders();
+    sample_truth();
+    measured_start = measured_end = sonar().measure(start, truth_noise);
+    if (duration_s <= 0.0) finish();
+  }
+
+  bool replays(ReplayPath::By by) const {
+    const auto* replay = std::get_if<ReplayPath>(&scenario.path);
+    return replay && replayed && replay->by == by;
+  }
+
+  AbsolutePoseSensor sonar() const { return {scenario.sensors.truth_position_noise_m, scenario.sensors.truth_heading_noise_rad}; }
+
+  void plan_duration() {
+    if (const auto* speeds = std::get_if<WheelSpeedPath>(&scenario.path)) {
+      for (const WheelSpeeds& phase : speeds->phases) duration_s += phase.duration_s;
+      duration_s += speeds->ramp_s;  // down to rest
+    } else if (const auto* hand = std::get_if<HandPath>(&scenario.path)) {
+      duration_s = hand->duration_s;
+    } else if (std::holds_alternative<ReplayPath>(scenario.path)) {
+      if (!replayed || (rotation.empty() && commands.empty())) return;
+      const double first_s = rotation.empty() ? commands.first_s() : rotation.first_s();
+      const double last_s = rotation.empty() ? commands.last_s() : rotation.last_s();
+      const std::vector<TruthSample> truth = truth_samples(*replayed);
+      begin_s = truth.empty() ? first_s : truth.front().time_s - scenario.vehicle.truth.time_offset_s;
+      duration_s = std::max(0.0, last_s - begin_s);
+      if (!rotation.empty()) rotation_now = rotation.at(begin_s);
+    } else {
+      duration_s = duration_of(route, scenario.driving);
+      by_route = true;
+    }
+  }
+
+  // The set speeds by a table of wheel speeds, at the middle of the step.
+  WheelPair tabled_speeds(double time_s) const {
+    const auto& table = std::get<WheelSpeedPath>(scenario.path);
+    WheelPair before;
+    double begin = 0.0;
+    for (std::size_t i = 0; i <= table.phases.size(); ++i) {
+      const bool ending = i == table.phases.size();
+      const WheelPair speeds = ending ? WheelPair{} : WheelPair{table.phases[i].left_radps, table.phases[i].right_radps};
+      const double phase_s = ending ? table.ramp_s + 1.0 : table.phases[i].duration_s;
+      if (time_s < begin + phase_s || ending) {
+        const double u = table.ramp_s > 0.0 ? std::min(1.0, (time_s - begin) / table.ramp_s) : 1.0;
+        return {before.left + u * (speeds.left - before.left), before.right + u * (speeds.right - before.right)};
+      }
+      before = speeds;
+      begin += phase_s;
+    }
+    return {};
+  }
+
+  void drive_one_step() {
+    const double h = scenario.step_s;
+    const double middle_s = begin_s + (static_cast<double>(steps) + 0.5) * h;
+    if (!rotation.empty()) {
+      const WheelPair next = rotation.at(begin_s + static_cast<double>(steps + 1) * h);
+      vehicle.turn_wheels(ground, scenario.floor, {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
+      rotation_now = next;
+    } else if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
+      vehicle.drive(ground, scenario.floor, tabled_speeds(middle_s));
+    } else if (!commands.empty()) {
+      const CommandSample c = commands.at(middle_s);
+      vehicle.drive(ground, scenario.floor, wheel_speeds({c.speed_mps, c.yaw_rate_radps}, drive));
+    } else {
+      // Between two commands the set speeds move evenly: a jump would make the wheels slip.
+      const double u = (static_cast<double>(steps % encoder_steps) + 0.5) / static_cast<double>(encoder_steps);
+      vehicle.drive(ground, scenario.floor,
+                    {set_before.left + u * (set_next.left - set_before.left), set_before.right + u * (set_next.right - set_before.right)});
+    }
+  }
+
+  void step() {
+    drive_one_step();
+    ++steps;
+    state.time_s = begin_s + static_cast<double>(steps) * scenario.step_s;
+    state.true_pose = vehicle.pose();
+    state.true_speed_mps = vehicle.speed_mps();
+    state.true_yaw_rate_radps = vehicle.yaw_rate_radps();
+    state.left = vehicle.left();
+    state.right = vehicle.right();
+    if (steps % encoder_steps == 0) sample_encoders();
+    if (truth_steps > 0 && steps % truth_steps == 0) sample_truth();
+    if (by_route ? follower.finished() : state.time_s >= begin_s + duration_s - 1e-9) finish();
+  }
+
+  void sample_encoders() {
+    const double left = left_encoder.reading_rad(state.left.rotation_rad);
+    const double right = right_encoder.reading_rad(state.right.rotation_rad);
+    if (!wheels.empty()) {
+      state.estimated_pose = dead_reckoned(state.estimated_pose, left - wheels.back().left_rad, right - wheels.back().right_rad, drive);
+      estimated.push_back({state.time_s, state.estimated_pose});
+      exact.push_back({state.time_s, state.true_pose});
+    } else {
+      estimated.push_back({state.time_s, start});
+      exact.push_back({state.time_s, start});
+    }
+    wheels.push_back({state.time_s, left, right});
+    set_before = set_next;
+    if (by_route) set_next = wheel_speeds(follower.update(state.estimated_pose), drive);
+    if (std::holds_alternative<HandPath>(scenario.path)) set_next = wheel_speeds(by_hand(), drive);
+  }
+
+  // A hand's command, reached at no more than the driver's accelerations.
+  BaseCommand by_hand() {
+    const double period_s = scenario.sensors.encoder_period_s;
+    const double dv = scenario.driving.acceleration_mps2 * period_s, dw = scenario.driving.turn_acceleration_radps2 * period_s;
+    hand_now.speed_mps = std::clamp(hand.speed_mps, hand_now.speed_mps - dv, hand_now.speed_mps + dv);
+    hand_now.yaw_rate_radps = std::clamp(hand.yaw_rate_radps, hand_now.yaw_rate_radps - dw, hand_now.yaw_rate_radps + dw);
+    return hand_now;
+  }
+
+  void sample_truth() {
+    if (!truth.empty() && truth.back().time_s == state.time_s) return;
+    const Pose tracked = state.true_pose * scenario.vehicle.truth.axle_T_tracked;
+    truth.push_back({state.time_s, sonar().measure(tracked, truth_noise)});
+  }
+
+  void finish() {
+    if (state.finished) return;
+    state.finished = true;
+    sample_truth();
+    measured_end = sonar().measure(state.true_pose, truth_noise);
+  }
+
+  Scenario scenario;
+  std::shared_ptr<const Recording> replayed;
+  DifferentialDrive drive;  // nominal
+  std::uint64_t floor_seed;
+  Ground ground;
+  Pose start;
+  PlanarDifferentialDrive vehicle;
+  std::vector<Leg> route;
+  PathFollower follower;
+  RecordedRotation rotation;
+  RecordedCommands commands;
+  std::int64_t encoder_steps, truth_steps;
+  Random encoder_phase;
+  Encoder left_encoder, right_encoder;
+  Random truth_noise;
+
+  std::int64_t steps = 0;
+  double begin_s = 0.0, duration_s = 0.0;
+  bool by_route = false;
+  WheelPair set_before, set_next, rotation_now;
+  BaseCommand hand, hand_now;
+  SimulationState state;
+  std::vector<WheelSample> wheels;
+  Track exact, estimated, truth;
+  Pose measured_start, measured_end;
+};
+
+Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed)
+    : parts_(std::make_unique<Parts>(scenario, seed, std::move(replayed))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() {
+  if (!parts_->state.finished) parts_->step();
+}
+
+const SimulationState& Simulation::state() const { return parts_->state; }
+double Simulation::expected_duration_s() const { return parts_->duration_s; }
+
+void Simulation::set_floor(const Floor& floor) {
+  parts_->scenario.floor = floor;
+  parts_->ground = Ground(floor, inside_of(parts_->scenario.path), parts_->floor_seed);
+}
+
+void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps) { parts_->hand = {speed_mps, yaw_rate_radps}; }
+void Simulation::push(Vec2 impulse_ns) { parts_->vehicle.push(impulse_ns); }
+
+const Track& Simulation::true_track() const { return parts_->exact; }
+const Track& Simulation::estimated_track() const { return parts_->estimated; }
+Pose Simulation::measured_start() const { return parts_->measured_start; }
+Pose Simulation::measured_end() const { return parts_->measured_end; }
+
+Recording Simulation::recording() const {
+  // Encoders and truth have rates of their own; where both were read at one time they share a row.
+  Recording recording;
+  recording.name = parts_->scenario.name;
+  recording.provenance = "simulated: " + parts_->scenario.name;
+  const std::vector<WheelSample>& wheels = parts_->wheels;
+  const Track& truth = parts_->truth;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> left, right, x, y, heading;
+  std::size_t w = 0, t = 0;
+  while (w < wheels.size() || t < truth.size()) {
+    const double wheel_s = w < wheels.size() ? wheels[w].time_s : std::numeric_limits<double>::infinity();
+    const double truth_s = t < truth.size() ? truth[t].time_s : std::numeric_limits<double>::infinity();
+    const bool has_wheel = wheel_s <= truth_s, has_truth = truth_s <= wheel_s;
+    recording.time_s.push_back(std::min(wheel_s, truth_s));
+    left.push_back(has_wheel ? wheels[w].left_rad : none);
+    right.push_back(has_wheel ? wheels[w].right_rad : none);
+    x.push_back(has_truth ? truth[t].pose.x_m : none);
+    y.push_back(has_truth ? truth[t].pose.y_m : none);
+    heading.push_back(has_truth ? truth[t].pose.heading_rad : none);
+    w += has_wheel;
+    t += has_truth;
+  }
+  recording.channels = {{"left_wheel_rad", left}, {"right_wheel_rad", right}, {"truth_x_m", x}, {"truth_y_m", y}, {"truth_heading_rad", heading}};
+  return recording;
+}
+
+void run_to_end(Simulation& simulation, double longest_s) {
+  const double end_s = simulation.state().time_s + longest_s;
+  while (!simulation.state().finished && simulation.state().time_s < end_s) simulation.step();
+}
+
+}  // namespace odolab

@@ -1,0 +1,69 @@
+// A differential drive on the floor: one body, two driven wheels, castors that roll freely.
+#pragma once
+
+#include <array>
+
+#include "core/scenario/scenario.h"
+#include "physics/ground.h"
+#include "physics/planar_world.h"
+#include "physics/wheel_drive.h"
+
+namespace odolab {
+
+// What one wheel does in a step.
+struct WheelState {
+  double rotation_rad = 0.0;        // true, since the start
+  double speed_radps = 0.0;
+  double slip_speed_mps = 0.0;      // tread against floor, along the wheel
+  double traction_n = 0.0;          // force of the floor on the wheel, along it
+  bool on_bump = false;
+  bool in_slip_zone = false;
+};
+
+struct WheelPair {
+  double left = 0.0;
+  double right = 0.0;
+};
+
+class PlanarDifferentialDrive {
+ public:
+  PlanarDifferentialDrive(const ActualDrive& actual, const Motor& motor, const Pose& start, double step_s);
+
+  // One step on this ground with the motors set to these speeds, in rad/s.
+  void drive(const Ground& ground, const Floor& floor, WheelPair set_speed_radps);
+  // One step in which the wheels turn at exactly these speeds.
+  void turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed_radps);
+  // A push from outside at the centre of mass, spread over the next step.
+  void push(Vec2 impulse_ns);
+
+  const Pose& pose() const { return world_.pose(body_); }
+  double speed_mps() const;
+  double yaw_rate_radps() const { return world_.yaw_rate_radps(body_); }
+  const WheelState& left() const { return wheels_[0].state; }
+  const WheelState& right() const { return wheels_[1].state; }
+
+ private:
+  struct Wheel {
+    WheelDrive drive;
+    Side side;
+    Vec2 place;              // in the body's frame
+    double radius_m;
+    double toe_rad;
+    Vec2 rolling_direction;  // in the body's frame
+    int tread = 0;
+    double travelled_m = 0.0;
+    double mean_speed_radps = 0.0;
+    WheelState state{};
+  };
+
+  void roll(const Ground& ground, const Floor& floor);
+
+  PlanarWorld world_;
+  double step_s_;
+  double mass_kg_;
+  double wheel_load_n_;
+  int body_;
+  std::array<Wheel, 2> wheels_;
+};
+
+}  // namespace odolab
