@@ -36,7 +36,7 @@ bool says_nan(std::string_view cell) {
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < names.size() && i < 8; ++i) text += (i ? ", " : "") + quoted(names[i]);
+  for (std::size_t i = 0; i < names.size() && i < 8; ++i) text += (i ? ", " : "") + in_quotes(names[i]);
   return names.size() > 8 ? text + ", ..." : text;
 }
 
@@ -77,10 +77,10 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       for (std::string_view name : cells) table.names.emplace_back(name);
       for (std::size_t i = 0; i < cells.size(); ++i)
         if (!cells[i].empty() && std::find(cells.begin(), cells.begin() + i, cells[i]) != cells.begin() + i)
-          return Error{place, "the column " + quoted(cells[i]) + " twice", "each column once"};
+          return Error{place, "the column " + in_quotes(cells[i]) + " twice", "each column once"};
       for (const std::string& required : required_columns)
         if (std::find(table.names.begin(), table.names.end(), required) == table.names.end())
-          return Error{place, "the columns " + listed(table.names), "a column " + quoted(required)};
+          return Error{place, "the columns " + listed(table.names), "a column " + in_quotes(required)};
       time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
       for (const std::string& name : table.names) kinds.push_back(cells_of(name));
       table.columns.resize(table.names.size());
@@ -99,7 +99,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       if (!value) {
         const bool empty = cells[i].empty() || says_nan(cells[i]);
         if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))
-          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : quoted(cells[i]), "a number"};
+          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]), "a number"};
         value = kEmpty;
       }
       table.columns[i].push_back(*value);

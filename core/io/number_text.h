@@ -18,6 +18,6 @@ void append_number(std::string& text, double value);
 std::string number_text(double value);
 
 // A piece of foreign text made fit for one line of an error message: quoted and cut short.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace odolab

@@ -41,7 +41,7 @@ std::string place(const std::string& path, const toml::source_region& source) {
 
 // What stands in the file, in the file's own words as far as one line allows.
 std::string shown(const toml::node& node) {
-  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* text = node.as_string()) return in_quotes(text->get());
   if (const auto* number = node.as_floating_point())
     return std::isfinite(number->get()) ? number_text(number->get()) : std::isnan(number->get()) ? "nan" : "an infinity";
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
