@@ -1,0 +1,138 @@
+#include "core/io/csv_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "core/io/number_text.h"
+#include "core/io/whole_file.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+
+// Cells of one line, commas inside double quotes kept, the quotes themselves taken off.
+void split(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
+  std::size_t from = 0;
+  bool inside_quotes = false;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && line[i] == '"') inside_quotes = !inside_quotes;
+    if (i < line.size() && (line[i] != ',' || inside_quotes)) continue;
+    std::string_view cell = trimmed(line.substr(from, i - from));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    cells.push_back(cell);
+    from = i + 1;
+  }
+}
+
+bool says_nan(std::string_view cell) {
+  return cell.size() == 3 && (cell[0] | 32) == 'n' && (cell[1] | 32) == 'a' && (cell[2] | 32) == 'n';
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < 8; ++i) text += (i ? ", " : "") + in_quotes(names[i]);
+  return names.size() > 8 ? text + ", ..." : text;
+}
+
+std::string plural(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+
+}  // namespace
+
+const std::vector<double>* CsvTable::column(std::string_view name) const {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return &columns[i];
+  return nullptr;
+}
+
+Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
+                                const std::function<CsvCells(std::string_view name)>& cells_of) {
+  const Result<std::string> file = read_whole_file(path);
+  if (!file) return file.error();
+  std::string_view rest = *file;
+  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
+
+  CsvTable table;
+  std::vector<std::string_view> cells;
+  std::vector<CsvCells> kinds;
+  std::size_t time_column = 0;
+  std::size_t line_number = 0;
+  while (!rest.empty()) {
+    const void* newline = std::memchr(rest.data(), '\n', rest.size());
+    const bool ended = newline != nullptr;
+    const std::size_t size = ended ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest.data()) : rest.size();
+    const std::string_view line = trimmed(rest.substr(0, size));
+    rest.remove_prefix(ended ? size + 1 : size);
+    ++line_number;
+    if (line.empty()) continue;
+    split(line, cells);
+    const std::string place = path + ":" + std::to_string(line_number);
+
+    if (table.names.empty()) {
+      for (std::string_view name : cells) table.names.emplace_back(name);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (!cells[i].empty() && std::find(cells.begin(), cells.begin() + i, cells[i]) != cells.begin() + i)
+          return Error{place, "the column " + in_quotes(cells[i]) + " twice", "each column once"};
+      for (const std::string& required : required_columns)
+        if (std::find(table.names.begin(), table.names.end(), required) == table.names.end())
+          return Error{place, "the columns " + listed(table.names), "a column " + in_quotes(required)};
+      time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
+      for (const std::string& name : table.names) kinds.push_back(cells_of(name));
+      table.columns.resize(table.names.size());
+      const std::size_t rows_at_most = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
+      for (std::vector<double>& column : table.columns) column.reserve(rows_at_most);
+      continue;
+    }
+
+    if (cells.size() != table.names.size()) {
+      const bool cut_off = !ended && cells.size() < table.names.size();
+      return Error{place, (cut_off ? "a last line cut off after " : "") + plural(cells.size(), "cell"),
+                   std::to_string(table.names.size()) + ", one for each column of the header"};
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      std::optional<double> value = number_from(cells[i]);
+      if (!value) {
+        const bool empty = cells[i].empty() || says_nan(cells[i]);
+        if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))
+          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]), "a number"};
+        value = kEmpty;
+      }
+      table.columns[i].push_back(*value);
+    }
+    const std::vector<double>& time_s = table.columns[time_column];
+    if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2])
+      return Error{place + ": time_s", number_text(time_s.back()) + " after " + number_text(time_s[time_s.size() - 2]),
+                   "times that never decrease"};
+  }
+  if (table.names.empty()) return Error{path, "an empty file", "a header line with a column 'time_s'"};
+  if (table.columns[time_column].empty())
+    return Error{path + ":" + std::to_string(line_number), "a header without rows", "one row or more"};
+  return table;
+}
+
+std::string csv_text(const CsvTable& table) {
+  std::string text;
+  const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
+  text.reserve(rows * table.columns.size() * 14);
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    if (i) text += ',';
+    const bool needs_quotes = table.names[i].find(',') != std::string::npos;
+    text += needs_quotes ? '"' + table.names[i] + '"' : table.names[i];
+  }
+  text += '\n';
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      if (i) text += ',';
+      if (const double value = table.columns[i][row]; !std::isnan(value)) append_number(text, value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace odolab

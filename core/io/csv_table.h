@@ -1,0 +1,37 @@
+// A CSV file with a header, one column of numbers for each name; the common ground of recordings and tracks.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace odolab {
+
+// Columns of equal length; NaN where a cell is empty.
+struct CsvTable {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  const std::vector<double>* column(std::string_view name) const;  // null where there is none
+};
+
+// How strictly a column is read. Each needs `time_s`, without gaps and never decreasing.
+enum class CsvCells {
+  numbers,           // every cell is a number
+  numbers_or_empty,  // a cell may be empty (or say nan)
+  anything,          // what is no number is taken as empty
+};
+
+// Reads a whole table. CRLF, a byte-order mark, blanks around cells, quotes and empty lines are tolerated. Errors name
+// file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
+// many cells, a last line that is cut off, time that goes back, no row at all.
+Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
+                                const std::function<CsvCells(std::string_view name)>& cells_of);
+
+// The text of such a file; NaN becomes an empty cell, and numbers are exact.
+std::string csv_text(const CsvTable& table);
+
+}  // namespace odolab

@@ -1,0 +1,53 @@
+#include "core/io/file_kind.h"
+
+#include <string_view>
+
+#include "core/io/import/imported_recording.h"
+#include "core/io/number_text.h"
+#include "core/io/whole_file.h"
+
+namespace odolab {
+
+namespace {
+
+bool ends_in(const std::string& path, std::string_view ending) {
+  return path.size() >= ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+bool is_name(std::string_view text) {
+  for (char c : text)
+    if (!(c == '_' || c == '-' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')))
+      return false;
+  return !text.empty();
+}
+
+}  // namespace
+
+FileKind file_kind(const std::string& path) {
+  const std::string start = read_file_start(path, 65536);
+  std::string_view rest = start;
+  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
+  if (trimmed(rest.substr(0, rest.find('\n'))).find("time_s") != std::string_view::npos &&
+      rest.substr(0, rest.find('\n')).find('=') == std::string_view::npos)
+    return FileKind::recording;
+  if (is_foreign_recording(path)) return FileKind::foreign_recording;
+  bool is_toml = ends_in(path, ".toml") && !start.empty();
+  while (!rest.empty()) {
+    const std::size_t size = rest.find('\n');
+    const std::string_view line = trimmed(rest.substr(0, size));
+    rest.remove_prefix(size == std::string_view::npos ? rest.size() : size + 1);
+    if (line.empty() || line.front() == '#') continue;
+    if (line.front() == '[') {
+      is_toml = is_toml || line.find(']') != std::string_view::npos;
+      break;  // the top's own keys end here
+    }
+    const std::string_view key = trimmed(line.substr(0, line.find('=')));
+    if (line.find('=') == std::string_view::npos || !is_name(key)) continue;
+    if (key == "kind") return FileKind::vehicle;
+    is_toml = true;
+  }
+  if (is_toml) return FileKind::scenario;
+  return ends_in(path, ".csv") && !start.empty() ? FileKind::recording : FileKind::unknown;
+}
+
+}  // namespace odolab

@@ -1,0 +1,14 @@
+// What a file is, by what stands in it.
+#pragma once
+
+#include <string>
+
+namespace odolab {
+
+enum class FileKind { scenario, vehicle, recording, foreign_recording, unknown };
+
+// Looks at the beginning alone, so that a broken file is still taken for what it was meant to be. A TOML file with a
+// key `kind` at its top is a vehicle, another one a scenario; a CSV file whose header names `time_s` is a recording.
+FileKind file_kind(const std::string& path);
+
+}  // namespace odolab

@@ -1,0 +1,49 @@
+// OptiOdom, synchronised: one CSV without a header, `t, x, y, heading, ticks right, ticks left`, ticks of each cycle.
+#include <filesystem>
+
+#include "core/io/import/format.h"
+#include "core/io/import/number_rows.h"
+#include "core/io/number_text.h"
+
+namespace odolab {
+
+namespace {
+
+bool recognises(const std::string&, std::string_view start) { return numbers_in_first_row(start, ',') == 6; }
+
+Result<ImportedRecording> read(const std::vector<std::string>& sources) {
+  if (sources.size() > 1) return Error{sources[1], "a second file", "one synchronised file alone"};
+  const std::string& path = sources.front();
+  NumberRowsShape shape;
+  shape.cells = 6;
+  const Result<NumberRows> rows = read_number_rows(path, shape);
+  if (!rows) return rows.error();
+  ImportedRecording imported;
+  Recording& recording = imported.recording;
+  recording.name = std::filesystem::path(path).filename().string();
+  recording.provenance = "real: OptiOdom, synchronised by its authors";
+  recording.time_s = rows->columns[0];
+  for (std::size_t i = 1; i < rows->size(); ++i)
+    if (recording.time_s[i] < recording.time_s[i - 1])
+      return Error{path + ":" + std::to_string(rows->lines[i]) + ": column 1",
+                   number_text(recording.time_s[i]) + " after " + number_text(recording.time_s[i - 1]),
+                   "times that never decrease"};
+  // the counts of a cycle are those of the time up to its stamp: README.md
+  std::vector<double> right = rows->columns[4], left = rows->columns[5];
+  for (std::size_t i = 1; i < rows->size(); ++i) {
+    right[i] += right[i - 1];
+    left[i] += left[i - 1];
+  }
+  recording.channels = {{"left_ticks", std::move(left)},          {"right_ticks", std::move(right)},
+                        {"truth_x_m", rows->columns[1]},          {"truth_y_m", rows->columns[2]},
+                        {"truth_heading_rad", rows->columns[3]}};
+  return imported;
+}
+
+}  // namespace
+
+ForeignFormat optiodom_synchronised_format() {
+  return {"OptiOdom, synchronised", "a synchronised OptiOdom file (six columns)", recognises, read};
+}
+
+}  // namespace odolab

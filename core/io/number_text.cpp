@@ -1,0 +1,49 @@
+#include "core/io/number_text.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace odolab {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::optional<double> number_from(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec == std::errc::result_out_of_range && read.ptr == text.data() + text.size()) {
+    // Too small to hold is zero to every purpose here; too large is no number.
+    const std::size_t e = text.find_first_of("eE");
+    if (e != std::string_view::npos && e + 1 < text.size() && text[e + 1] == '-') return 0.0;
+    return std::nullopt;
+  }
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+void append_number(std::string& text, double value) {
+  char buffer[40];
+  const std::to_chars_result written = std::to_chars(buffer, buffer + sizeof buffer, value);
+  text.append(buffer, written.ptr);
+}
+
+std::string number_text(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::string result = "'";
+  for (char c : text.substr(0, kLongest)) result += (c >= 0 && c < ' ') || c == 127 ? '?' : c;
+  if (text.size() > kLongest) result += "...";
+  return result + "'";
+}
+
+}  // namespace odolab

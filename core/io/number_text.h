@@ -1,0 +1,23 @@
+// Numbers as text, exactly: what is written reads back to the same bits, in every locale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace odolab {
+
+// Without blanks, tabs and carriage returns at both ends.
+std::string_view trimmed(std::string_view text);
+
+// The whole of a trimmed text as a finite number; a leading '+' is allowed. Nothing where it is none.
+std::optional<double> number_from(std::string_view text);
+
+// Appends the shortest text that reads back to the same bits. The value is finite.
+void append_number(std::string& text, double value);
+std::string number_text(double value);
+
+// A piece of foreign text made fit for one line of an error message: quoted and cut short.
+std::string in_quotes(std::string_view text);
+
+}  // namespace odolab

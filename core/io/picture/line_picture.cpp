@@ -1,0 +1,91 @@
+#include "core/io/picture/line_picture.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/io/picture/axis.h"
+
+namespace odolab {
+
+namespace {
+
+// Stretches without gaps; in each column of pixels the first, lowest, highest and last point in their order.
+std::vector<std::vector<Point>> stretches(const DrawnLine& line, const Axis& x, const Axis& y) {
+  std::vector<std::vector<Point>> result(1);
+  std::vector<Point> column;
+  const auto close_column = [&] {
+    if (column.empty()) return;
+    const auto lowest = std::min_element(column.begin(), column.end(), [](Point a, Point b) { return a.y < b.y; });
+    const auto highest = std::max_element(column.begin(), column.end(), [](Point a, Point b) { return a.y < b.y; });
+    for (auto p = column.begin(); p != column.end(); ++p)
+      if (p == column.begin() || p == lowest || p == highest || p + 1 == column.end()) result.back().push_back(*p);
+    column.clear();
+  };
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) {
+      close_column();
+      if (!result.back().empty()) result.emplace_back();
+      continue;
+    }
+    const Point p{x.px(line.x[i]), y.px(line.y[i])};
+    if (!column.empty() && std::floor(p.x) != std::floor(column.front().x)) close_column();
+    column.push_back(p);
+  }
+  close_column();
+  return result;
+}
+
+}  // namespace
+
+std::string line_picture(const LinePicture& picture) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double left = 78.0, right = picture.width_px - 20.0, top = 64.0, bottom = picture.height_px - 48.0;
+  double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
+  for (const DrawnLine& line : picture.lines) {
+    assert(line.x.size() == line.y.size());
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+      if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) continue;
+      low_x = std::min(low_x, line.x[i]);
+      high_x = std::max(high_x, line.x[i]);
+      low_y = std::min(low_y, line.y[i]);
+      high_y = std::max(high_y, line.y[i]);
+    }
+  }
+  Axis x = axis_over(low_x, high_x, left, right);
+  if (high_x > low_x) x = {low_x, high_x, left, right};  // time needs no air
+  const Axis y = axis_over(low_y, high_y, bottom, top);
+
+  Svg svg(picture.width_px, picture.height_px, picture.title);
+  svg.text({18.0, 28.0}, picture.title, Anchor::start, 16.0, ink::kText, true);
+  svg.rectangle({left, top}, right - left, bottom - top, "#ffffff");
+  const double x_step = round_step(x.high - x.low, 10), y_step = round_step(y.high - y.low, 6);
+  for (double tick : x.ticks(10)) {
+    svg.line({x.px(tick), top}, {x.px(tick), bottom}, {ink::kGrid, 1.0, ""});
+    svg.text({x.px(tick), bottom + 17.0}, tick_text(tick, x_step), Anchor::middle, 11.0);
+  }
+  for (double tick : y.ticks(6)) {
+    svg.line({left, y.px(tick)}, {right, y.px(tick)}, {ink::kGrid, 1.0, ""});
+    svg.text({left - 6.0, y.px(tick) + 4.0}, tick_text(tick, y_step), Anchor::end, 11.0);
+  }
+  if (y.low < 0.0 && y.high > 0.0) svg.line({left, y.px(0.0)}, {right, y.px(0.0)}, {ink::kAxis, 1.0, ""});
+  svg.begin_clip({left, top}, right - left, bottom - top);
+  for (const DrawnLine& line : picture.lines)
+    for (const std::vector<Point>& stretch : stretches(line, x, y)) svg.polyline(stretch, stroke_of(line.look));
+  svg.end_clip();
+  svg.rectangle({left, top}, right - left, bottom - top, "none", {ink::kAxis, 1.0, ""});
+  svg.text({0.5 * (left + right), bottom + 36.0}, picture.x_label, Anchor::middle);
+  svg.text_upward({18.0, 0.5 * (top + bottom)}, picture.y_label);
+
+  double legend_x = left;
+  for (const DrawnLine& line : picture.lines) {
+    if (line.label.empty()) continue;
+    svg.line({legend_x, 48.0}, {legend_x + 30.0, 48.0}, stroke_of(line.look));
+    svg.text({legend_x + 36.0, 52.0}, line.label);
+    legend_x += 54.0 + 7.4 * static_cast<double>(line.label.size());
+  }
+  return svg.finished();
+}
+
+}  // namespace odolab

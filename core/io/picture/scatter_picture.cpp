@@ -1,0 +1,107 @@
+#include "core/io/picture/scatter_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/io/picture/axis.h"
+#include "core/io/picture/svg.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kMm = 1000.0;
+
+struct Cloud {
+  std::string label;
+  const std::vector<ReturnError>* errors;
+  bool clockwise;
+  std::string colour;
+  Point label_at{};
+};
+
+Point mean_mm(const std::vector<ReturnError>& errors) {
+  Point sum;
+  for (const ReturnError& e : errors) sum = {sum.x + kMm * e.x_m, sum.y + kMm * e.y_m};
+  const double n = static_cast<double>(errors.size());
+  return {sum.x / n, sum.y / n};
+}
+
+void draw_mark(Svg& svg, Point at, bool clockwise, const std::string& colour) {
+  if (clockwise) svg.cross(at, 5.0, {colour, 1.8, ""});
+  else svg.circle(at, 5.0, "none", {colour, 1.8, ""});
+}
+
+}  // namespace
+
+std::string scatter_picture(const ScatterPicture& picture) {
+  const double left = 66.0, right = picture.width_px - 20.0, top = 46.0, bottom = picture.height_px - 104.0;
+  std::vector<Cloud> clouds;
+  const char* colours[2][2] = {{ink::kBlue, ink::kOrange}, {ink::kGreen, ink::kPurple}};
+  for (std::size_t i = 0; i < picture.experiments.size() && i < 2; ++i) {
+    const DrawnUmbmark& e = picture.experiments[i];
+    const std::string end = e.label.empty() ? "" : ", " + e.label;
+    if (!e.runs.clockwise.empty()) clouds.push_back({"clockwise" + end, &e.runs.clockwise, true, colours[i][0]});
+    if (!e.runs.counter_clockwise.empty())
+      clouds.push_back({"counter-clockwise" + end, &e.runs.counter_clockwise, false, colours[i][1]});
+  }
+
+  double low_x = 0.0, high_x = 0.0, low_y = 0.0, high_y = 0.0;  // the origin, no error at all, is always in sight
+  for (const Cloud& cloud : clouds)
+    for (const ReturnError& e : *cloud.errors) {
+      low_x = std::min(low_x, kMm * e.x_m);
+      high_x = std::max(high_x, kMm * e.x_m);
+      low_y = std::min(low_y, kMm * e.y_m);
+      high_y = std::max(high_y, kMm * e.y_m);
+    }
+  const double mm_per_px = 1.16 * std::max({(high_x - low_x) / (right - left), (high_y - low_y) / (bottom - top), 0.01});
+  const double middle_x = 0.5 * (low_x + high_x), middle_y = 0.5 * (low_y + high_y);
+  const double half_x = 0.5 * (right - left) * mm_per_px, half_y = 0.5 * (bottom - top) * mm_per_px;
+  const Axis x{middle_x - half_x, middle_x + half_x, left, right};
+  const Axis y{middle_y - half_y, middle_y + half_y, bottom, top};
+  const auto at = [&](double x_mm, double y_mm) { return Point{x.px(x_mm), y.px(y_mm)}; };
+
+  Svg svg(picture.width_px, picture.height_px, picture.title);
+  svg.text({18.0, 28.0}, picture.title, Anchor::start, 16.0, ink::kText, true);
+  svg.rectangle({left, top}, right - left, bottom - top, "#ffffff", {ink::kAxis, 1.0, ""});
+  const double step = round_step(2.0 * half_x, 7);
+  for (double k = std::ceil(x.low / step); k * step <= x.high; k += 1.0) {
+    svg.line({x.px(k * step), top}, {x.px(k * step), bottom}, {ink::kGrid, 1.0, ""});
+    svg.text({x.px(k * step), bottom + 17.0}, tick_text(k * step, step), Anchor::middle, 11.0);
+  }
+  for (double k = std::ceil(y.low / step); k * step <= y.high; k += 1.0) {
+    svg.line({left, y.px(k * step)}, {right, y.px(k * step)}, {ink::kGrid, 1.0, ""});
+    svg.text({left - 6.0, y.px(k * step) + 4.0}, tick_text(k * step, step), Anchor::end, 11.0);
+  }
+  svg.line(at(x.low, 0.0), at(x.high, 0.0), {ink::kAxis, 1.2, ""});
+  svg.line(at(0.0, y.low), at(0.0, y.high), {ink::kAxis, 1.2, ""});
+  svg.text({0.5 * (left + right), bottom + 36.0}, "return error in x [mm]", Anchor::middle);
+  svg.text_upward({18.0, 0.5 * (top + bottom)}, "return error in y [mm]");
+
+  for (const Cloud& cloud : clouds) {
+    const Point centre = mean_mm(*cloud.errors);
+    svg.line(at(0.0, 0.0), at(centre.x, centre.y), {cloud.colour, 1.4, "5 3"});
+  }
+  for (const Cloud& cloud : clouds)
+    for (const ReturnError& e : *cloud.errors) draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud.clockwise, cloud.colour);
+  for (const Cloud& cloud : clouds) {
+    const Point centre = mean_mm(*cloud.errors), p = at(centre.x, centre.y);
+    svg.circle(p, 5.5, cloud.colour, {"#ffffff", 1.5, ""});
+  }
+
+  double legend_y = picture.height_px - 48.0;
+  double legend_x = left;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    const Point centre = mean_mm(*clouds[i].errors);
+    char text[120];
+    std::snprintf(text, sizeof text, "%s: centre %.0f mm away", clouds[i].label.c_str(), std::hypot(centre.x, centre.y));
+    draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i].clockwise, clouds[i].colour);
+    svg.text({legend_x + 20.0, legend_y}, text);
+    legend_x += 0.5 * (right - left);
+    if (i % 2 == 1) legend_x = left, legend_y += 22.0;
+  }
+  return svg.finished();
+}
+
+}  // namespace odolab

@@ -1,0 +1,74 @@
+#include "core/io/recording_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "core/io/csv_table.h"
+#include "core/io/whole_file.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::array<std::string_view, 14> kPlainColumns = {
+    "time_s",           "left_ticks",       "right_ticks",       "command_speed_mps", "command_yaw_rate_radps", "truth_x_m",
+    "truth_y_m",        "truth_heading_rad", "link_angle_a_rad", "link_angle_b_rad",  "link_length_m",          "hitch_angle_rad",
+    "left_wheel_rad",   "right_wheel_rad"};
+
+// Channels that say nothing without each other.
+constexpr std::array<std::array<std::string_view, 2>, 4> kPairs = {{{"left_wheel_rad", "right_wheel_rad"},
+                                                                    {"left_ticks", "right_ticks"},
+                                                                    {"command_speed_mps", "command_yaw_rate_radps"},
+                                                                    {"truth_x_m", "truth_y_m"}}};
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+}  // namespace
+
+bool is_recording_column(std::string_view name) {
+  // a_, b_, trailer_ and castorN_ stand before the names of a pair of wheels or a pivot
+  return std::find(kPlainColumns.begin(), kPlainColumns.end(), name) != kPlainColumns.end() ||
+         ends_with(name, "_left_wheel_rad") || ends_with(name, "_right_wheel_rad") ||
+         (name.substr(0, 6) == "castor" && ends_with(name, "_pivot_rad"));
+}
+
+Result<Recording> read_recording_csv(const std::string& path) {
+  Result<CsvTable> table = read_csv_table(path, {"time_s"}, [](std::string_view name) {
+    return is_recording_column(name) ? CsvCells::numbers_or_empty : CsvCells::anything;
+  });
+  if (!table) return table.error();
+  for (const auto& pair : kPairs)
+    for (int i : {0, 1})
+      if (table->column(pair[i]) && !table->column(pair[1 - i]))
+        return Error{path + ":1", "the column '" + std::string(pair[i]) + "' alone",
+                     "a column '" + std::string(pair[1 - i]) + "' with it"};
+  Recording recording;
+  recording.name = std::filesystem::path(path).filename().string();
+  recording.provenance = "recording file";
+  for (std::size_t i = 0; i < table->names.size(); ++i) {
+    if (table->names[i] == "time_s") {
+      recording.time_s = std::move(table->columns[i]);
+    } else {
+      recording.channels.push_back({std::move(table->names[i]), std::move(table->columns[i])});
+    }
+  }
+  return recording;
+}
+
+Result<Done> write_recording_csv(const std::string& path, const Recording& recording) {
+  const std::vector<std::string> problems = problems_in(recording);
+  if (!problems.empty()) return Error{path + ": " + problems.front(), "", ""};
+  CsvTable table;
+  table.names.push_back("time_s");
+  table.columns.push_back(recording.time_s);
+  for (const Channel& channel : recording.channels) {
+    table.names.push_back(channel.name);
+    table.columns.push_back(channel.values);
+  }
+  return write_whole_file(path, csv_text(table));
+}
+
+}  // namespace odolab

@@ -1,0 +1,21 @@
+// A recording as a CSV file: a header line with the contract's column names, then rows in time order.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+#include "core/recording/recording.h"
+
+namespace odolab {
+
+// Whether a column's name is one of those that recordings define; others are kept, and what is no number there is empty.
+bool is_recording_column(std::string_view name);
+
+// Errors name file, line and column, what was found and what was expected. The recording takes the file's name.
+Result<Recording> read_recording_csv(const std::string& path);
+
+// Numbers read back to the same bits. A recording with problems is not written.
+Result<Done> write_recording_csv(const std::string& path, const Recording& recording);
+
+}  // namespace odolab

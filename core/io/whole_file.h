@@ -1,0 +1,21 @@
+// Files read and written in one piece, so that no output is ever half-written.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "core/base/result.h"
+
+namespace odolab {
+
+// The bytes of a file. An error names the file where it is missing, is a folder or cannot be read.
+Result<std::string> read_whole_file(const std::string& path);
+
+// The first bytes of a file, enough to see what it is; empty where it cannot be read.
+std::string read_file_start(const std::string& path, std::size_t bytes = 8192);
+
+// Writes to a temporary file beside `path` and renames it: whoever looks sees the old file or the whole new one.
+// Folders that are missing on the way are made.
+Result<Done> write_whole_file(const std::string& path, const std::string& text);
+
+}  // namespace odolab
