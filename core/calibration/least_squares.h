@@ -9,6 +9,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/calibration/innovations.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -31,27 +32,24 @@ struct ParameterEstimate {
   bool determined = true;  // false: the recordings hold no information on it; the value is the nominal one
 };
 
-// Sizes of the random errors, estimated from the same recordings.
-struct FittedNoise {
-  double wheel_m_per_sqrt_m = 0.0;    // each wheel's distance error grows with the square root of its travel
-  double truth_position_m = 0.0;
-  double truth_heading_rad = 0.0;
-};
-
 struct LeastSquaresCalibration {
   Vehicle vehicle;                            // with the estimates put in
   std::vector<ParameterEstimate> parameters;
   std::vector<double> covariance;             // of the determined parameters in their order, row by row
-  FittedNoise noise;
+  FittedNoise noise;                          // from the same recordings
   std::vector<std::string> cannot_tell;       // what the recordings cannot determine, and which drive would, in words
   std::vector<std::string> warnings;
   int innovations = 0;                        // scalar measurements used
   int outliers = 0;                           // truth samples set aside because they contradict their neighbours
   double normalised_chi2_nominal = 0.0;       // of the innovations, with the noise as fitted; 1 is a perfect fit
   double normalised_chi2 = 0.0;
+  // Correlation of each whitened innovation with the next, of x, y and heading. Zero where the model is complete; else
+  // there is something that these parameters do not describe, and the standard errors are too small.
+  double correlation[3] = {};
 };
 
-// Needs wheel samples and two truth samples or more in each recording.
+// Needs wheel samples and two truth samples or more in each recording; else an Error that names the recording.
+// Stops with an Error where `progress` says so.
 Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                         const LeastSquaresOptions& options = {}, const Progress& progress = {});
 

@@ -39,19 +39,26 @@ struct UmbmarkMeasure {
   Cluster counter_clockwise;
   double largest_systematic_error_m = 0.0;  // Emax,syst, Eq. 3.4
   double spread_m = 0.0;                    // of both directions pooled
-  double standard_error_m = 0.0;            // SEM of one direction's centre from the pooled spread
-  // The rule of thumb of section 6.3: below 3 SEM a further compensation is unlikely to help.
+  double standard_error_m = 0.0;            // SEM of the worse direction's centre from the pooled spread
+  // The rule of thumb of section 6.3: below 3 SEM a further compensation is unlikely to help. True where one run a
+  // direction leaves nothing to judge by.
   bool worth_compensating = true;
 };
 
 // Each direction needs one run or more, two for a spread.
 std::optional<UmbmarkMeasure> measure_umbmark(const UmbmarkRuns& runs);
 
-// Heading errors of the two types: alpha in each corner (type A, > 0: turns too little), beta on each side (type B).
+// Heading errors of the two types: alpha in each corner (type A, > 0: turns too little), beta on each side (type B,
+// > 0: curves to the left, in both directions of the square).
 struct TypeErrors {
   double alpha_rad = 0.0;
   double beta_rad = 0.0;
 };
+
+// Where a robot with these errors ends a square that it believes to have closed: four arcs of the side's length and four
+// turns, each of which also shifts the centre a little since the wheels are unequal (Appendix A). README, Eq. 1.
+// The robot's true wheelbase only matters for that shift.
+ReturnError square_return_error(const TypeErrors& errors, double side_m, bool clockwise, double wheelbase_m);
 
 // What the two clusters say about the vehicle.
 struct UmbmarkCalibration {
@@ -60,7 +67,7 @@ struct UmbmarkCalibration {
   TypeErrors printed;    // the mean of both: all four coordinates, to first order as in the report
   TypeErrors exact;      // least squares over all four coordinates on the exact path; used below
   double residual_m = 0.0;              // what alpha and beta together leave of the four coordinates, root mean square
-  double curvature_radius_m = 0.0;      // R, Eq. 6.23; infinite for straight sides
+  double curvature_radius_m = 0.0;      // R, Eq. 6.23, the side being the arc and not its chord; infinite where straight
   double wheel_diameter_ratio = 1.0;    // Ed = D_R / D_L, Eq. 6.24
   double wheelbase_ratio = 1.0;         // Eb = b_actual / b_nominal, Eq. 6.29
   double left_factor = 1.0;             // c_L, Eq. 6.33
@@ -84,6 +91,7 @@ std::optional<OneDirectionCalibration> calibrate_one_direction(const UmbmarkRuns
                                                                const DifferentialDrive& nominal);
 
 // Extended UMBmark: the susceptibility to bumps as the average absolute heading error without its bias, Eqs. 3.5, 3.6.
+// The average is over all runs of both directions; each direction needs one run or more on either floor.
 struct ExtendedUmbmark {
   double mean_absolute_heading_error_rad = 0.0;
   double systematic_bias_clockwise_rad = 0.0;

@@ -1,0 +1,138 @@
+// The likelihood of runs with outside truth, in the form of Kalman innovations: README.md in this folder, Eqs. 2 to 9.
+//
+// In two halves. The wheels between two truth samples are first summed up into one relative motion with its covariance
+// and its derivatives; that depends on the parameters and not on the pose. A Kalman filter over the truth samples then
+// carries the pose together with its derivatives; that depends on the noise too.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+// Sizes of the random errors.
+struct FittedNoise {
+  double wheel_m_per_sqrt_m = 0.0;  // each wheel's distance error grows with the square root of its travel
+  double truth_position_m = 0.0;    // of each coordinate, white
+  double truth_heading_rad = 0.0;   // white
+};
+
+// The columns of every derivative: seven fixed ones, then the extra ones of the run.
+namespace column {
+constexpr int wheel_radius_left = 0;
+constexpr int wheel_radius_right = 1;
+constexpr int wheelbase = 2;
+constexpr int mounting_x = 3;
+constexpr int mounting_y = 4;
+constexpr int mounting_heading = 5;
+constexpr int truth_clock = 6;
+constexpr int first_extra = 7;
+}  // namespace column
+
+// What the wheels did between two samples, for authors of extra columns. The pose is that of dead reckoning.
+struct DriveStep {
+  double time_s = 0.0;      // at the middle
+  double duration_s = 0.0;
+  double left_m = 0.0;      // rolled by each wheel
+  double right_m = 0.0;
+  double turn_rad = 0.0;
+  double heading_rad = 0.0; // at the middle
+  Vec2 position;            // at the middle
+};
+
+// A small motion of the body in its own frame.
+struct BodyMotion {
+  double forward_m = 0.0;
+  double sideways_m = 0.0;  // to the left
+  double turn_rad = 0.0;
+};
+
+// An effect on the motion, linear in its own value: `value` times `per_step[i]` is added between wheel samples i and i + 1.
+struct ExtraColumn {
+  std::string name;
+  double value = 0.0;
+  std::vector<BodyMotion> per_step;
+};
+
+// One recording made ready for the filter.
+struct InnovationRun {
+  std::string name;
+  std::vector<WheelSample> wheels;  // two or more, times strictly increasing
+  std::vector<TruthSample> truth;   // two or more, times strictly increasing, within the time of the wheels
+  bool truth_has_heading = false;   // where not, the first heading is unknown and found with the path's shape
+  bool counts_show = false;         // the rotations lie on the grid of the encoder's counts
+  std::vector<char> set_aside;      // for each truth sample: not to be used
+  std::vector<ExtraColumn> extra;   // the same number in each run of a set
+  int frozen = 0;                   // truth samples left out since they repeat themselves while the wheels turn
+};
+
+// Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock.
+Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle);
+
+// The steps of a run as the drive's parameters see them, from a start at the first truth sample.
+std::vector<DriveStep> drive_steps(const InnovationRun& run, const DifferentialDrive& drive);
+
+// What the likelihood depends on besides the data.
+struct InnovationModel {
+  DifferentialDrive drive;
+  TruthMounting truth;
+  FittedNoise noise;
+};
+
+// The motion between two truth samples, in the frame of the first.
+struct RelativeMotion {
+  Pose motion;
+  double wheel_noise[6] = {};    // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
+  double count_noise[6] = {};    // covariance of the count fractions that a wheel leaves behind when it starts from rest
+};
+struct SummedRun {
+  std::vector<RelativeMotion> motions;  // [i] leads from truth sample i to i + 1
+  std::vector<double> derivatives;      // of motions[i] by column c: x, y, heading at 3 * (i * columns + c)
+  int columns = 0;
+};
+SummedRun summed_up(const InnovationRun& run, const InnovationModel& model);
+
+// One truth sample against its prediction.
+struct Innovation {
+  double time_s = 0.0;
+  int truth_index = 0;
+  int size = 0;                  // 3, or 2 where the truth has no heading
+  double residual[3] = {};       // truth minus prediction: x, y, heading
+  double covariance[6] = {};     // xx, xy, xh, yy, yh, hh
+  double white[3] = {};          // the residual made white by the Cholesky factor: independent, of size 1
+  double squared = 0.0;          // residual' covariance^-1 residual
+  bool set_aside = false;
+};
+
+struct FilterOptions {
+  bool derivatives = true;   // also information and score
+  double gate = 0.0;         // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
+  int first = 0, last = -1;  // truth samples to use; -1: to the end
+  std::function<void(const Innovation&)> on_innovation;
+};
+
+// Sums over innovations. With p columns: `information` is sum J' S^-1 J (p by p, row by row), `score` sum J' S^-1 nu, where
+// J is the derivative of the prediction.
+struct InnovationSums {
+  double chi2 = 0.0;
+  double log_determinant = 0.0;
+  int scalars = 0;
+  std::vector<double> information;
+  std::vector<double> score;
+  std::vector<char> set_aside;  // as used: given or gated
+  int restarts = 0;             // where so many samples in a row contradicted that the filter started anew
+};
+InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                        const FilterOptions& options = {});
+
+// One encoder count as it shows in the run, in radians of the wheel; 0 where the rotations are not on a grid.
+inline double count_rad(const InnovationRun& run, const DifferentialDrive& drive) {
+  return run.counts_show ? 2.0 * kPi / drive.counts_per_wheel_turn() : 0.0;
+}
+
+}  // namespace odolab

@@ -1,0 +1,453 @@
+#include "core/calibration/least_squares.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Dense>
+
+#include "core/calibration/minimise.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kColumns = column::first_extra;
+constexpr double kGate = 30.0;             // squared size of an innovation; 1.4e-6 of normal ones of three channels are larger
+constexpr double kDetermined = 0.2;        // share of its prior that a determined parameter's standard error stays below
+constexpr int kNoiseSamples = 6000;        // truth samples that the noise is fitted to
+constexpr int kNoiseStretch = 500;         // in stretches of this many
+
+struct ColumnName {
+  const char* key;
+  const char* unit;
+};
+constexpr std::array<ColumnName, kColumns> kNames = {{{"wheel_radius_left_m", "m"},
+                                                      {"wheel_radius_right_m", "m"},
+                                                      {"wheelbase_m", "m"},
+                                                      {"truth_mounting.x_m", "m"},
+                                                      {"truth_mounting.y_m", "m"},
+                                                      {"truth_mounting.heading_rad", "rad"},
+                                                      {"truth_mounting.time_offset_s", "s"}}};
+
+double& entry(InnovationModel& model, int c) {
+  switch (c) {
+    case column::wheel_radius_left: return model.drive.wheel_radius_left_m;
+    case column::wheel_radius_right: return model.drive.wheel_radius_right_m;
+    case column::wheelbase: return model.drive.wheelbase_m;
+    case column::mounting_x: return model.truth.axle_T_tracked.x_m;
+    case column::mounting_y: return model.truth.axle_T_tracked.y_m;
+    case column::mounting_heading: return model.truth.axle_T_tracked.heading_rad;
+    default: return model.truth.time_offset_s;
+  }
+}
+
+// How far from its nominal value each parameter may be expected: a standard deviation in its own unit.
+std::array<double, kColumns> prior_sizes(const DifferentialDrive& drive) {
+  return {0.1 * drive.wheel_radius_left_m, 0.1 * drive.wheel_radius_right_m, 0.1 * drive.wheelbase_m, 0.2, 0.2, 0.3, 0.2};
+}
+
+std::string text(const char* format, double a = 0.0, double b = 0.0) {
+  char buffer[240];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+// The whole likelihood of all runs, with the state of the fit.
+class Fit {
+ public:
+  Fit(std::vector<InnovationRun> runs, const InnovationModel& nominal)
+      : runs_(std::move(runs)), nominal_(nominal), model_(nominal), prior_(prior_sizes(nominal.drive)) {}
+
+  struct Sums {
+    double chi2 = 0.0;  // without the prior
+    double log_determinant = 0.0;
+    int scalars = 0;
+    MatrixXd information = MatrixXd::Zero(kColumns, kColumns);  // in units of the prior sizes
+    VectorXd score = VectorXd::Zero(kColumns);
+  };
+
+  Sums sums(const InnovationModel& model, bool derivatives) const {
+    FilterOptions options;
+    options.derivatives = derivatives;
+    Sums total;
+    for (const InnovationRun& run : runs_) add(total, filtered(run, summed_up(run, model), model, options));
+    return total;
+  }
+
+  // Levenberg and Marquardt on sum nu' S^-1 nu plus the prior of the active parameters; `weight` 0 leaves the prior out.
+  void fit_parameters(const std::vector<int>& active, double weight, int most_iterations) {
+    const auto objective = [&](const Sums& s, const InnovationModel& model) { return s.chi2 + weight * prior_of(model, active); };
+    Sums now = sums(model_, true);
+    double value = objective(now, model_);
+    double damping = 1e-6;
+    const int n = static_cast<int>(active.size());
+    for (int i = 0; i < most_iterations; ++i) {
+      MatrixXd a(n, n);
+      VectorXd g(n);
+      for (int r = 0; r < n; ++r) {
+        for (int c = 0; c < n; ++c) a(r, c) = now.information(active[r], active[c]);
+        a(r, r) += weight;
+        g(r) = now.score(active[r]) - weight * deviation(model_, active[r]);
+      }
+      bool accepted = false;
+      double size = 0.0;
+      for (int attempt = 0; attempt < 8 && !accepted; ++attempt) {
+        MatrixXd damped = a;
+        for (int r = 0; r < n; ++r) damped(r, r) *= 1.0 + damping;
+        const VectorXd step = damped.ldlt().solve(g);
+        size = step.dot(a * step);
+        InnovationModel candidate = model_;
+        for (int r = 0; r < n; ++r) entry(candidate, active[r]) += step(r) * prior_[active[r]];
+        if (candidate.drive.wheel_radius_left_m > 0.0 && candidate.drive.wheel_radius_right_m > 0.0 && candidate.drive.wheelbase_m > 0.0) {
+          const Sums next = sums(candidate, true);
+          const double next_value = objective(next, candidate);
+          if (std::isfinite(next_value) && next_value <= value + 1e-9 * std::abs(value)) {
+            model_ = candidate;
+            now = next;
+            value = next_value;
+            accepted = true;
+            damping = std::max(damping * 0.1, 1e-9);
+            break;
+          }
+        }
+        if (size < 1e-6) break;
+        damping = std::max(damping * 10.0, 1e-4) * 3.0;
+      }
+      if (!accepted || size < 1e-6) break;  // a thousandth of a standard deviation
+    }
+  }
+
+  // Maximum likelihood of the noise sizes with the parameters held. With few innovations the freedom that the parameters
+  // took is counted too (restricted likelihood, Patterson and Thompson 1971), so that the noise is not fitted too small.
+  void fit_noise(const std::vector<int>& active, double first_stride) {
+    std::vector<SummedRun> summed;
+    for (const InnovationRun& run : runs_) summed.push_back(summed_up(run, model_));
+    const std::vector<Stretch> stretches = noise_stretches();
+    int samples = 0;
+    bool any_heading = false;
+    for (const InnovationRun& run : runs_) {
+      samples += static_cast<int>(run.truth.size());
+      any_heading = any_heading || run.truth_has_heading;
+    }
+    const bool restricted = samples < 1000;
+    const auto noise_of = [&](const std::vector<double>& logs) {
+      return FittedNoise{std::exp(logs[0]), std::exp(logs[1]), any_heading ? std::exp(logs[2]) : model_.noise.truth_heading_rad};
+    };
+    const auto objective = [&](const std::vector<double>& logs) {
+      InnovationModel model = model_;
+      model.noise = noise_of(logs);
+      Sums total;
+      for (const Stretch& s : stretches) {
+        FilterOptions options;
+        options.derivatives = restricted;
+        options.first = s.first;
+        options.last = s.last;
+        add(total, filtered(runs_[s.run], summed[s.run], model, options));
+      }
+      double value = total.chi2 + total.log_determinant;
+      if (restricted) {
+        MatrixXd a(active.size(), active.size());
+        for (std::size_t r = 0; r < active.size(); ++r)
+          for (std::size_t c = 0; c < active.size(); ++c) a(r, c) = total.information(active[r], active[c]) + (r == c);
+        value += a.ldlt().vectorD().array().log().sum();
+      }
+      // Very mild priors keep a size that the recordings say nothing about finite: a factor of ten either way.
+      const double usual[3] = {0.003, 0.002, 0.005};
+      for (std::size_t k = 0; k < logs.size(); ++k) value += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
+      return value;
+    };
+    std::vector<double> logs = {std::log(model_.noise.wheel_m_per_sqrt_m), std::log(model_.noise.truth_position_m)};
+    if (any_heading) logs.push_back(std::log(model_.noise.truth_heading_rad));
+    model_.noise = noise_of(minimised(objective, logs, first_stride, 0.003, 150));
+  }
+
+  // Sets samples aside by the gate. True where that changed any.
+  bool gate() {
+    bool changed = false;
+    restarts_ = 0;
+    for (InnovationRun& run : runs_) {
+      FilterOptions options;
+      options.derivatives = false;
+      options.gate = kGate;
+      InnovationSums s = filtered(run, summed_up(run, model_), model_, options);
+      changed = changed || s.set_aside != run.set_aside;
+      restarts_ += s.restarts;
+      run.set_aside = std::move(s.set_aside);
+    }
+    return changed;
+  }
+
+  // Lag-one correlation of the whitened innovations.
+  void correlations(double* out) const {
+    double product[3] = {}, square[3] = {};
+    for (const InnovationRun& run : runs_) {
+      FilterOptions options;
+      options.derivatives = false;
+      bool has_before = false;
+      double before[3] = {};
+      options.on_innovation = [&](const Innovation& i) {
+        for (int k = 0; k < i.size; ++k) {
+          if (has_before) product[k] += before[k] * i.white[k];
+          square[k] += i.white[k] * i.white[k];
+          before[k] = i.white[k];
+        }
+        has_before = true;
+      };
+      filtered(run, summed_up(run, model_), model_, options);
+    }
+    for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
+  }
+
+  void hold_at_nominal(int c) { entry(model_, c) = value(nominal_, c); }
+  double value(const InnovationModel& model, int c) const { return entry(const_cast<InnovationModel&>(model), c); }
+  double deviation(const InnovationModel& model, int c) const { return (value(model, c) - value(nominal_, c)) / prior_[c]; }
+  const InnovationModel& model() const { return model_; }
+  InnovationModel& model() { return model_; }
+  const std::vector<InnovationRun>& runs() const { return runs_; }
+  double prior(int c) const { return prior_[c]; }
+  int restarts() const { return restarts_; }
+
+ private:
+  struct Stretch {
+    int run, first, last;
+  };
+
+  void add(Sums& total, const InnovationSums& s) const {
+    total.chi2 += s.chi2;
+    total.log_determinant += s.log_determinant;
+    total.scalars += s.scalars;
+    if (s.score.empty()) return;
+    for (int r = 0; r < kColumns; ++r) {
+      total.score(r) += prior_[r] * s.score[r];
+      for (int c = 0; c < kColumns; ++c) total.information(r, c) += prior_[r] * prior_[c] * s.information[r * kColumns + c];
+    }
+  }
+
+  double prior_of(const InnovationModel& model, const std::vector<int>& active) const {
+    double sum = 0.0;
+    for (int c : active) sum += deviation(model, c) * deviation(model, c);
+    return sum;
+  }
+
+  // All truth, or stretches spread evenly where there is more than the noise needs.
+  std::vector<Stretch> noise_stretches() const {
+    int samples = 0;
+    for (const InnovationRun& run : runs_) samples += static_cast<int>(run.truth.size());
+    const int every = std::max(1, (samples + kNoiseSamples - 1) / kNoiseSamples);
+    std::vector<Stretch> stretches;
+    int number = 0;
+    for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+      const int n = static_cast<int>(runs_[r].truth.size());
+      if (every == 1) {
+        stretches.push_back({r, 0, n});
+        continue;
+      }
+      for (int first = 0; first + 1 < n; first += kNoiseStretch, ++number)
+        if (number % every == 0) stretches.push_back({r, first, std::min(n, first + kNoiseStretch)});
+    }
+    return stretches;
+  }
+
+  std::vector<InnovationRun> runs_;
+  InnovationModel nominal_;
+  InnovationModel model_;
+  std::array<double, kColumns> prior_;
+  int restarts_ = 0;
+};
+
+// What the robot did, for the sentences on what it did not do.
+struct Driven {
+  double travel_m = 0.0;  // of the centre, forwards and backwards alike
+  double turn_rad = 0.0;  // left and right alike
+};
+
+Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  Driven driven;
+  for (const InnovationRun& run : runs)
+    for (const DriveStep& step : drive_steps(run, drive)) {
+      driven.travel_m += 0.5 * std::abs(step.left_m + step.right_m);
+      driven.turn_rad += std::abs(step.turn_rad);
+    }
+  return driven;
+}
+
+std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, const std::vector<int>& active,
+                                             const MatrixXd& information, const Driven& driven, bool any_heading) {
+  std::vector<std::string> sentences;
+  const auto open = [&](int c) { return std::find(active.begin(), active.end(), c) != active.end() && !determined[c]; };
+  const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right), base = open(column::wheelbase);
+  // The direction in the space of radii and wheelbase along which all of them grow together.
+  bool scale_is_open = false;
+  if (left && right && base) {
+    VectorXd together = VectorXd::Zero(information.rows());
+    for (std::size_t k = 0; k < active.size(); ++k)
+      if (active[k] <= column::wheelbase) together(static_cast<Eigen::Index>(k)) = 1.0;
+    scale_is_open = together.dot(information * together) < 1.0 / (kDetermined * kDetermined);
+  }
+  const std::string so_far = text(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
+  if (scale_is_open)
+    sentences.push_back("wheel radii and wheelbase: only their ratios show here, not the scale" + so_far +
+                        "; drive a straight of a few metres");
+  else if (left || right)
+    sentences.push_back(std::string(left && right ? "wheel_radius_left_m and wheel_radius_right_m"
+                                    : left        ? "wheel_radius_left_m"
+                                                  : "wheel_radius_right_m") +
+                        ": too little travel against the truth's noise" + so_far + "; drive a straight of a few metres");
+  if (base && !scale_is_open)
+    sentences.push_back("wheelbase_m: the robot hardly turned" + so_far + "; drive a full turn on the spot each way, or arcs");
+  if (open(column::mounting_x) || open(column::mounting_y))
+    sentences.push_back(std::string("truth_mounting.") + (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m" : open(column::mounting_x) ? "x_m" : "y_m") +
+                        ": the tracked point's place on the vehicle shows in turns only, and its side only beside straights or arcs both ways" +
+                        so_far + "; drive turns on the spot and arcs with the truth sampled on the way");
+  if (open(column::mounting_heading))
+    sentences.push_back("truth_mounting.heading_rad: no straight long enough to see the direction of travel" + so_far +
+                        "; drive a straight of a few metres");
+  else if (!any_heading)
+    sentences.push_back("truth_mounting.heading_rad: the truth has no heading, so there is none to align");
+  if (open(column::truth_clock))
+    sentences.push_back("truth_mounting.time_offset_s: nothing happened at a time that the truth would show; drive with "
+                        "starts, stops and turns and sample the truth on the way");
+  return sentences;
+}
+
+}  // namespace
+
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                                        const LeastSquaresOptions& options, const Progress& progress) {
+  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  if (!drive) return Error{nominal.name, "another kind of vehicle", "a differential drive"};
+  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty()) return Error{nominal.name, "", problems.front()};
+  if (recordings.empty()) return Error{"recordings", "none", "one or more"};
+  std::vector<InnovationRun> runs;
+  bool any_heading = false;
+  for (const Recording& recording : recordings) {
+    Result<InnovationRun> run = innovation_run(recording, nominal);
+    if (!run) return run.error();
+    any_heading = any_heading || run->truth_has_heading;
+    runs.push_back(std::move(*run));
+  }
+  const Error stopped{"calibration", "stopped before its end", ""};
+
+  std::vector<int> active = {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase};
+  if (options.fit_truth_mounting) {
+    active.push_back(column::mounting_x);
+    active.push_back(column::mounting_y);
+    if (any_heading) active.push_back(column::mounting_heading);
+  }
+  if (options.fit_truth_clock) active.push_back(column::truth_clock);
+
+  const InnovationModel start{*drive, nominal.truth, {0.005, 0.005, 0.02}};
+  Fit fit(std::move(runs), start);
+
+  // Parameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where nothing is
+  // odd, since each depends little on the others.
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    const FittedNoise before = fit.model().noise;
+    fit.fit_parameters(active, 1.0, options.most_iterations);
+    if (!goes_on(progress, (round + 0.5) / (kRounds + 1))) return stopped;
+    fit.fit_noise(active, round == 0 ? 1.0 : 0.15);
+    if (!goes_on(progress, (round + 1.0) / (kRounds + 1))) return stopped;
+    const bool changed = fit.gate();
+    const FittedNoise& now = fit.model().noise;
+    const double moved = std::max({std::abs(std::log(now.wheel_m_per_sqrt_m / before.wheel_m_per_sqrt_m)),
+                                   std::abs(std::log(now.truth_position_m / before.truth_position_m)),
+                                   std::abs(std::log(now.truth_heading_rad / before.truth_heading_rad))});
+    if (round > 0 && !changed && moved < 0.02) break;
+  }
+
+  // What these recordings determine, Eq. 11; the rest goes back to its nominal value and the fit is repeated without
+  // priors.
+  const int n = static_cast<int>(active.size());
+  const auto information_of = [&](const Fit::Sums& s) {
+    MatrixXd a(n, n);
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) a(r, c) = s.information(active[r], active[c]);
+    return a;
+  };
+  fit.fit_parameters(active, 1.0, options.most_iterations);
+  const MatrixXd information = information_of(fit.sums(fit.model(), true));
+  const MatrixXd posterior = (information + MatrixXd::Identity(n, n)).inverse();
+  std::vector<char> determined(kColumns, 0);
+  std::vector<int> kept;
+  for (int k = 0; k < n; ++k) {
+    determined[active[k]] = std::sqrt(posterior(k, k)) < kDetermined;
+    if (determined[active[k]])
+      kept.push_back(active[k]);
+    else
+      fit.hold_at_nominal(active[k]);
+  }
+  fit.fit_parameters(kept, 0.0, options.most_iterations);
+  if (!goes_on(progress, 1.0)) return stopped;
+
+  LeastSquaresCalibration result;
+  const InnovationModel& model = fit.model();
+  const Fit::Sums final_sums = fit.sums(model, true);
+  // Standard errors: what is held at its nominal value stays uncertain by its prior.
+  MatrixXd precision = information_of(final_sums);
+  for (int k = 0; k < n; ++k) precision(k, k) += determined[active[k]] ? 1e-12 : 1.0;
+  const MatrixXd covariance = precision.inverse();
+  std::vector<int> place(kColumns, -1);
+  for (int k = 0; k < n; ++k) place[active[k]] = k;
+  for (int c = 0; c < kColumns; ++c) {
+    const bool fitted = place[c] >= 0;
+    if (!fitted && !(c == column::mounting_heading && options.fit_truth_mounting)) continue;
+    ParameterEstimate p;
+    p.name = kNames[c].key;
+    p.unit = kNames[c].unit;
+    p.nominal = fit.value(start, c);
+    p.value = fit.value(model, c);
+    p.determined = determined[c];
+    p.stderr_value = fitted ? fit.prior(c) * std::sqrt(std::max(0.0, determined[c] ? covariance(place[c], place[c]) : posterior(place[c], place[c])))
+                            : fit.prior(c);
+    result.parameters.push_back(p);
+  }
+  for (int a : kept)
+    for (int b : kept) result.covariance.push_back(fit.prior(a) * fit.prior(b) * covariance(place[a], place[b]));
+
+  result.vehicle = nominal;
+  result.vehicle.kind = model.drive;
+  result.vehicle.truth = model.truth;
+  result.noise = model.noise;
+  if (!any_heading) result.noise.truth_heading_rad = 0.0;
+  result.cannot_tell = what_cannot_be_told(determined, active, information, driven_in(fit.runs(), model.drive), any_heading);
+  result.innovations = final_sums.scalars;
+  result.normalised_chi2 = final_sums.chi2 / std::max(1, final_sums.scalars);
+  InnovationModel as_nominal = start;
+  as_nominal.noise = model.noise;
+  const Fit::Sums nominal_sums = fit.sums(as_nominal, false);
+  result.normalised_chi2_nominal = nominal_sums.chi2 / std::max(1, nominal_sums.scalars);
+  int samples = 0, frozen = 0;
+  for (const InnovationRun& run : fit.runs()) {
+    samples += static_cast<int>(run.truth.size());
+    frozen += run.frozen;
+    result.outliers += static_cast<int>(std::count(run.set_aside.begin(), run.set_aside.end(), 1));
+  }
+  fit.correlations(result.correlation);
+
+  if (frozen > 0)
+    result.warnings.push_back(std::to_string(frozen) + " truth samples repeat themselves while the wheels turn and were left out");
+  if (fit.restarts() > 0)
+    result.warnings.push_back("the truth contradicts the wheels for 20 samples or more at " + std::to_string(fit.restarts()) +
+                              " places; the fit starts anew behind them");
+  if (result.outliers > 0.02 * samples)
+    result.warnings.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
+                              " truth samples contradict their neighbours and were set aside");
+  // Under the null a correlation scatters by 1 / sqrt(n); four of them and a tenth are beyond chance and not negligible.
+  const double by_chance = 4.0 / std::sqrt(std::max(1.0, result.innovations / (any_heading ? 3.0 : 2.0)));
+  const double largest = std::max({std::abs(result.correlation[0]), std::abs(result.correlation[1]), std::abs(result.correlation[2])});
+  if (largest > std::max(0.1, by_chance))
+    result.warnings.push_back(text("the innovations are correlated (%.2f from one to the next): something that these parameters do "
+                                   "not describe, so the standard errors are too small", largest));
+  for (const ParameterEstimate& p : result.parameters)
+    if (p.determined && p.unit == "m" && p.name.rfind("wheel", 0) == 0 && std::abs(p.value / p.nominal - 1.0) > 0.1)
+      result.warnings.push_back(p.name + text(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
+  return result;
+}
+
+}  // namespace odolab
