@@ -12,9 +12,7 @@ namespace {
 constexpr double kPatience = 3.0;
 
 // One square: absolute minus calculated pose (Eq. 3.1), seen from the absolute pose at the start.
-ReturnError drive_square(const Scenario& scenario, std::uint64_t seed) {
-  Simulation simulation(scenario, seed);
-  run_to_end(simulation, kPatience * simulation.expected_duration_s());
+ReturnError return_error(const Simulation& simulation, const Scenario& scenario) {
   const Pose driven = between(scenario.start, simulation.state().estimated_pose);       // by dead reckoning
   const Pose measured = between(simulation.measured_start(), simulation.measured_end());  // by the sonar corner
   return {measured.x_m - driven.x_m, measured.y_m - driven.y_m, wrapped(measured.heading_rad - driven.heading_rad)};
@@ -26,22 +24,47 @@ UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBe
   const int runs = 2 * scenario.benchmark.value_or(Benchmark{}).runs_each_way;
   UmbmarkRuns result;
   result.side_m = std::get<SquarePath>(scenario.path).side_m;
-  std::vector<ReturnError> errors(static_cast<std::size_t>(runs));
+  std::vector<BenchmarkRun> driven(static_cast<std::size_t>(runs));
   parallel_for(
       runs,
       [&](int i) {
         Scenario run = scenario;
         std::get<SquarePath>(run.path).clockwise = i % 2 == 0;
         run.sensors.truth_period_s = 0.0;
-        errors[static_cast<std::size_t>(i)] = drive_square(run, seed_of_stream(seed, 1000 + static_cast<std::uint64_t>(i)));
+        Simulation simulation(run, seed_of_stream(seed, 1000 + static_cast<std::uint64_t>(i)));
+        run_to_end(simulation, kPatience * simulation.expected_duration_s());
+        driven[static_cast<std::size_t>(i)] = {i % 2 == 0, i / 2 + 1, return_error(simulation, run), simulation.recording()};
       },
       [&](int i) {
-        const BenchmarkRun run{i % 2 == 0, i / 2 + 1, errors[static_cast<std::size_t>(i)]};
+        const BenchmarkRun& run = driven[static_cast<std::size_t>(i)];
         (run.clockwise ? result.clockwise : result.counter_clockwise).push_back(run.error);
         if (on_run) on_run(run);
       },
       progress);
   return result;
+}
+
+std::vector<UmbmarkStage> run_umbmark_calibration(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run,
+                                                  const Progress& progress) {
+  constexpr int kMostStages = 3;
+  std::vector<UmbmarkStage> stages;
+  Scenario next = scenario;
+  for (int k = 0; k < kMostStages; ++k) {
+    const Progress part = [&](double share) { return goes_on(progress, (k + share) / kMostStages); };
+    UmbmarkStage stage;
+    stage.nominal = std::get<DifferentialDrive>(next.vehicle.kind);
+    stage.runs = run_umbmark(next, seed_of_stream(seed, static_cast<std::uint64_t>(k)), on_run, part);
+    const int runs = next.benchmark.value_or(Benchmark{}).runs_each_way;
+    if (static_cast<int>(stage.runs.counter_clockwise.size()) < runs) break;  // stopped
+    stage.measure = *measure_umbmark(stage.runs);
+    const bool compensate = k == 0 || (k == 1 && stage.measure.worth_compensating);
+    if (compensate) stage.calibration = calibrate_umbmark(stage.runs, stage.nominal);
+    stages.push_back(stage);
+    if (!stage.calibration) break;
+    next.vehicle.kind = stage.calibration->corrected;
+  }
+  goes_on(progress, 1.0);
+  return stages;
 }
 
 }  // namespace odolab

@@ -51,6 +51,8 @@ void HtmlReport::picture(const std::string& svg, const std::string& caption) {
   body_ += "</figure>\n";
 }
 
+void HtmlReport::append(const HtmlReport& other) { body_ += other.body_; }
+
 std::string HtmlReport::text() const {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +

@@ -18,6 +18,7 @@ class HtmlReport {
   // The first cell of a row is its name and stands left, the others right like numbers. Rows may be short.
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
   void picture(const std::string& svg, const std::string& caption = "");
+  void append(const HtmlReport& other);  // what another report says, without its title
 
   std::string text() const;
 

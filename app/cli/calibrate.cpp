@@ -1,0 +1,114 @@
+#include <cmath>
+
+#include "app/cli/command.h"
+#include "app/cli/terminal.h"
+#include "core/calibration/least_squares.h"
+#include "core/io/import/imported_recording.h"
+#include "core/io/vehicle_toml.h"
+#include "core/odometry/prediction.h"
+
+namespace odolab {
+
+namespace {
+
+struct CalibrateOptions {
+  std::string vehicle;
+  std::vector<std::string> recordings;
+  std::string out;
+};
+
+// Root mean square over recordings of the pose error gathered over a metre.
+struct PerMetre {
+  double position_sum = 0.0, heading_sum = 0.0;
+  int recordings = 0;
+
+  void add(const Recording& recording, const Vehicle& vehicle) {
+    const Result<Track> track = predicted_track(recording, vehicle);
+    if (!track) return;
+    const auto error = track_error(*track, truth_track(recording));
+    if (!error) return;
+    position_sum += error->position_rms_m * error->position_rms_m;
+    heading_sum += error->heading_rms_rad * error->heading_rms_rad;
+    ++recordings;
+  }
+  std::string text() const {
+    if (recordings == 0) return "not to be had: the truth has no heading";
+    return text_of("%.2f mm, %.3f degrees", 1e3 * std::sqrt(position_sum / recordings), degrees(std::sqrt(heading_sum / recordings)));
+  }
+};
+
+// Calibrates without each recording in turn and predicts the one left out.
+std::string held_out_text(const std::vector<Recording>& recordings, const Vehicle& nominal) {
+  PerMetre held_out;
+  for (std::size_t left_out = 0; left_out < recordings.size() && !interrupted(); ++left_out) {
+    std::vector<Recording> others = recordings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    const Result<LeastSquaresCalibration> fitted = calibrate_least_squares(others, nominal);
+    if (fitted) held_out.add(recordings[left_out], fitted->vehicle);
+  }
+  return held_out.text();
+}
+
+void print_calibration(const LeastSquaresCalibration& calibration) {
+  std::vector<std::vector<std::string>> rows{{"parameter", "before", "estimate", "+- (1 sigma)", "unit"}};
+  for (const ParameterEstimate& p : calibration.parameters)
+    rows.push_back({p.name, text_of("%.6g", p.nominal), p.determined ? text_of("%.7g", p.value) : "as before",
+                    p.determined ? text_of("%.1e", p.stderr_value) : "not determined", p.unit});
+  print_table(rows);
+  std::printf("\nnoise: %.2f mm per root metre on each wheel; truth %.2f mm", 1e3 * calibration.noise.wheel_m_per_sqrt_m,
+              1e3 * calibration.noise.truth_position_m);
+  if (calibration.noise.truth_heading_rad > 0.0) std::printf(", %.3f degrees", degrees(calibration.noise.truth_heading_rad));
+  std::printf("\nnormalised chi2 of the innovations: %.3f before, %.3f after, on %d of them (%d outliers set aside)\n",
+              calibration.normalised_chi2_nominal, calibration.normalised_chi2, calibration.innovations, calibration.outliers);
+  for (const std::string& sentence : calibration.cannot_tell) std::printf("cannot tell: %s\n", sentence.c_str());
+}
+
+int execute(const CalibrateOptions& options) {
+  const Result<Vehicle> nominal = read_vehicle(options.vehicle);
+  if (!nominal) return bad_input(nominal.error());
+  std::vector<Recording> recordings;
+  for (const std::string& path : options.recordings) {
+    Result<ImportedRecording> loaded = load_recording(path);
+    if (!loaded) return bad_input(loaded.error());
+    for (const std::string& warning : loaded->warnings) print_message("warning: " + path + ": " + warning);
+    recordings.push_back(std::move(loaded->recording));
+  }
+  const Result<LeastSquaresCalibration> calibration =
+      calibrate_least_squares(recordings, *nominal, {}, terminal_progress("calibrating"));
+  if (!calibration) return bad_input(calibration.error());
+  if (!options.out.empty())
+    if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written) return bad_input(written.error());
+
+  print_calibration(*calibration);
+  PerMetre before, after;
+  for (const Recording& recording : recordings) {
+    before.add(recording, *nominal);
+    after.add(recording, calibration->vehicle);
+  }
+  std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
+  std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
+  if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal)});
+  print_table(rows);
+  for (const std::string& warning : calibration->warnings) print_message("warning: " + warning);
+  if (!options.out.empty()) std::printf("\nwritten: %s\n", options.out.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+Command calibrate_command() {
+  const auto options = std::make_shared<CalibrateOptions>();
+  Command command;
+  command.name = "calibrate";
+  command.about = "Estimates a vehicle's parameters, with their uncertainty, from recordings with outside truth";
+  command.example = "odolab calibrate --vehicle labmate.toml run-1.csv run-2.csv --out calibrated.toml";
+  command.declare = [options](Arguments& arguments) {
+    arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
+    arguments.files("RECORDING", options->recordings, "one run each; OdoLab's CSV or a format that import knows", true);
+    arguments.option("--out", options->out, "the calibrated vehicle to write (TOML)");
+  };
+  command.execute = [options] { return execute(*options); };
+  return command;
+}
+
+}  // namespace odolab

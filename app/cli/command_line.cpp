@@ -1,0 +1,73 @@
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command.h"
+#include "app/cli/terminal.h"
+
+namespace odolab {
+
+namespace {
+
+std::vector<Command> commands() {
+  return {gui_command(), run_command(), calibrate_command(), predict_command(), import_command()};
+}
+
+class CliArguments : public Arguments {
+ public:
+  explicit CliArguments(CLI::App& app) : app_(app) {}
+
+  void file(const std::string& name, std::string& value, const std::string& about) override {
+    app_.add_option(name, value, about)->required();
+  }
+  void files(const std::string& name, std::vector<std::string>& values, const std::string& about, bool required) override {
+    app_.add_option(name, values, about)->required(required);
+  }
+  void option(const std::string& name, std::string& value, const std::string& about, bool required) override {
+    app_.add_option(name, value, about)->required(required);
+  }
+  void option(const std::string& name, int& value, const std::string& about) override { app_.add_option(name, value, about); }
+  void option(const std::string& name, double& value, const std::string& about) override { app_.add_option(name, value, about); }
+  void option(const std::string& name, std::uint64_t& value, bool& given, const std::string& about) override {
+    app_.add_option_function<std::uint64_t>(
+        name,
+        [&value, &given](const std::uint64_t& number) {
+          value = number;
+          given = true;
+        },
+        about);
+  }
+  void flag(const std::string& name, bool& value, const std::string& about) override { app_.add_flag(name, value, about); }
+
+ private:
+  CLI::App& app_;
+};
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"OdoLab: odometry of wheeled robots, simulated, calibrated and explained", "odolab"};
+  app.require_subcommand(0, 1);
+  app.set_version_flag("--version", "odolab " ODOLAB_VERSION);
+  app.footer("Exit codes: 0 done, 1 a check failed, 2 bad usage or bad input.\nodolab COMMAND --help shows an example of each.");
+  const std::vector<Command> list = commands();
+  std::vector<CLI::App*> subcommands;
+  for (const Command& command : list) {
+    CLI::App* sub = app.add_subcommand(command.name, command.about);
+    sub->footer("Example:\n  " + command.example);
+    CliArguments arguments(*sub);
+    command.declare(arguments);
+    subcommands.push_back(sub);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    print_error("odolab: " + std::string(error.what()) + "; see odolab --help");
+    return kBadInput;
+  }
+  catch_interrupts();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (subcommands[i]->parsed()) return list[i].execute();
+  return list.front().execute();
+}
+
+}  // namespace odolab

@@ -1,0 +1,44 @@
+#include "app/cli/command.h"
+#include "app/cli/terminal.h"
+#ifdef ODOLAB_HAS_GUI
+#include "app/gui/gui.h"
+#endif
+
+namespace odolab {
+
+#ifdef ODOLAB_HAS_GUI
+
+Command gui_command() {
+  const auto options = std::make_shared<GuiOptions>();
+  Command command;
+  command.name = "gui";
+  command.about = "Opens the window, with these scenarios, recordings or vehicles loaded";
+  command.example = "odolab gui assets/scenarios/square_with_cable.toml";
+  command.declare = [options](Arguments& arguments) {
+    arguments.files("FILE", options->files, "scenarios, recordings or vehicle files to open", false);
+    arguments.option("--screenshot", options->screenshot_path, "draw without a person and write this picture (PNG)");
+    arguments.option("--frames", options->frames, "how many frames to draw before the picture is taken");
+    arguments.option("--width", options->width, "width of the window in pixels");
+    arguments.option("--height", options->height, "height of the window in pixels");
+    arguments.option("--scale", options->scale, "size of text and controls, 1 for an ordinary screen; 0: the monitor's");
+    arguments.option("--mode", options->mode, "drive, calibrate or compare");
+  };
+  command.execute = [options] { return run_gui(*options); };
+  return command;
+}
+
+#else
+
+Command gui_command() {
+  Command command;
+  command.name = "gui";
+  command.about = "Opens the window (this program was built without it)";
+  command.example = "odolab gui";
+  command.declare = [](Arguments&) {};
+  command.execute = [] { return bad_input({"odolab gui", "a program built without the window", "one built with ODOLAB_GUI=ON"}); };
+  return command;
+}
+
+#endif
+
+}  // namespace odolab

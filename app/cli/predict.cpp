@@ -1,0 +1,48 @@
+#include "app/cli/command.h"
+#include "app/cli/terminal.h"
+#include "core/io/import/imported_recording.h"
+#include "core/io/track_csv.h"
+#include "core/io/vehicle_toml.h"
+#include "core/odometry/prediction.h"
+
+namespace odolab {
+
+namespace {
+
+struct PredictOptions {
+  std::string vehicle, recording, out;
+};
+
+int execute(const PredictOptions& options) {
+  const Result<Vehicle> vehicle = read_vehicle(options.vehicle);
+  if (!vehicle) return bad_input(vehicle.error());
+  const Result<ImportedRecording> loaded = load_recording(options.recording);
+  if (!loaded) return bad_input(loaded.error());
+  const Result<Track> track = predicted_track(loaded->recording, *vehicle);
+  if (!track) return bad_input(track.error());
+  if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
+  std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(), track->back().time_s - track->front().time_s);
+  if (const auto error = track_error(*track, truth_track(loaded->recording)))
+    std::printf("against the recorded truth: %.2f mm and %.3f degrees per metre, %.1f mm at the end\n", 1e3 * error->position_rms_m,
+                degrees(error->heading_rms_rad), 1e3 * error->end_position_m);
+  return kDone;
+}
+
+}  // namespace
+
+Command predict_command() {
+  const auto options = std::make_shared<PredictOptions>();
+  Command command;
+  command.name = "predict";
+  command.about = "Writes the track that a vehicle file predicts from a recording's encoders or commands alone";
+  command.example = "odolab predict --vehicle labmate.toml run.csv --out track.csv";
+  command.declare = [options](Arguments& arguments) {
+    arguments.option("--vehicle", options->vehicle, "the vehicle (TOML)", true);
+    arguments.file("RECORDING", options->recording, "the recording");
+    arguments.option("--out", options->out, "the track to write (CSV)", true);
+  };
+  command.execute = [options] { return execute(*options); };
+  return command;
+}
+
+}  // namespace odolab

@@ -1,0 +1,76 @@
+#include "app/cli/terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdarg>
+#include <cstdio>
+
+#include "app/cli/command.h"
+
+namespace odolab {
+
+namespace {
+volatile std::sig_atomic_t interrupt_seen = 0;
+
+// Characters on the screen: UTF-8 continuation bytes take no place.
+int width_of(const std::string& text) {
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+}  // namespace
+
+void print_error(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+void print_message(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+int bad_input(const Error& error) {
+  print_error(error.message());
+  return kBadInput;
+}
+
+std::string text_of(const char* format, ...) {
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+void print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<int> widths;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (widths.size() <= i) widths.push_back(0);
+      widths[i] = std::max(widths[i], width_of(row[i]));
+    }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string pad(static_cast<std::size_t>(widths[i] - width_of(row[i])), ' ');
+      line += (i > 0 ? "   " : "") + (i == 0 ? row[i] + pad : pad + row[i]);
+    }
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    std::printf("%s\n", line.c_str());
+  }
+}
+
+Progress terminal_progress(const std::string& label) {
+  const bool shown = isatty(STDERR_FILENO) != 0;
+  return [label, shown](double share) {
+    if (shown) {
+      std::fprintf(stderr, "\r%s %3.0f %%", label.c_str(), 100.0 * share);
+      if (share >= 1.0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(label.size()) + 6, "");
+      std::fflush(stderr);
+    }
+    return !interrupted();
+  };
+}
+
+void catch_interrupts() {
+  std::signal(SIGINT, [](int) { interrupt_seen = 1; });
+}
+
+bool interrupted() { return interrupt_seen != 0; }
+
+}  // namespace odolab
