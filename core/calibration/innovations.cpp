@@ -493,6 +493,12 @@ class PoseFilter {
         for (int q = 0; q <= r; ++q) information_(r, q) += a0 * jacobian_(0, q) + a1 * jacobian_(1, q) + a2 * jacobian_(2, q);
         score_(r) += a0 * white(0) + a1 * white(1) + a2 * white(2);
       }
+      if (options_.batch > 0) {
+        const std::size_t number = static_cast<std::size_t>(k / options_.batch);
+        if (sums_.batch_scores.size() <= number) sums_.batch_scores.resize(number + 1, std::vector<double>(p_, 0.0));
+        for (int r = 0; r < p_; ++r)
+          sums_.batch_scores[number][r] += jacobian_(0, r) * white(0) + jacobian_(1, r) * white(1) + jacobian_(2, r) * white(2);
+      }
       derivative_.noalias() -= gain_white * jacobian_;
     }
     state_ = {state_.x_m + moved(0), state_.y_m + moved(1), state_.heading_rad + moved(2)};

@@ -113,6 +113,7 @@ struct FilterOptions {
   bool derivatives = true;   // also information and score
   double gate = 0.0;         // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
   int first = 0, last = -1;  // truth samples to use; -1: to the end
+  int batch = 0;             // above 0: scores are also summed over batches of so many truth samples
   std::function<void(const Innovation&)> on_innovation;
 };
 
@@ -124,6 +125,7 @@ struct InnovationSums {
   int scalars = 0;
   std::vector<double> information;
   std::vector<double> score;
+  std::vector<std::vector<double>> batch_scores;
   std::vector<char> set_aside;  // as used: given or gated
   int restarts = 0;             // where so many samples in a row contradicted that the filter started anew
 };

@@ -19,6 +19,7 @@ struct LeastSquaresOptions {
   // Estimated beside radii and wheelbase, because a wrong one would bend them.
   bool fit_truth_mounting = true;
   bool fit_truth_clock = true;
+  bool one_truth_clock = false;  // the same offset in all recordings, instead of one for each
   int most_iterations = 30;
 };
 
@@ -36,6 +37,7 @@ struct LeastSquaresCalibration {
   Vehicle vehicle;                            // with the estimates put in
   std::vector<ParameterEstimate> parameters;
   std::vector<double> covariance;             // of the determined parameters in their order, row by row
+  std::vector<double> time_offset_s;          // of the truth's clock in each recording; the parameter is their mean
   FittedNoise noise;                          // from the same recordings
   std::vector<std::string> cannot_tell;       // what the recordings cannot determine, and which drive would, in words
   std::vector<std::string> warnings;
@@ -44,7 +46,8 @@ struct LeastSquaresCalibration {
   double normalised_chi2_nominal = 0.0;       // of the innovations, with the noise as fitted; 1 is a perfect fit
   double normalised_chi2 = 0.0;
   // Correlation of each whitened innovation with the next, of x, y and heading. Zero where the model is complete; else
-  // there is something that these parameters do not describe, and the standard errors are too small.
+  // there is something that these parameters do not describe. The standard errors are then enlarged to what the scatter
+  // of the score over batches of the recordings shows.
   double correlation[3] = {};
 };
 
