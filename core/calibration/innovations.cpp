@@ -1,9 +1,8 @@
 #include "core/calibration/innovations.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Dense>
 
 #include "core/odometry/differential_drive.h"
 
@@ -56,7 +55,8 @@ int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSam
   std::size_t k = 0;
   std::vector<double> rolled_m(wheels.size(), 0.0);
   for (std::size_t i = 1; i < wheels.size(); ++i)
-    rolled_m[i] = rolled_m[i - 1] + 0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
+    rolled_m[i] = rolled_m[i - 1] +
+                  0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
                   0.5 * drive.wheel_radius_right_m * std::abs(wheels[i].right_rad - wheels[i - 1].right_rad);
   const auto rolled_at = [&](double time_s) {
     while (k + 1 < wheels.size() && wheels[k].time_s < time_s) ++k;
@@ -64,8 +64,8 @@ int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSam
   };
   for (std::size_t i = 0; i < truth.size();) {
     std::size_t j = i + 1;
-    while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m && truth[j].position.y_m == truth[i].position.y_m &&
-           truth[j].heading_rad == truth[i].heading_rad)
+    while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
+           truth[j].position.y_m == truth[i].position.y_m && truth[j].heading_rad == truth[i].heading_rad)
       ++j;
     const double before_m = rolled_at(truth[i].time_s);
     const bool frozen = j - i >= 3 && rolled_at(truth[j - 1].time_s) - before_m > 0.02;
@@ -93,7 +93,8 @@ class WheelLine {
   }
   Rates rates(std::size_t i) const {
     const double dt = wheels_[i + 1].time_s - wheels_[i].time_s;
-    return {(wheels_[i + 1].left_rad - wheels_[i].left_rad) / dt, (wheels_[i + 1].right_rad - wheels_[i].right_rad) / dt};
+    return {(wheels_[i + 1].left_rad - wheels_[i].left_rad) / dt,
+            (wheels_[i + 1].right_rad - wheels_[i].right_rad) / dt};
   }
 
  private:
@@ -106,7 +107,8 @@ class WheelLine {
 Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle) {
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
   const std::string where = recording.name.empty() ? "recording" : recording.name;
-  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty()) return Error{where, "", problems.front()};
+  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
+    return Error{where, "", problems.front()};
   InnovationRun run;
   run.name = where;
   for (const WheelSample& w : wheel_samples(recording, drive))
@@ -124,10 +126,12 @@ Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& 
     if (truth.empty() || t.time_s > truth.back().time_s) truth.push_back(t);
   }
   run.frozen = leave_out_frozen(truth, run.wheels, vehicle);
-  const auto with_heading = std::count_if(truth.begin(), truth.end(), [](const TruthSample& t) { return t.heading_rad.has_value(); });
+  const auto with_heading =
+      std::count_if(truth.begin(), truth.end(), [](const TruthSample& t) { return t.heading_rad.has_value(); });
   run.truth_has_heading = 2 * with_heading > static_cast<std::ptrdiff_t>(truth.size());
   for (const TruthSample& t : truth) {
-    if (run.truth.empty() && run.truth_has_heading && !t.heading_rad) continue;  // a start needs a heading where there is one
+    if (run.truth.empty() && run.truth_has_heading && !t.heading_rad)
+      continue;  // a start needs a heading where there is one
     run.truth.push_back(t);
     if (!run.truth_has_heading) run.truth.back().heading_rad.reset();
   }
@@ -142,7 +146,8 @@ Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& 
 std::vector<DriveStep> drive_steps(const InnovationRun& run, const DifferentialDrive& drive) {
   std::vector<DriveStep> steps;
   steps.reserve(run.wheels.size() - 1);
-  Pose pose{run.truth.front().position.x_m, run.truth.front().position.y_m, run.truth.front().heading_rad.value_or(0.0)};
+  Pose pose{run.truth.front().position.x_m, run.truth.front().position.y_m,
+            run.truth.front().heading_rad.value_or(0.0)};
   for (std::size_t i = 0; i + 1 < run.wheels.size(); ++i) {
     const WheelSample &a = run.wheels[i], &b = run.wheels[i + 1];
     DriveStep step;
@@ -172,7 +177,9 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
 
   WheelLine line(run.wheels);
-  const auto time_of = [&](std::size_t truth_index) { return run.truth[truth_index].time_s - model.truth.time_offset_s; };
+  const auto time_of = [&](std::size_t truth_index) {
+    return run.truth[truth_index].time_s - model.truth.time_offset_s;
+  };
   double now_s = time_of(0);
   std::size_t i = line.interval_at(now_s);
 
@@ -188,12 +195,14 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     Vector3d velocity;
     const auto velocity_in = [&](std::size_t interval) {
       const Rates rate = line.rates(interval);
-      const double left = drive.wheel_radius_left_m * rate.left_radps, right = drive.wheel_radius_right_m * rate.right_radps;
+      const double left = drive.wheel_radius_left_m * rate.left_radps,
+                   right = drive.wheel_radius_right_m * rate.right_radps;
       Vector3d v(0.5 * (right + left), 0.0, (right - left) / b);
       const double dt = run.wheels[interval + 1].time_s - run.wheels[interval].time_s;
       for (const ExtraColumn& e : run.extra)
         if (e.value != 0.0)
-          v += e.value / dt * Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
+          v += e.value / dt *
+               Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
       return v;
     };
     i = line.interval_at(now_s);
@@ -286,7 +295,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
 namespace {
 
 // The heading that lays the first metres of dead reckoning onto a truth without headings.
-double heading_from_shape(const InnovationRun& run, const SummedRun& summed, const TruthMounting& mounting, int first, int last) {
+double heading_from_shape(const InnovationRun& run, const SummedRun& summed, const TruthMounting& mounting, int first,
+                          int last) {
   double cosine = 0.0, sine = 0.0, travelled = 0.0;
   Pose pose;
   const Vec2 m = mounting.axle_T_tracked.position(), start = pose * m;
@@ -304,15 +314,22 @@ double heading_from_shape(const InnovationRun& run, const SummedRun& summed, con
 
 class PoseFilter {
  public:
-  PoseFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model, const FilterOptions& options)
-      : run_(run), summed_(summed), model_(model), options_(options), p_(options.derivatives ? summed.columns : 0),
-        last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last), jacobian_(3, p_) {
+  PoseFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+             const FilterOptions& options)
+      : run_(run),
+        summed_(summed),
+        model_(model),
+        options_(options),
+        p_(options.derivatives ? summed.columns : 0),
+        last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last),
+        jacobian_(3, p_) {
     derivative_.setZero(3, p_);
     information_.setZero(p_, p_);
     score_.setZero(p_);
     const DifferentialDrive& drive = model.drive;
     const double count = count_rad(run, drive);
-    const double left = std::pow(count * drive.wheel_radius_left_m, 2) / 12.0, right = std::pow(count * drive.wheel_radius_right_m, 2) / 12.0;
+    const double left = std::pow(count * drive.wheel_radius_left_m, 2) / 12.0,
+                 right = std::pow(count * drive.wheel_radius_right_m, 2) / 12.0;
     const double b = drive.wheelbase_m;
     count_error_ << 0.25 * (left + right), 0.0, 0.5 * (right - left) / b, 0.0, 0.0, 0.0, 0.5 * (right - left) / b, 0.0,
         (left + right) / (b * b);
@@ -490,14 +507,16 @@ class PoseFilter {
       for (int j = 0; j < p_; ++j) whiten(&jacobian_(0, j));
       for (int r = 0; r < p_; ++r) {
         const double a0 = jacobian_(0, r), a1 = jacobian_(1, r), a2 = jacobian_(2, r);
-        for (int q = 0; q <= r; ++q) information_(r, q) += a0 * jacobian_(0, q) + a1 * jacobian_(1, q) + a2 * jacobian_(2, q);
+        for (int q = 0; q <= r; ++q)
+          information_(r, q) += a0 * jacobian_(0, q) + a1 * jacobian_(1, q) + a2 * jacobian_(2, q);
         score_(r) += a0 * white(0) + a1 * white(1) + a2 * white(2);
       }
       if (options_.batch > 0) {
         const std::size_t number = static_cast<std::size_t>(k / options_.batch);
         if (sums_.batch_scores.size() <= number) sums_.batch_scores.resize(number + 1, std::vector<double>(p_, 0.0));
         for (int r = 0; r < p_; ++r)
-          sums_.batch_scores[number][r] += jacobian_(0, r) * white(0) + jacobian_(1, r) * white(1) + jacobian_(2, r) * white(2);
+          sums_.batch_scores[number][r] +=
+              jacobian_(0, r) * white(0) + jacobian_(1, r) * white(1) + jacobian_(2, r) * white(2);
       }
       derivative_.noalias() -= gain_white * jacobian_;
     }

@@ -36,13 +36,13 @@ constexpr int first_extra = 7;
 
 // What the wheels did between two samples, for authors of extra columns. The pose is that of dead reckoning.
 struct DriveStep {
-  double time_s = 0.0;      // at the middle
+  double time_s = 0.0;  // at the middle
   double duration_s = 0.0;
-  double left_m = 0.0;      // rolled by each wheel
+  double left_m = 0.0;  // rolled by each wheel
   double right_m = 0.0;
   double turn_rad = 0.0;
-  double heading_rad = 0.0; // at the middle
-  Vec2 position;            // at the middle
+  double heading_rad = 0.0;  // at the middle
+  Vec2 position;             // at the middle
 };
 
 // A small motion of the body in its own frame.
@@ -52,7 +52,8 @@ struct BodyMotion {
   double turn_rad = 0.0;
 };
 
-// An effect on the motion, linear in its own value: `value` times `per_step[i]` is added between wheel samples i and i + 1.
+// An effect on the motion, linear in its own value: `value` times `per_step[i]` is added between wheel samples i and i
+// + 1.
 struct ExtraColumn {
   std::string name;
   double value = 0.0;
@@ -87,8 +88,8 @@ struct InnovationModel {
 // The motion between two truth samples, in the frame of the first.
 struct RelativeMotion {
   Pose motion;
-  double wheel_noise[6] = {};    // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
-  double count_noise[6] = {};    // covariance of the count fractions that a wheel leaves behind when it starts from rest
+  double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
+  double count_noise[6] = {};  // covariance of the count fractions that a wheel leaves behind when it starts from rest
 };
 struct SummedRun {
   std::vector<RelativeMotion> motions;  // [i] leads from truth sample i to i + 1
@@ -101,11 +102,11 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model);
 struct Innovation {
   double time_s = 0.0;
   int truth_index = 0;
-  int size = 0;                  // 3, or 2 where the truth has no heading
-  double residual[3] = {};       // truth minus prediction: x, y, heading
-  double covariance[6] = {};     // xx, xy, xh, yy, yh, hh
-  double white[3] = {};          // the residual made white by the Cholesky factor: independent, of size 1
-  double squared = 0.0;          // residual' covariance^-1 residual
+  int size = 0;               // 3, or 2 where the truth has no heading
+  double residual[3] = {};    // truth minus prediction: x, y, heading
+  double covariance[6] = {};  // xx, xy, xh, yy, yh, hh
+  double white[3] = {};       // the residual made white by the Cholesky factor: independent, of size 1
+  double squared = 0.0;       // residual' covariance^-1 residual
   bool set_aside = false;
 };
 
@@ -117,8 +118,8 @@ struct FilterOptions {
   std::function<void(const Innovation&)> on_innovation;
 };
 
-// Sums over innovations. With p columns: `information` is sum J' S^-1 J (p by p, row by row), `score` sum J' S^-1 nu, where
-// J is the derivative of the prediction.
+// Sums over innovations. With p columns: `information` is sum J' S^-1 J (p by p, row by row), `score` sum J' S^-1 nu,
+// where J is the derivative of the prediction.
 struct InnovationSums {
   double chi2 = 0.0;
   double log_determinant = 0.0;

@@ -1,11 +1,10 @@
 #include "core/calibration/least_squares.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-
-#include <Eigen/Dense>
 
 #include "core/calibration/minimise.h"
 
@@ -18,10 +17,10 @@ using Eigen::VectorXd;
 
 constexpr int kColumns = column::first_extra;
 constexpr int kShared = column::truth_clock;  // columns that all recordings share; then a clock for each recording
-constexpr double kGate = 30.0;             // squared size of an innovation; 1.4e-6 of normal ones of three channels are larger
-constexpr double kDetermined = 0.1;        // share of its prior that a determined parameter's standard error stays below
-constexpr int kNoiseSamples = 6000;        // truth samples that the noise is fitted to
-constexpr int kNoiseStretch = 500;         // in stretches of this many
+constexpr double kGate = 30.0;  // squared size of an innovation; 1.4e-6 of normal ones of three channels are larger
+constexpr double kDetermined = 0.1;  // share of its prior that a determined parameter's standard error stays below
+constexpr int kNoiseSamples = 6000;  // truth samples that the noise is fitted to
+constexpr int kNoiseStretch = 500;   // in stretches of this many
 
 struct ColumnName {
   const char* key;
@@ -52,20 +51,28 @@ struct Parameters {
 double& entry(Parameters& parameters, int c) {
   InnovationModel& model = parameters.shared;
   switch (c) {
-    case column::wheel_radius_left: return model.drive.wheel_radius_left_m;
-    case column::wheel_radius_right: return model.drive.wheel_radius_right_m;
-    case column::wheelbase: return model.drive.wheelbase_m;
-    case column::mounting_x: return model.truth.axle_T_tracked.x_m;
-    case column::mounting_y: return model.truth.axle_T_tracked.y_m;
-    case column::mounting_heading: return model.truth.axle_T_tracked.heading_rad;
-    default: return parameters.clock_s[c - kShared];
+    case column::wheel_radius_left:
+      return model.drive.wheel_radius_left_m;
+    case column::wheel_radius_right:
+      return model.drive.wheel_radius_right_m;
+    case column::wheelbase:
+      return model.drive.wheelbase_m;
+    case column::mounting_x:
+      return model.truth.axle_T_tracked.x_m;
+    case column::mounting_y:
+      return model.truth.axle_T_tracked.y_m;
+    case column::mounting_heading:
+      return model.truth.axle_T_tracked.heading_rad;
+    default:
+      return parameters.clock_s[c - kShared];
   }
 }
 
 // How far from its nominal value each parameter may be expected: a standard deviation in its own unit.
 std::vector<double> prior_sizes(const Parameters& nominal) {
   const DifferentialDrive& drive = nominal.shared.drive;
-  std::vector<double> sizes = {0.1 * drive.wheel_radius_left_m, 0.1 * drive.wheel_radius_right_m, 0.1 * drive.wheelbase_m, 0.2, 0.2, 0.3};
+  std::vector<double> sizes = {
+      0.1 * drive.wheel_radius_left_m, 0.1 * drive.wheel_radius_right_m, 0.1 * drive.wheelbase_m, 0.2, 0.2, 0.3};
   sizes.resize(nominal.size(), 0.2);
   return sizes;
 }
@@ -88,7 +95,7 @@ class Fit {
     int scalars = 0;
     MatrixXd information;  // in units of the prior sizes
     VectorXd score;
-    MatrixXd scatter;      // of the score over batches
+    MatrixXd scatter;  // of the score over batches
     int batches = 0;
   };
 
@@ -105,7 +112,8 @@ class Fit {
     return total;
   }
 
-  // Levenberg and Marquardt on sum nu' S^-1 nu plus the prior of the active parameters; `weight` 0 leaves the prior out.
+  // Levenberg and Marquardt on sum nu' S^-1 nu plus the prior of the active parameters; `weight` 0 leaves the prior
+  // out.
   void fit_parameters(const std::vector<int>& active, double weight, int most_iterations) {
     const auto objective = [&](const Sums& s, const Parameters& at) { return s.chi2 + weight * prior_of(at, active); };
     Sums now = sums(now_, true);
@@ -148,8 +156,9 @@ class Fit {
     }
   }
 
-  // Maximum likelihood of the noise sizes with the parameters held. With few innovations the freedom that the parameters
-  // took is counted too (restricted likelihood, Patterson and Thompson 1971), so that the noise is not fitted too small.
+  // Maximum likelihood of the noise sizes with the parameters held. With few innovations the freedom that the
+  // parameters took is counted too (restricted likelihood, Patterson and Thompson 1971), so that the noise is not
+  // fitted too small.
   void fit_noise(const std::vector<int>& active, double first_stride) {
     std::vector<SummedRun> summed;
     bool any_heading = false;
@@ -160,7 +169,8 @@ class Fit {
     const std::vector<Stretch> stretches = noise_stretches();
     const bool restricted = truth_samples() < 1000;
     const auto noise_of = [&](const std::vector<double>& logs) {
-      return FittedNoise{std::exp(logs[0]), std::exp(logs[1]), any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad};
+      return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
+                         any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad};
     };
     const auto objective = [&](const std::vector<double>& logs) {
       Sums total = none();
@@ -326,7 +336,8 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   const auto open = [&](int c) { return std::find(active.begin(), active.end(), c) != active.end() && !determined[c]; };
   bool some_clock_is_open = false;
   for (int c : active) some_clock_is_open = some_clock_is_open || (c >= kShared && !determined[c]);
-  const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right), base = open(column::wheelbase);
+  const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right),
+             base = open(column::wheelbase);
   // The direction in the space of radii and wheelbase along which all of them grow together.
   bool scale_is_open = false;
   if (left && right && base) {
@@ -343,12 +354,18 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
     sentences.push_back(std::string(left && right ? "wheel_radius_left_m and wheel_radius_right_m"
                                     : left        ? "wheel_radius_left_m"
                                                   : "wheel_radius_right_m") +
-                        ": too little travel against the truth's noise" + so_far + "; drive a straight of a few metres");
+                        ": too little travel against the truth's noise" + so_far +
+                        "; drive a straight of a few metres");
   if (base && !scale_is_open)
-    sentences.push_back("wheelbase_m: the robot hardly turned" + so_far + "; drive a full turn on the spot each way, or arcs");
+    sentences.push_back("wheelbase_m: the robot hardly turned" + so_far +
+                        "; drive a full turn on the spot each way, or arcs");
   if (open(column::mounting_x) || open(column::mounting_y))
-    sentences.push_back(std::string("truth_mounting.") + (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m" : open(column::mounting_x) ? "x_m" : "y_m") +
-                        ": the tracked point's place on the vehicle shows in turns only, and its side only beside straights or arcs both ways" +
+    sentences.push_back(std::string("truth_mounting.") +
+                        (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m"
+                         : open(column::mounting_x)                           ? "x_m"
+                                                                              : "y_m") +
+                        ": the tracked point's place on the vehicle shows in turns only, and its side only beside "
+                        "straights or arcs both ways" +
                         so_far + "; drive turns on the spot and arcs with the truth sampled on the way");
   if (open(column::mounting_heading))
     sentences.push_back("truth_mounting.heading_rad: no straight long enough to see the direction of travel" + so_far +
@@ -356,18 +373,21 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   else if (!any_heading)
     sentences.push_back("truth_mounting.heading_rad: the truth has no heading, so there is none to align");
   if (some_clock_is_open)
-    sentences.push_back("truth_mounting.time_offset_s: nothing happened at a time that the truth would show; drive with "
-                        "starts, stops and turns and sample the truth on the way");
+    sentences.push_back(
+        "truth_mounting.time_offset_s: nothing happened at a time that the truth would show; drive with "
+        "starts, stops and turns and sample the truth on the way");
   return sentences;
 }
 
 }  // namespace
 
-Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                                                        const LeastSquaresOptions& options, const Progress& progress) {
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
+                                                        const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                        const Progress& progress) {
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (!drive) return Error{nominal.name, "another kind of vehicle", "a differential drive"};
-  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty()) return Error{nominal.name, "", problems.front()};
+  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
+    return Error{nominal.name, "", problems.front()};
   if (recordings.empty()) return Error{"recordings", "none", "one or more"};
   std::vector<InnovationRun> runs;
   bool any_heading = false;
@@ -391,8 +411,8 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     for (int c = kShared; c < start.size(); ++c) active.push_back(c);
   Fit fit(std::move(runs), start);
 
-  // Parameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where nothing is
-  // odd, since each depends little on the others.
+  // Parameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where nothing
+  // is odd, since each depends little on the others.
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     const FittedNoise before = fit.now().shared.noise;
@@ -447,7 +467,8 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   // Where the innovations are correlated, the scatter of the score says more than the model, Eq. 12. Under the null a
   // correlation scatters by 1 / sqrt(n): four of them and a tenth are beyond chance and not negligible.
   const double by_chance = 4.0 / std::sqrt(std::max(1.0, result.innovations / (any_heading ? 3.0 : 2.0)));
-  const double largest = std::max({std::abs(result.correlation[0]), std::abs(result.correlation[1]), std::abs(result.correlation[2])});
+  const double largest =
+      std::max({std::abs(result.correlation[0]), std::abs(result.correlation[1]), std::abs(result.correlation[2])});
   if (largest > std::max(0.1, by_chance)) {
     double most = 1.0;
     if (final_sums.batches >= kBatches / 2) {
@@ -461,9 +482,10 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
       covariance = factor.asDiagonal() * covariance * factor.asDiagonal();
       most = factor.maxCoeff();
     }
-    result.warnings.push_back(text("the innovations are correlated (%.2f from one to the next): there is something that these "
-                                   "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
-                                   largest, most));
+    result.warnings.push_back(
+        text("the innovations are correlated (%.2f from one to the next): there is something that these "
+             "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
+             largest, most));
   }
 
   // As reported: the shared parameters, and the mean of the clocks weighted by their precision.
@@ -471,16 +493,19 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   double weights = 0.0;
   for (int k = 0; k < n; ++k) {
     if (active[k] < kShared) reported(active[k], k) = 1.0;
-    if (active[k] >= kShared && determined[active[k]]) weights += reported(column::truth_clock, k) = 1.0 / covariance(k, k);
+    if (active[k] >= kShared && determined[active[k]])
+      weights += reported(column::truth_clock, k) = 1.0 / covariance(k, k);
   }
   if (weights > 0.0) reported.row(column::truth_clock) /= weights;
   const MatrixXd reported_covariance = reported * covariance * reported.transpose();
   double clock_s = nominal.truth.time_offset_s, clock_scatter = 0.0;
   for (int k = 0; k < n; ++k)
-    if (active[k] >= kShared) clock_s += reported(column::truth_clock, k) * (Fit::value(fit.now(), active[k]) - nominal.truth.time_offset_s);
+    if (active[k] >= kShared)
+      clock_s += reported(column::truth_clock, k) * (Fit::value(fit.now(), active[k]) - nominal.truth.time_offset_s);
   std::vector<int> shown;
   for (int c = 0; c < kColumns; ++c) {
-    if (c == column::truth_clock ? !options.fit_truth_clock : c > column::wheelbase && !options.fit_truth_mounting) continue;
+    if (c == column::truth_clock ? !options.fit_truth_clock : c > column::wheelbase && !options.fit_truth_mounting)
+      continue;
     const auto at = std::find(active.begin(), active.end(), c);
     ParameterEstimate p;
     p.name = kNames[c].key;
@@ -503,7 +528,8 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     const int c = fit.now().clock_of(static_cast<int>(r));
     if (!determined[c]) continue;
     const auto k = std::find(active.begin(), active.end(), c) - active.begin();
-    clock_scatter = std::max(clock_scatter, std::abs(result.time_offset_s.back() - clock_s) / (fit.prior(c) * std::sqrt(covariance(k, k))));
+    clock_scatter = std::max(
+        clock_scatter, std::abs(result.time_offset_s.back() - clock_s) / (fit.prior(c) * std::sqrt(covariance(k, k))));
   }
 
   result.vehicle = nominal;
@@ -512,7 +538,8 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   result.vehicle.truth.time_offset_s = clock_s;
   result.noise = model.noise;
   if (!any_heading) result.noise.truth_heading_rad = 0.0;
-  result.cannot_tell = what_cannot_be_told(determined, active, information, driven_in(fit.runs(), model.drive), any_heading);
+  result.cannot_tell =
+      what_cannot_be_told(determined, active, information, driven_in(fit.runs(), model.drive), any_heading);
   result.normalised_chi2 = final_sums.chi2 / std::max(1, final_sums.scalars);
   Parameters as_nominal = start;
   as_nominal.shared.noise = model.noise;
@@ -526,20 +553,23 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   }
 
   if (frozen > 0)
-    result.warnings.push_back(std::to_string(frozen) + " truth samples repeat themselves while the wheels turn and were left out");
+    result.warnings.push_back(std::to_string(frozen) +
+                              " truth samples repeat themselves while the wheels turn and were left out");
   if (fit.restarts() > 0)
-    result.warnings.push_back("the truth contradicts the wheels for 20 samples or more at " + std::to_string(fit.restarts()) +
-                              " places; the fit starts anew behind them");
+    result.warnings.push_back("the truth contradicts the wheels for 20 samples or more at " +
+                              std::to_string(fit.restarts()) + " places; the fit starts anew behind them");
   if (result.outliers > 0.02 * samples)
     result.warnings.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
                               " truth samples contradict their neighbours and were set aside");
   if (clock_scatter > 5.0) {
     const auto [least, most] = std::minmax_element(result.time_offset_s.begin(), result.time_offset_s.end());
-    result.warnings.push_back(text("the truth's clock differs between the recordings: from %.3f s to %.3f s", *least, *most));
+    result.warnings.push_back(
+        text("the truth's clock differs between the recordings: from %.3f s to %.3f s", *least, *most));
   }
   for (const ParameterEstimate& p : result.parameters)
     if (p.determined && p.unit == "m" && p.name.rfind("wheel", 0) == 0 && std::abs(p.value / p.nominal - 1.0) > 0.1)
-      result.warnings.push_back(p.name + text(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
+      result.warnings.push_back(p.name +
+                                text(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
   return result;
 }
 

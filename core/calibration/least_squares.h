@@ -25,7 +25,7 @@ struct LeastSquaresOptions {
 
 // One estimated parameter.
 struct ParameterEstimate {
-  std::string name;        // the vehicle file's key: "wheel_radius_left_m", "truth_mounting.x_m", ...
+  std::string name;  // the vehicle file's key: "wheel_radius_left_m", "truth_mounting.x_m", ...
   std::string unit;
   double nominal = 0.0;
   double value = 0.0;
@@ -34,16 +34,16 @@ struct ParameterEstimate {
 };
 
 struct LeastSquaresCalibration {
-  Vehicle vehicle;                            // with the estimates put in
+  Vehicle vehicle;  // with the estimates put in
   std::vector<ParameterEstimate> parameters;
-  std::vector<double> covariance;             // of the determined parameters in their order, row by row
-  std::vector<double> time_offset_s;          // of the truth's clock in each recording; the parameter is their mean
-  FittedNoise noise;                          // from the same recordings
-  std::vector<std::string> cannot_tell;       // what the recordings cannot determine, and which drive would, in words
+  std::vector<double> covariance;        // of the determined parameters in their order, row by row
+  std::vector<double> time_offset_s;     // of the truth's clock in each recording; the parameter is their mean
+  FittedNoise noise;                     // from the same recordings
+  std::vector<std::string> cannot_tell;  // what the recordings cannot determine, and which drive would, in words
   std::vector<std::string> warnings;
-  int innovations = 0;                        // scalar measurements used
-  int outliers = 0;                           // truth samples set aside because they contradict their neighbours
-  double normalised_chi2_nominal = 0.0;       // of the innovations, with the noise as fitted; 1 is a perfect fit
+  int innovations = 0;                   // scalar measurements used
+  int outliers = 0;                      // truth samples set aside because they contradict their neighbours
+  double normalised_chi2_nominal = 0.0;  // of the innovations, with the noise as fitted; 1 is a perfect fit
   double normalised_chi2 = 0.0;
   // Correlation of each whitened innovation with the next, of x, y and heading. Zero where the model is complete; else
   // there is something that these parameters do not describe. The standard errors are then enlarged to what the scatter
@@ -53,7 +53,8 @@ struct LeastSquaresCalibration {
 
 // Needs wheel samples and two truth samples or more in each recording; else an Error that names the recording.
 // Stops with an Error where `progress` says so.
-Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                                                        const LeastSquaresOptions& options = {}, const Progress& progress = {});
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
+                                                        const Vehicle& nominal, const LeastSquaresOptions& options = {},
+                                                        const Progress& progress = {});
 
 }  // namespace odolab

@@ -9,8 +9,8 @@ namespace odolab {
 
 // Starts from a simplex of the given stride about `start`; ends where the values at its corners differ by less than
 // `tolerance`, or after `most_calls`.
-inline std::vector<double> minimised(const std::function<double(const std::vector<double>&)>& value, std::vector<double> start,
-                                     double stride, double tolerance, int most_calls) {
+inline std::vector<double> minimised(const std::function<double(const std::vector<double>&)>& value,
+                                     std::vector<double> start, double stride, double tolerance, int most_calls) {
   struct Corner {
     std::vector<double> at;
     double value;
@@ -28,7 +28,9 @@ inline std::vector<double> minimised(const std::function<double(const std::vecto
     at[k] += stride;
     simplex.push_back(corner_at(std::move(at)));
   }
-  const auto sort = [&] { std::sort(simplex.begin(), simplex.end(), [](const Corner& a, const Corner& b) { return a.value < b.value; }); };
+  const auto sort = [&] {
+    std::sort(simplex.begin(), simplex.end(), [](const Corner& a, const Corner& b) { return a.value < b.value; });
+  };
   for (sort(); calls < most_calls && simplex.back().value - simplex.front().value > tolerance; sort()) {
     std::vector<double> centre(n, 0.0);
     for (std::size_t c = 0; c < n; ++c)

@@ -1,10 +1,9 @@
 #include "core/calibration/umbmark.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include <Eigen/Dense>
 
 namespace odolab {
 
@@ -39,7 +38,8 @@ Eigen::Matrix2d pooled_covariance(const UmbmarkRuns& runs, const UmbmarkMeasure&
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   const auto add = [&](const Errors& errors, const Cluster& cluster, double mirror) {
     for (const ReturnError& e : errors) {
-      const Eigen::Vector2d off(e.x_m - cluster.centre_of_gravity.x_m, mirror * (e.y_m - cluster.centre_of_gravity.y_m));
+      const Eigen::Vector2d off(e.x_m - cluster.centre_of_gravity.x_m,
+                                mirror * (e.y_m - cluster.centre_of_gravity.y_m));
       sum += off * off.transpose();
     }
   };
@@ -82,8 +82,8 @@ ReturnError square_return_error(const TypeErrors& errors, double side_m, bool cl
   const double beta = errors.beta_rad;
   const double chord_m = std::abs(beta) < 1e-9 ? side_m : side_m * std::sin(0.5 * beta) / (0.5 * beta);
   const double turn_rad = way * (kCorner - errors.alpha_rad);
-  // The right wheel rolls (1 + e), the left one (1 - e) of what the robot believes, e = beta b / 2L; in a turn they roll
-  // against each other, and the centre moves by e times the way of one wheel.
+  // The right wheel rolls (1 + e), the left one (1 - e) of what the robot believes, e = beta b / 2L; in a turn they
+  // roll against each other, and the centre moves by e times the way of one wheel.
   const double shift_arc_m = 0.5 * beta * wheelbase_m / side_m * 0.5 * wheelbase_m * turn_rad;
   const double shift_m = shift_arc_m * std::sin(0.5 * turn_rad) / (0.5 * turn_rad);
   Pose pose;
@@ -123,8 +123,7 @@ std::optional<UmbmarkCalibration> calibrate_umbmark(const UmbmarkRuns& runs, con
   c.exact = kept_physical(c.printed);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector4d left = centres - predicted(c.exact, runs.side_m, nominal.wheelbase_m);
-    const Eigen::Vector2d step =
-        jacobian(c.exact, runs.side_m, nominal.wheelbase_m).colPivHouseholderQr().solve(left);
+    const Eigen::Vector2d step = jacobian(c.exact, runs.side_m, nominal.wheelbase_m).colPivHouseholderQr().solve(left);
     c.exact = kept_physical({c.exact.alpha_rad + step(0), c.exact.beta_rad + step(1)});
     if (step.norm() < 1e-14) break;
   }
@@ -132,7 +131,8 @@ std::optional<UmbmarkCalibration> calibrate_umbmark(const UmbmarkRuns& runs, con
 
   c.wheelbase_ratio = wheelbase_ratio(c.exact.alpha_rad);  // Eq. 6.29
   const double wheelbase_m = nominal.wheelbase_m * c.wheelbase_ratio;
-  c.curvature_radius_m = c.exact.beta_rad == 0.0 ? std::numeric_limits<double>::infinity() : runs.side_m / c.exact.beta_rad;
+  c.curvature_radius_m =
+      c.exact.beta_rad == 0.0 ? std::numeric_limits<double>::infinity() : runs.side_m / c.exact.beta_rad;
   const double half_over_radius = 0.5 * wheelbase_m / c.curvature_radius_m;
   c.wheel_diameter_ratio = (1.0 + half_over_radius) / (1.0 - half_over_radius);  // Eq. 6.24
 
@@ -151,7 +151,8 @@ std::optional<UmbmarkCalibration> calibrate_umbmark(const UmbmarkRuns& runs, con
   const Eigen::DiagonalMatrix<double, 2> mirror(1.0, -1.0);
   Eigen::Matrix4d of_centres = Eigen::Matrix4d::Zero();
   of_centres.topLeftCorner<2, 2>() = of_a_run / static_cast<double>(runs.clockwise.size());
-  of_centres.bottomRightCorner<2, 2>() = mirror * of_a_run * mirror / static_cast<double>(runs.counter_clockwise.size());
+  of_centres.bottomRightCorner<2, 2>() =
+      mirror * of_a_run * mirror / static_cast<double>(runs.counter_clockwise.size());
   const Eigen::Matrix<double, 4, 2> j = jacobian(c.exact, runs.side_m, nominal.wheelbase_m);
   const Eigen::Matrix<double, 2, 4> to_errors = (j.transpose() * j).inverse() * j.transpose();
   const Eigen::Matrix2d of_errors = to_errors * of_centres * to_errors.transpose();
@@ -189,13 +190,15 @@ std::optional<OneDirectionCalibration> calibrate_one_direction(const UmbmarkRuns
 }
 
 std::optional<ExtendedUmbmark> measure_extended_umbmark(const UmbmarkRuns& smooth, const UmbmarkRuns& with_bumps) {
-  for (const Errors* errors : {&smooth.clockwise, &smooth.counter_clockwise, &with_bumps.clockwise, &with_bumps.counter_clockwise})
+  for (const Errors* errors :
+       {&smooth.clockwise, &smooth.counter_clockwise, &with_bumps.clockwise, &with_bumps.counter_clockwise})
     if (errors->empty()) return std::nullopt;
   ExtendedUmbmark result;
   result.systematic_bias_clockwise_rad = cluster_of(smooth.clockwise).mean_heading_rad;                  // Eq. 3.6
   result.systematic_bias_counter_clockwise_rad = cluster_of(smooth.counter_clockwise).mean_heading_rad;  //
   double sum = 0.0;
-  for (const ReturnError& e : with_bumps.clockwise) sum += std::abs(e.heading_rad - result.systematic_bias_clockwise_rad);
+  for (const ReturnError& e : with_bumps.clockwise)
+    sum += std::abs(e.heading_rad - result.systematic_bias_clockwise_rad);
   for (const ReturnError& e : with_bumps.counter_clockwise)
     sum += std::abs(e.heading_rad - result.systematic_bias_counter_clockwise_rad);
   const std::size_t runs = with_bumps.clockwise.size() + with_bumps.counter_clockwise.size();

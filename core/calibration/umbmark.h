@@ -26,11 +26,11 @@ struct UmbmarkRuns {
 
 // The return position errors of one direction.
 struct Cluster {
-  Vec2 centre_of_gravity;            // Eq. 3.2
-  double distance_m = 0.0;           // r_c.g., Eq. 3.3
-  double mean_heading_rad = 0.0;     // Eq. 3.6
-  double spread_m = 0.0;             // estimated standard deviation of the positions: sqrt(var x + var y)
-  double standard_error_m = 0.0;     // SEM = spread / sqrt(n)
+  Vec2 centre_of_gravity;         // Eq. 3.2
+  double distance_m = 0.0;        // r_c.g., Eq. 3.3
+  double mean_heading_rad = 0.0;  // Eq. 3.6
+  double spread_m = 0.0;          // estimated standard deviation of the positions: sqrt(var x + var y)
+  double standard_error_m = 0.0;  // SEM = spread / sqrt(n)
 };
 
 // The measure of dead-reckoning accuracy.
@@ -55,27 +55,27 @@ struct TypeErrors {
   double beta_rad = 0.0;
 };
 
-// Where a robot with these errors ends a square that it believes to have closed: four arcs of the side's length and four
-// turns, each of which also shifts the centre a little since the wheels are unequal (Appendix A). README, Eq. 1.
+// Where a robot with these errors ends a square that it believes to have closed: four arcs of the side's length and
+// four turns, each of which also shifts the centre a little since the wheels are unequal (Appendix A). README, Eq. 1.
 // The robot's true wheelbase only matters for that shift.
 ReturnError square_return_error(const TypeErrors& errors, double side_m, bool clockwise, double wheelbase_m);
 
 // What the two clusters say about the vehicle.
 struct UmbmarkCalibration {
-  TypeErrors from_x;     // Eqs. 6.26a, 6.22a
-  TypeErrors from_y;     // Eqs. 6.26b, 6.22b
-  TypeErrors printed;    // the mean of both: all four coordinates, to first order as in the report
-  TypeErrors exact;      // least squares over all four coordinates on the exact path; used below
-  double residual_m = 0.0;              // what alpha and beta together leave of the four coordinates, root mean square
-  double curvature_radius_m = 0.0;      // R, Eq. 6.23, the side being the arc and not its chord; infinite where straight
-  double wheel_diameter_ratio = 1.0;    // Ed = D_R / D_L, Eq. 6.24
-  double wheelbase_ratio = 1.0;         // Eb = b_actual / b_nominal, Eq. 6.29
-  double left_factor = 1.0;             // c_L, Eq. 6.33
-  double right_factor = 1.0;            // c_R, Eq. 6.34
+  TypeErrors from_x;                  // Eqs. 6.26a, 6.22a
+  TypeErrors from_y;                  // Eqs. 6.26b, 6.22b
+  TypeErrors printed;                 // the mean of both: all four coordinates, to first order as in the report
+  TypeErrors exact;                   // least squares over all four coordinates on the exact path; used below
+  double residual_m = 0.0;            // what alpha and beta together leave of the four coordinates, root mean square
+  double curvature_radius_m = 0.0;    // R, Eq. 6.23, the side being the arc and not its chord; infinite where straight
+  double wheel_diameter_ratio = 1.0;  // Ed = D_R / D_L, Eq. 6.24
+  double wheelbase_ratio = 1.0;       // Eb = b_actual / b_nominal, Eq. 6.29
+  double left_factor = 1.0;           // c_L, Eq. 6.33
+  double right_factor = 1.0;          // c_R, Eq. 6.34
   // Standard errors from the spread of the runs; zero where there is one run a direction.
   double wheel_diameter_ratio_stderr = 0.0;
   double wheelbase_ratio_stderr = 0.0;
-  DifferentialDrive corrected;          // Eqs. 6.28 and 6.35 applied to the nominal drive; the mean diameter stays (6.30)
+  DifferentialDrive corrected;  // Eqs. 6.28 and 6.35 applied to the nominal drive; the mean diameter stays (6.30)
 };
 
 std::optional<UmbmarkCalibration> calibrate_umbmark(const UmbmarkRuns& runs, const DifferentialDrive& nominal);

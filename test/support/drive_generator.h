@@ -1,5 +1,6 @@
-// A differential drive on paper: smooth wheel speeds, exact arcs in steps of half a millisecond, slip that is injected in each of
-// them, encoders that count whole counts, and a truth on its own clock and mounting. It shares no formula with the filter.
+// A differential drive on paper: smooth wheel speeds, exact arcs in steps of half a millisecond, slip that is injected
+// in each of them, encoders that count whole counts, and a truth on its own clock and mounting. It shares no formula
+// with the filter.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +31,8 @@ struct GeneratorSettings {
   double truth_period_s = 0.05;  // 0: only at the start and at the end
   double truth_phase_s = 0.0033;
   bool truth_has_heading = true;
-  bool counts = true;            // false: rotations are exact
-  double wheel_noise = 0.0;      // m per root metre, each wheel
+  bool counts = true;        // false: rotations are exact
+  double wheel_noise = 0.0;  // m per root metre, each wheel
   double truth_position_noise_m = 0.0;
   double truth_heading_noise_rad = 0.0;
   Pose start;
@@ -48,7 +49,8 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
     const WheelSpeedsAt w = profile((static_cast<double>(i) + 0.5) * dt);
     left += w.left_radps * dt;
     right += w.right_radps * dt;
-    const double l = g.drive.wheel_radius_left_m * w.left_radps * dt, r = g.drive.wheel_radius_right_m * w.right_radps * dt;
+    const double l = g.drive.wheel_radius_left_m * w.left_radps * dt,
+                 r = g.drive.wheel_radius_right_m * w.right_radps * dt;
     const double slip_l = g.wheel_noise > 0.0 ? g.wheel_noise * std::sqrt(std::abs(l)) * random.normal() : 0.0;
     const double slip_r = g.wheel_noise > 0.0 ? g.wheel_noise * std::sqrt(std::abs(r)) * random.normal() : 0.0;
     const double floor_l = l + slip_l, floor_r = r + slip_r;
@@ -58,7 +60,8 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
       pose = {pose.x_m + way * std::cos(h), pose.y_m + way * std::sin(h), h + turn};
     } else {  // about the instantaneous centre
       const double radius = way / turn;
-      pose = {pose.x_m + radius * (std::sin(h + turn) - std::sin(h)), pose.y_m - radius * (std::cos(h + turn) - std::cos(h)), h + turn};
+      pose = {pose.x_m + radius * (std::sin(h + turn) - std::sin(h)),
+              pose.y_m - radius * (std::cos(h + turn) - std::cos(h)), h + turn};
     }
     left_path.push_back(left);
     right_path.push_back(right);
@@ -84,7 +87,8 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
     add_truth(0.0);
     add_truth(g.duration_s);
   } else {
-    for (double t = std::round(g.truth_phase_s / dt) * dt; t <= g.duration_s; t += g.truth_period_s) add_truth(std::round(t / dt) * dt);
+    for (double t = std::round(g.truth_phase_s / dt) * dt; t <= g.duration_s; t += g.truth_period_s)
+      add_truth(std::round(t / dt) * dt);
   }
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time_s < b.time_s; });
   Recording recording;
@@ -101,10 +105,13 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
     } else {
       const Pose& m = g.truth.axle_T_tracked;
       const double h = poses[k].heading_rad;
-      recording.channels[2].values[i] = poses[k].x_m + m.x_m * std::cos(h) - m.y_m * std::sin(h) + g.truth_position_noise_m * random.normal();
-      recording.channels[3].values[i] = poses[k].y_m + m.x_m * std::sin(h) + m.y_m * std::cos(h) + g.truth_position_noise_m * random.normal();
+      recording.channels[2].values[i] =
+          poses[k].x_m + m.x_m * std::cos(h) - m.y_m * std::sin(h) + g.truth_position_noise_m * random.normal();
+      recording.channels[3].values[i] =
+          poses[k].y_m + m.x_m * std::sin(h) + m.y_m * std::cos(h) + g.truth_position_noise_m * random.normal();
       if (g.truth_has_heading)
-        recording.channels[4].values[i] = std::remainder(h + m.heading_rad + g.truth_heading_noise_rad * random.normal(), 2.0 * kPi);
+        recording.channels[4].values[i] =
+            std::remainder(h + m.heading_rad + g.truth_heading_noise_rad * random.normal(), 2.0 * kPi);
     }
   }
   return recording;
@@ -125,13 +132,16 @@ inline WheelSpeedsAt rich_driving(double t) {
 }
 
 // A square with stops and turns on the spot, as the drive that the robot believes to be would close it.
-inline SpeedProfile square_driving(const DifferentialDrive& believed, double side_m, bool clockwise, double* duration_s) {
+inline SpeedProfile square_driving(const DifferentialDrive& believed, double side_m, bool clockwise,
+                                   double* duration_s) {
   const double straight_s = 20.0 * side_m / 4.0, turn_s = 4.0;
   const double leg_s = straight_s + turn_s;
   *duration_s = 4.0 * leg_s;
   return [=](double t) {
     const double u = std::fmod(t, leg_s);
-    const auto hump = [](double v, double length) { return (1.0 - std::cos(2.0 * kPi * v / length)) / length; };  // area 1
+    const auto hump = [](double v, double length) {
+      return (1.0 - std::cos(2.0 * kPi * v / length)) / length;
+    };  // area 1
     if (t >= 4.0 * leg_s) return WheelSpeedsAt{};
     if (u < straight_s) {
       const double speed = side_m * hump(u, straight_s);

@@ -24,7 +24,12 @@ TEST(Error, LeavesOutWhatItDoesNotKnow) {
 TEST(Progress, GoesOnWhereNobodyListens) {
   EXPECT_TRUE(goes_on({}, 0.5));
   double heard = 0.0;
-  EXPECT_FALSE(goes_on([&](double share) { heard = share; return false; }, 0.5));
+  EXPECT_FALSE(goes_on(
+      [&](double share) {
+        heard = share;
+        return false;
+      },
+      0.5));
   EXPECT_EQ(heard, 0.5);
 }
 

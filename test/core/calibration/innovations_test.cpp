@@ -20,14 +20,22 @@ InnovationModel model_off_nominal() {
 
 double& parameter(InnovationModel& m, InnovationRun& run, int c) {
   switch (c) {
-    case column::wheel_radius_left: return m.drive.wheel_radius_left_m;
-    case column::wheel_radius_right: return m.drive.wheel_radius_right_m;
-    case column::wheelbase: return m.drive.wheelbase_m;
-    case column::mounting_x: return m.truth.axle_T_tracked.x_m;
-    case column::mounting_y: return m.truth.axle_T_tracked.y_m;
-    case column::mounting_heading: return m.truth.axle_T_tracked.heading_rad;
-    case column::truth_clock: return m.truth.time_offset_s;
-    default: return run.extra[static_cast<std::size_t>(c - column::first_extra)].value;
+    case column::wheel_radius_left:
+      return m.drive.wheel_radius_left_m;
+    case column::wheel_radius_right:
+      return m.drive.wheel_radius_right_m;
+    case column::wheelbase:
+      return m.drive.wheelbase_m;
+    case column::mounting_x:
+      return m.truth.axle_T_tracked.x_m;
+    case column::mounting_y:
+      return m.truth.axle_T_tracked.y_m;
+    case column::mounting_heading:
+      return m.truth.axle_T_tracked.heading_rad;
+    case column::truth_clock:
+      return m.truth.time_offset_s;
+    default:
+      return run.extra[static_cast<std::size_t>(c - column::first_extra)].value;
   }
 }
 
@@ -75,9 +83,11 @@ TEST(Innovations, DerivativesOfTheMotionAgreeWithDifferences) {
     parameter(m, run, c) += h;
     for (std::size_t i = 0; i < summed.motions.size(); ++i) {
       const Pose &a = above.motions[i].motion, &b = below.motions[i].motion;
-      const double* d = &summed.derivatives[3 * (i * static_cast<std::size_t>(summed.columns) + static_cast<std::size_t>(c))];
-      // Central differences: h^2 times third derivatives of order 1/r^2 = 200, and rounding 1e-16 / h. The clock's takes the
-      // end of an interval to move along the tangent and not along the chord: square of the turn in 20 ms, 4e-4, times v.
+      const double* d =
+          &summed.derivatives[3 * (i * static_cast<std::size_t>(summed.columns) + static_cast<std::size_t>(c))];
+      // Central differences: h^2 times third derivatives of order 1/r^2 = 200, and rounding 1e-16 / h. The clock's
+      // takes the end of an interval to move along the tangent and not along the chord: square of the turn in 20 ms,
+      // 4e-4, times v.
       const double tolerance = c == column::truth_clock ? 1e-5 : 1e-7;
       EXPECT_NEAR(d[0], (a.x_m - b.x_m) / (2 * h), tolerance * (1 + std::abs(d[0]))) << c << " " << i;
       EXPECT_NEAR(d[1], (a.y_m - b.y_m) / (2 * h), tolerance * (1 + std::abs(d[1]))) << c << " " << i;
@@ -118,7 +128,9 @@ TEST(Innovations, InformationOfOneMeasurementAgreesWithDifferences) {
     EXPECT_NEAR(sums.score[r], score, 1e-5 * (1 + std::abs(score)));
     for (int c = 0; c < p; ++c) {
       const double expected = j[r][0] * j[c][0] + j[r][1] * j[c][1] + j[r][2] * j[c][2];
-      EXPECT_NEAR(sums.information[r * p + c], expected, 1e-5 * (std::abs(expected) + std::sqrt(sums.information[r * p + r] * sums.information[c * p + c]))) << r << c;
+      EXPECT_NEAR(sums.information[r * p + c], expected,
+                  1e-5 * (std::abs(expected) + std::sqrt(sums.information[r * p + r] * sums.information[c * p + c])))
+          << r << c;
     }
   }
 }
@@ -136,8 +148,9 @@ TEST(Innovations, DerivativesPassThroughTheGain) {
     parameter(m, run, c) -= 2 * h;
     const std::vector<Innovation> below = innovations_of(run, m);
     parameter(m, run, c) += h;
-    // Squared length of the whitened derivative: the information's diagonal. The differences also contain the change of the
-    // gain and of the whitening, which the filter holds fixed: a share of the order of the residual over the leverage.
+    // Squared length of the whitened derivative: the information's diagonal. The differences also contain the change of
+    // the gain and of the whitening, which the filter holds fixed: a share of the order of the residual over the
+    // leverage.
     double squares = 0.0;
     for (std::size_t i = 0; i < at.size(); ++i)
       for (int k = 0; k < 3; ++k) squares += std::pow((above[i].white[k] - below[i].white[k]) / (2 * h), 2);
@@ -165,8 +178,8 @@ TEST(Innovations, AreWhiteAndOfSizeOneUnderTheTrueModel) {
         if (k > 0) products += all[k].white[c] * all[k - 1].white[c];
       }
   }
-  // 18 000 numbers: a mean square scatters by sqrt(2 / n) = 1.1 %, a correlation by 0.7 %; four of them, and 3 % more for
-  // the model of rounding as white.
+  // 18 000 numbers: a mean square scatters by sqrt(2 / n) = 1.1 %, a correlation by 0.7 %; four of them, and 3 % more
+  // for the model of rounding as white.
   EXPECT_NEAR(squares / n, 1.0, 0.07);
   EXPECT_NEAR(products / n, 0.0, 0.04);
 }
@@ -197,8 +210,10 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
   Recording r;
   r.time_s = {0.0, 1.0, 2.0, 3.0, 9.0};
   const double nan = std::nan("");
-  r.channels = {{"left_wheel_rad", {0.0, 1.0, 2.0, 3.0, nan}}, {"right_wheel_rad", {0.0, 1.0, 2.0, 3.0, nan}},
-                {"truth_x_m", {0.0, nan, nan, 0.2, 9.0}}, {"truth_y_m", {0.0, nan, nan, 0.0, 9.0}}};
+  r.channels = {{"left_wheel_rad", {0.0, 1.0, 2.0, 3.0, nan}},
+                {"right_wheel_rad", {0.0, 1.0, 2.0, 3.0, nan}},
+                {"truth_x_m", {0.0, nan, nan, 0.2, 9.0}},
+                {"truth_y_m", {0.0, nan, nan, 0.0, 9.0}}};
   const auto run = innovation_run(r, Vehicle{});
   ASSERT_TRUE(run.ok());
   EXPECT_EQ(run->truth.size(), 2u);

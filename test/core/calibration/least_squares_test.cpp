@@ -12,7 +12,8 @@ namespace {
 
 using test::GeneratorSettings;
 
-// A LabMate whose machine differs from its drawing: radii by 2 %, wheelbase by 5 %, tracked point off the axle's centre.
+// A LabMate whose machine differs from its drawing: radii by 2 %, wheelbase by 5 %, tracked point off the axle's
+// centre.
 GeneratorSettings off_the_drawing() {
   GeneratorSettings g;
   g.drive.wheel_radius_left_m = 0.075 * 1.02;
@@ -75,8 +76,8 @@ struct Coverage {
       held[p.name] += std::abs(z) < 1.96;
     }
   }
-  // With 200 runs at 95 % the number held has a standard deviation of sqrt(200 * 0.95 * 0.05) = 3.1 runs or 1.5 %: 90 to
-  // 99 % is three of them, on either side.
+  // With 200 runs at 95 % the number held has a standard deviation of sqrt(200 * 0.95 * 0.05) = 3.1 runs or 1.5 %: 90
+  // to 99 % is three of them, on either side.
   void expect_honest(const std::string& name) {
     const double share = static_cast<double>(held[name]) / runs;
     EXPECT_GE(share, 0.90) << name;
@@ -132,7 +133,8 @@ TEST(LeastSquares, ClaimsIntervalsThatHoldWithTruthAtStartAndEndOnly) {
     // A tape measure's straight gives the scale, which a closed path hides.
     g.duration_s = 10.0;
     for (int k = 0; k < 2; ++k)
-      runs.push_back(generated(g, [](double t) { return straight(3.0 * t); }, random));
+      runs.push_back(generated(
+          g, [](double t) { return straight(3.0 * t); }, random));
     const auto result = calibrate_least_squares(runs, labmate());
     ASSERT_TRUE(result.ok());
     coverage.add(*result, true_values(g));
@@ -151,7 +153,8 @@ TEST(LeastSquares, SaysThatAStraightCannotTellTheWheelbase) {
   EXPECT_TRUE(says(result->cannot_tell, "wheelbase_m: the robot hardly turned"));
   EXPECT_TRUE(says(result->cannot_tell, "truth_mounting."));
   // What a straight does tell stays right: the mean radius and the direction in which the truth's heading is mounted.
-  const double mean = 0.5 * (named(*result, "wheel_radius_left_m").value + named(*result, "wheel_radius_right_m").value);
+  const double mean =
+      0.5 * (named(*result, "wheel_radius_left_m").value + named(*result, "wheel_radius_right_m").value);
   EXPECT_NEAR(mean, 0.5 * 0.075 * (1.02 + 1.015), 4 * named(*result, "wheel_radius_left_m").stderr_value);
 }
 
@@ -159,7 +162,8 @@ TEST(LeastSquares, SaysThatASpinCannotTellTheScale) {
   Random random(3);
   const auto result = calibrate_least_squares({generated(off_the_drawing(), spin, random)}, labmate());
   ASSERT_TRUE(result.ok());
-  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m", "truth_mounting.heading_rad"}) {
+  for (const char* name :
+       {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m", "truth_mounting.heading_rad"}) {
     EXPECT_FALSE(named(*result, name).determined) << name;
     EXPECT_EQ(named(*result, name).value, named(*result, name).nominal) << name;
   }
@@ -185,7 +189,8 @@ TEST(LeastSquares, NeedsNoHeadingInTheTruth) {
   g.start = {1.0, -2.0, 2.5};  // the first heading is anything
   const auto result = calibrate_least_squares({generated(g, test::rich_driving, random)}, labmate());
   ASSERT_TRUE(result.ok());
-  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m", "truth_mounting.x_m", "truth_mounting.y_m", "truth_mounting.time_offset_s"}) {
+  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m", "truth_mounting.x_m",
+                           "truth_mounting.y_m", "truth_mounting.time_offset_s"}) {
     EXPECT_TRUE(named(*result, name).determined) << name;
     EXPECT_NEAR(named(*result, name).value, true_values(g).at(name), 4 * named(*result, name).stderr_value) << name;
   }
@@ -201,8 +206,24 @@ TEST(LeastSquares, ReadsTruthAtTwoAndAtTwoHundredHertz) {
     const auto result = calibrate_least_squares({generated(g, test::rich_driving, random)}, labmate());
     ASSERT_TRUE(result.ok());
     for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m"})
-      EXPECT_NEAR(named(*result, name).value, true_values(g).at(name), 4 * named(*result, name).stderr_value) << name << " " << period;
+      EXPECT_NEAR(named(*result, name).value, true_values(g).at(name), 4 * named(*result, name).stderr_value)
+          << name << " " << period;
     EXPECT_NEAR(result->normalised_chi2, 1.0, 0.15);
+  }
+}
+
+TEST(LeastSquares, WorksWithoutAnyNoise) {
+  for (const bool counts : {true, false}) {
+    Random random(15);
+    GeneratorSettings g = off_the_drawing();
+    g.wheel_noise = g.truth_position_noise_m = g.truth_heading_noise_rad = 0.0;
+    g.counts = counts;
+    const auto result = calibrate_least_squares({generated(g, test::rich_driving, random)}, labmate());
+    ASSERT_TRUE(result.ok());
+    // What is left: rounding of the counts, and acceleration between wheel samples, a dt^2 / 8 = 0.05 mm or 0.3 mrad at
+    // most.
+    for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m"})
+      EXPECT_NEAR(named(*result, name).value / true_values(g).at(name), 1.0, 3e-4) << name << counts;
   }
 }
 
@@ -210,7 +231,8 @@ TEST(LeastSquares, SetsOutliersAndFrozenTruthAside) {
   Random random(9);
   const GeneratorSettings g = off_the_drawing();
   Recording recording = generated(g, test::rich_driving, random);
-  std::vector<double>&x = recording.channels[2].values, &y = recording.channels[3].values, &heading = recording.channels[4].values;
+  std::vector<double>&x = recording.channels[2].values, &y = recording.channels[3].values,
+  &heading = recording.channels[4].values;
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!std::isnan(x[i])) rows.push_back(i);
@@ -249,13 +271,15 @@ TEST(LeastSquares, FindsTheClockOfEachRecording) {
   GeneratorSettings early = off_the_drawing(), late = off_the_drawing();
   early.truth.time_offset_s = -0.04;
   late.truth.time_offset_s = 0.06;
-  const std::vector<Recording> recordings = {generated(early, test::rich_driving, random), generated(late, test::rich_driving, random)};
+  const std::vector<Recording> recordings = {generated(early, test::rich_driving, random),
+                                             generated(late, test::rich_driving, random)};
   const auto result = calibrate_least_squares(recordings, labmate());
   ASSERT_TRUE(result.ok());
   EXPECT_NEAR(result->time_offset_s[0], -0.04, 0.003);  // four standard errors of about 0.6 ms
   EXPECT_NEAR(result->time_offset_s[1], 0.06, 0.003);
   EXPECT_TRUE(says(result->warnings, "clock differs between the recordings"));
-  EXPECT_NEAR(named(*result, "wheelbase_m").value, early.drive.wheelbase_m, 4 * named(*result, "wheelbase_m").stderr_value);
+  EXPECT_NEAR(named(*result, "wheelbase_m").value, early.drive.wheelbase_m,
+              4 * named(*result, "wheelbase_m").stderr_value);
   LeastSquaresOptions one;
   one.one_truth_clock = true;
   const auto shared = calibrate_least_squares(recordings, labmate(), one);
@@ -267,7 +291,8 @@ TEST(LeastSquares, WarnsAndWidensWhereTheTruthWobbles) {
   Random random(12);
   const GeneratorSettings g = off_the_drawing();
   Recording recording = generated(g, test::rich_driving, random);
-  for (std::size_t i = 0; i < recording.time_s.size(); ++i) recording.channels[2].values[i] += 0.003 * std::sin(3.0 * recording.time_s[i]);
+  for (std::size_t i = 0; i < recording.time_s.size(); ++i)
+    recording.channels[2].values[i] += 0.003 * std::sin(3.0 * recording.time_s[i]);
   const auto result = calibrate_least_squares({recording}, labmate());
   ASSERT_TRUE(result.ok());
   EXPECT_TRUE(says(result->warnings, "innovations are correlated"));
@@ -298,13 +323,16 @@ TEST(LeastSquares, RefusesWhatItCannotUse) {
   EXPECT_EQ(calibrate_least_squares({}, labmate()).error().where, "recordings");
   Recording no_truth = generated(g, test::rich_driving, random);
   no_truth.channels.resize(2);
-  EXPECT_NE(calibrate_least_squares({no_truth}, labmate()).error().message().find("0 truth samples"), std::string::npos);
+  EXPECT_NE(calibrate_least_squares({no_truth}, labmate()).error().message().find("0 truth samples"),
+            std::string::npos);
   Recording no_wheels = generated(g, test::rich_driving, random);
   no_wheels.channels.erase(no_wheels.channels.begin(), no_wheels.channels.begin() + 2);
-  EXPECT_NE(calibrate_least_squares({no_wheels}, labmate()).error().message().find("no wheel rotation"), std::string::npos);
+  EXPECT_NE(calibrate_least_squares({no_wheels}, labmate()).error().message().find("no wheel rotation"),
+            std::string::npos);
   Vehicle broken = labmate();
   broken.kind = DifferentialDrive{0.0, 0.075, 0.34, 2000.0, 1.0, 0};
-  EXPECT_NE(calibrate_least_squares({no_truth}, broken).error().message().find("wheel_radius_left_m"), std::string::npos);
+  EXPECT_NE(calibrate_least_squares({no_truth}, broken).error().message().find("wheel_radius_left_m"),
+            std::string::npos);
   Recording good = generated(g, test::rich_driving, random);
   EXPECT_EQ(calibrate_least_squares({good}, labmate(), {}, [](double) { return false; }).error().where, "calibration");
 }

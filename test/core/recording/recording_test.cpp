@@ -45,9 +45,9 @@ TEST(WheelSamples, ComeFromTicksAcrossTheWrapOfTheCounter) {
   const std::vector<WheelSample> w = wheel_samples(r, d);
   ASSERT_EQ(w.size(), 4u);
   const double count = 2 * kPi / 100;
-  EXPECT_NEAR(w[1].left_rad - w[0].left_rad, 10 * count, 1e-12);   // 250 to 256 + 4
-  EXPECT_NEAR(w[3].left_rad - w[0].left_rad, 0.0, 1e-12);          // and back again
-  EXPECT_NEAR(w[1].right_rad - w[0].right_rad, -6 * count, 1e-12); // 0 to -6
+  EXPECT_NEAR(w[1].left_rad - w[0].left_rad, 10 * count, 1e-12);    // 250 to 256 + 4
+  EXPECT_NEAR(w[3].left_rad - w[0].left_rad, 0.0, 1e-12);           // and back again
+  EXPECT_NEAR(w[1].right_rad - w[0].right_rad, -6 * count, 1e-12);  // 0 to -6
 }
 
 TEST(WheelSamples, AreFilledInWhereTheOtherWheelWasRead) {
@@ -69,7 +69,8 @@ TEST(WheelSamples, AreNoneWhereAWheelIsMissing) {
 TEST(TruthSamples, UnwrapTheirHeadingsAndDoWithoutThem) {
   Recording r;
   r.time_s = {0, 1, 2, 3};
-  r.channels = {{"truth_x_m", {0, 1, kEmpty, 3}}, {"truth_y_m", {0, 0, 0, 0}}, {"truth_heading_rad", {3.1, kEmpty, 1.0, -3.1}}};
+  r.channels = {
+      {"truth_x_m", {0, 1, kEmpty, 3}}, {"truth_y_m", {0, 0, 0, 0}}, {"truth_heading_rad", {3.1, kEmpty, 1.0, -3.1}}};
   const std::vector<TruthSample> t = truth_samples(r);
   ASSERT_EQ(t.size(), 3u);
   EXPECT_FALSE(t[1].heading_rad);

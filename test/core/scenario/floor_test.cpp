@@ -25,7 +25,8 @@ TEST(Shape, ContainsByCrossingsWhicheverWayAPolygonRuns) {
 }
 
 TEST(Shape, MovesWithItsCentre) {
-  for (const Shape& s : {Shape{Disc{{1, 2}, 1}}, Shape{Rectangle{{1, 2}, 1, 1, 0}}, Shape{Polygon{{{0, 2}, {2, 2}, {1, 2}}}}}) {
+  for (const Shape& s :
+       {Shape{Disc{{1, 2}, 1}}, Shape{Rectangle{{1, 2}, 1, 1, 0}}, Shape{Polygon{{{0, 2}, {2, 2}, {1, 2}}}}}) {
     EXPECT_NEAR(centre_of(s).x_m, 1.0, 1e-15);
     EXPECT_NEAR(centre_of(moved(s, {3, -1})).x_m, 4.0, 1e-15);
     EXPECT_NEAR(centre_of(moved(s, {3, -1})).y_m, 1.0, 1e-15);

@@ -31,8 +31,9 @@ TEST(Scenario, NamesEachKeyThatIsWrong) {
   s.path = FigureEightPath{1.0, 0};
   s.benchmark = Benchmark{};
   const std::vector<std::string> problems = problems_in(s);
-  for (const char* key : {"vehicle.wheelbase_m", "actual.wheel_radius_right_m", "actual.drive_wheel_load_share", "floor.friction",
-                          "driving.speed_mps", "step_s", "sensors.encoder_period_s", "sensors.truth_period_s", "path.loops", "benchmark"})
+  for (const char* key :
+       {"vehicle.wheelbase_m", "actual.wheel_radius_right_m", "actual.drive_wheel_load_share", "floor.friction",
+        "driving.speed_mps", "step_s", "sensors.encoder_period_s", "sensors.truth_period_s", "path.loops", "benchmark"})
     EXPECT_TRUE(names(problems, key)) << key;
   EXPECT_EQ(problems.size(), 10u);
 }
