@@ -73,6 +73,8 @@ TEST(VehicleToml, RoundTripKeepsEveryBit) {
 TEST(VehicleToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint(replaced(kLabMate, "wheelbase_m = 0.340", "wheelbase_m = 0.340\nwheel_bse_m = 0.34")),
             "x.toml:8: found the key 'wheel_bse_m', expected a known key; the nearest is 'wheelbase_m'");
+  EXPECT_EQ(complaint(std::string(kLabMate) + "wheel_radius_rigt_m = 0.07\n"),
+            "x.toml:9: found the key 'wheel_radius_rigt_m', expected a known key; the nearest is 'wheel_radius_right_m'");
   EXPECT_EQ(complaint(replaced(kLabMate, "wheelbase_m = 0.340", "wheel_bse_m = 0.34")),
             "x.toml:4: found no key 'wheelbase_m', expected it to be given");
   EXPECT_EQ(complaint(replaced(kLabMate, "name", "colour = \"red\"\nname")),
