@@ -36,16 +36,20 @@ class Json {
   template <typename T>
   Json(const std::vector<T>& elements) : value_(Array(elements.begin(), elements.end())) {}
 
-  static Json object() { return Json(Object{}); }
-  static Json array() { return Json(Array{}); }
+  static Json object() { return of(Object{}); }
+  static Json array() { return of(Array{}); }
 
   Json& operator[](const std::string& key);  // added as null where it is absent
   Json& push_back(Json element);             // gives back the element as it stands in the array
 
  private:
   friend struct JsonWriter;
-  explicit Json(Object object) : value_(std::move(object)) {}
-  explicit Json(Array array) : value_(std::move(array)) {}
+  template <typename T>
+  static Json of(T value) {
+    Json json;
+    json.value_ = std::move(value);
+    return json;
+  }
 
   std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string, Array, Object> value_ = nullptr;
 };

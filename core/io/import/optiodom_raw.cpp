@@ -169,7 +169,7 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
     for (double& t : truth->time_s) t = to_nanoseconds(t + shift_s);
     keep_between(*truth, odometry->time_s.front(), odometry->time_s.back());
     imported.warnings.push_back("no metadata lies beside the files: the truth's stamps are moved by " + rounded_text(shift_s, 2) +
-                                " s, where its turning agrees best with the wheels'; their rates are as recorded");
+                                " s, so that its turning meets the wheels' at the start; its rate is as recorded");
   }
   imported.recording = merged(*odometry, *truth);
   imported.recording.name = std::filesystem::path(odometry_path).filename().string();

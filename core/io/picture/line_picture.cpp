@@ -37,6 +37,9 @@ std::vector<std::vector<Point>> stretches(const DrawnLine& line, const Axis& x, 
   return result;
 }
 
+// Dashes would make fur of a noisy signal: here the colours alone tell the lines apart.
+Stroke solid(Look look) { return {stroke_of(look).colour, 1.5, ""}; }
+
 }  // namespace
 
 std::string line_picture(const LinePicture& picture) {
@@ -72,7 +75,7 @@ std::string line_picture(const LinePicture& picture) {
   if (y.low < 0.0 && y.high > 0.0) svg.line({left, y.px(0.0)}, {right, y.px(0.0)}, {ink::kAxis, 1.0, ""});
   svg.begin_clip({left, top}, right - left, bottom - top);
   for (const DrawnLine& line : picture.lines)
-    for (const std::vector<Point>& stretch : stretches(line, x, y)) svg.polyline(stretch, stroke_of(line.look));
+    for (const std::vector<Point>& stretch : stretches(line, x, y)) svg.polyline(stretch, solid(line.look));
   svg.end_clip();
   svg.rectangle({left, top}, right - left, bottom - top, "none", {ink::kAxis, 1.0, ""});
   svg.text({0.5 * (left + right), bottom + 36.0}, picture.x_label, Anchor::middle);
@@ -81,7 +84,7 @@ std::string line_picture(const LinePicture& picture) {
   double legend_x = left;
   for (const DrawnLine& line : picture.lines) {
     if (line.label.empty()) continue;
-    svg.line({legend_x, 48.0}, {legend_x + 30.0, 48.0}, stroke_of(line.look));
+    svg.line({legend_x, 48.0}, {legend_x + 30.0, 48.0}, solid(line.look));
     svg.text({legend_x + 36.0, 52.0}, line.label);
     legend_x += 54.0 + 7.4 * static_cast<double>(line.label.size());
   }

@@ -87,7 +87,7 @@ std::string scatter_picture(const ScatterPicture& picture) {
     for (const ReturnError& e : *cloud.errors) draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud.clockwise, cloud.colour);
   for (const Cloud& cloud : clouds) {
     const Point centre = mean_mm(*cloud.errors), p = at(centre.x, centre.y);
-    svg.circle(p, 5.5, cloud.colour, {"#ffffff", 1.5, ""});
+    svg.circle(p, 4.5, cloud.colour, {"#ffffff", 1.2, ""});
   }
 
   double legend_y = picture.height_px - 48.0;

@@ -16,6 +16,17 @@ void append_pixels(std::string& text, double value) {
   text.append(buffer, end.ptr);
 }
 
+// Stands for the picture's own name until all of it is drawn; escaped text never holds it.
+constexpr char kName = '\x01';
+
+// FNV-1a: the same picture has the same name in every run, and others on the same page have another.
+std::string name_of(const std::string& body) {
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (char c : body) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  char buffer[20];
+  return "p" + std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, hash, 36).ptr);
+}
+
 }  // namespace
 
 std::string escaped(std::string_view text) {
@@ -43,11 +54,7 @@ Stroke stroke_of(Look look) {
 }
 
 Svg::Svg(double width, double height, const std::string& title) : width_(width), height_(height) {
-  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a: the same picture has the same name in every run
-  for (char c : title) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  char buffer[20];
-  id_ = "p" + std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, hash, 36).ptr);
-  body_ = "<title>" + escaped(title) + "</title>\n";
+  body_.append("<title>").append(escaped(title)).append("</title>\n");
   rectangle({0.0, 0.0}, width, height, ink::kGround);
 }
 
@@ -144,7 +151,7 @@ void Svg::text(Point at, std::string_view words, Anchor anchor, double size, con
   attribute("fill", colour);
   if (anchor != Anchor::start) attribute("text-anchor", anchor == Anchor::middle ? "middle" : "end");
   if (bold) attribute("font-weight", "bold");
-  body_ += ">" + escaped(words) + "</text>\n";
+  body_.append(">").append(escaped(words)).append("</text>\n");
 }
 
 void Svg::text_upward(Point at, std::string_view words, double size) {
@@ -156,11 +163,11 @@ void Svg::text_upward(Point at, std::string_view words, double size) {
   attribute("font-size", size);
   attribute("fill", ink::kText);
   attribute("text-anchor", "middle");
-  body_ += ">" + escaped(words) + "</text>\n";
+  body_.append(">").append(escaped(words)).append("</text>\n");
 }
 
 void Svg::begin_clip(Point corner, double width, double height) {
-  const std::string name = id_ + "c" + std::to_string(clips_++);
+  const std::string name = std::string(1, kName) + "c" + std::to_string(clips_++);
   body_ += "<clipPath id=\"" + name + "\">";
   open("rect");
   attribute("x", corner.x);
@@ -173,12 +180,13 @@ void Svg::begin_clip(Point corner, double width, double height) {
 void Svg::end_clip() { body_ += "</g>\n"; }
 
 std::string Svg::hatching() {
+  const std::string name = std::string(1, kName) + "h";
   if (!hatched_)
-    body_ += "<defs><pattern id=\"" + id_ + "h\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
+    body_ += "<defs><pattern id=\"" + name + "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"8\" height=\"8\" fill=\"#56B4E9\" fill-opacity=\"0.13\"/>"
              "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"8\" stroke=\"#56B4E9\" stroke-width=\"2\"/></pattern></defs>\n";
   hatched_ = true;
-  return "url(#" + id_ + "h)";
+  return "url(#" + name + ")";
 }
 
 std::string Svg::finished() const {
@@ -186,8 +194,12 @@ std::string Svg::finished() const {
   append_pixels(size, width_);
   std::string height;
   append_pixels(height, height_);
+  const std::string name = name_of(body_);
+  std::string body;
+  body.reserve(body_.size() + 256);
+  for (char c : body_) c == kName ? body += name : body += c;
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + " " + height + "\" width=\"" + size + "\" height=\"" +
-         height + "\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n" + body_ + "</svg>\n";
+         height + "\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n" + body + "</svg>\n";
 }
 
 }  // namespace odolab

@@ -73,7 +73,6 @@ class Svg {
   void points(const std::vector<Point>& points);
 
   double width_, height_;
-  std::string id_;  // of this picture's patterns, so that several share a page
   std::string body_;
   int clips_ = 0;
   bool hatched_ = false;
