@@ -24,7 +24,8 @@ std::string name_of(const std::string& body) {
   std::uint64_t hash = 1469598103934665603ULL;
   for (char c : body) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   char buffer[20];
-  return "p" + std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, hash, 36).ptr);
+  buffer[0] = 'p';
+  return {buffer, std::to_chars(buffer + 1, buffer + sizeof buffer, hash, 36).ptr};
 }
 
 }  // namespace
