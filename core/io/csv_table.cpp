@@ -65,7 +65,8 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   while (!rest.empty()) {
     const void* newline = std::memchr(rest.data(), '\n', rest.size());
     const bool ended = newline != nullptr;
-    const std::size_t size = ended ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest.data()) : rest.size();
+    const std::size_t size =
+        ended ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest.data()) : rest.size();
     const std::string_view line = trimmed(rest.substr(0, size));
     rest.remove_prefix(ended ? size + 1 : size);
     ++line_number;
@@ -99,7 +100,8 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       if (!value) {
         const bool empty = cells[i].empty() || says_nan(cells[i]);
         if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))
-          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]), "a number"};
+          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]),
+                       "a number"};
         value = kEmpty;
       }
       table.columns[i].push_back(*value);

@@ -16,7 +16,8 @@ bool ends_in(const std::string& path, std::string_view ending) {
 
 bool is_name(std::string_view text) {
   for (char c : text)
-    if (!(c == '_' || c == '-' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')))
+    if (!(c == '_' || c == '-' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+          (c >= 'A' && c <= 'Z')))
       return false;
   return !text.empty();
 }

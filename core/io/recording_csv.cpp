@@ -12,9 +12,9 @@ namespace odolab {
 namespace {
 
 constexpr std::array<std::string_view, 14> kPlainColumns = {
-    "time_s",           "left_ticks",       "right_ticks",       "command_speed_mps", "command_yaw_rate_radps", "truth_x_m",
-    "truth_y_m",        "truth_heading_rad", "link_angle_a_rad", "link_angle_b_rad",  "link_length_m",          "hitch_angle_rad",
-    "left_wheel_rad",   "right_wheel_rad"};
+    "time_s",        "left_ticks",      "right_ticks",       "command_speed_mps", "command_yaw_rate_radps",
+    "truth_x_m",     "truth_y_m",       "truth_heading_rad", "link_angle_a_rad",  "link_angle_b_rad",
+    "link_length_m", "hitch_angle_rad", "left_wheel_rad",    "right_wheel_rad"};
 
 // Channels that say nothing without each other.
 constexpr std::array<std::array<std::string_view, 2>, 4> kPairs = {{{"left_wheel_rad", "right_wheel_rad"},

@@ -9,7 +9,8 @@
 
 namespace odolab {
 
-// Whether a column's name is one of those that recordings define; others are kept, and what is no number there is empty.
+// Whether a column's name is one of those that recordings define; others are kept, and what is no number there is
+// empty.
 bool is_recording_column(std::string_view name);
 
 // Errors name file, line and column, what was found and what was expected. The recording takes the file's name.

@@ -56,10 +56,12 @@ void HtmlReport::append(const HtmlReport& other) { body_ += other.body_; }
 std::string HtmlReport::text() const {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(title_) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) + "</h1>\n" + body_ +
-         "</body>\n</html>\n";
+         escaped(title_) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) +
+         "</h1>\n" + body_ + "</body>\n</html>\n";
 }
 
-Result<Done> write_report(const std::string& path, const HtmlReport& report) { return write_whole_file(path, report.text()); }
+Result<Done> write_report(const std::string& path, const HtmlReport& report) {
+  return write_whole_file(path, report.text());
+}
 
 }  // namespace odolab

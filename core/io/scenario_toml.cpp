@@ -143,7 +143,8 @@ void zone_fields(Zone& zone, Toml& toml) {
 
 // Paths, in the order of Path. Points and phases are tables of their own.
 
-const std::vector<std::string> kPaths = {"square", "straight", "figure_eight", "waypoints", "wheel_speeds", "hand", "replay"};
+const std::vector<std::string> kPaths = {"square",       "straight", "figure_eight", "waypoints",
+                                         "wheel_speeds", "hand",     "replay"};
 const Path kEmptyPaths[] = {SquarePath{},     StraightPath{}, FigureEightPath{}, WaypointPath{},
                             WheelSpeedPath{}, HandPath{},     ReplayPath{}};
 const std::vector<std::string> kReplayBy = {"wheels", "commands"};

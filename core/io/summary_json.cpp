@@ -31,7 +31,9 @@ struct JsonWriter {
   std::string text;
   int depth = 0;
 
-  void write(const Json& json) { std::visit([this](const auto& value) { put(value); }, json.value_); }
+  void write(const Json& json) {
+    std::visit([this](const auto& value) { put(value); }, json.value_);
+  }
 
   void put(std::nullptr_t) { text += "null"; }
   void put(bool flag) { text += flag ? "true" : "false"; }

@@ -26,10 +26,11 @@ class Json {
   Json(Flag flag) : value_(flag) {}
   Json(double number) : value_(number) {}
   template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  Json(Integer number) {
-    if constexpr (std::is_signed_v<Integer>) value_ = static_cast<std::int64_t>(number);
-    else value_ = static_cast<std::uint64_t>(number);
+  requires(!std::same_as<Integer, bool>) Json(Integer number) {
+    if constexpr (std::is_signed_v<Integer>)
+      value_ = static_cast<std::int64_t>(number);
+    else
+      value_ = static_cast<std::uint64_t>(number);
   }
   Json(const char* text) : value_(std::string(text)) {}
   Json(std::string text) : value_(std::move(text)) {}

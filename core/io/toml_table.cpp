@@ -1,10 +1,10 @@
 #include "core/io/toml_table.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
-
-#include <toml++/toml.h>
 
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
@@ -43,7 +43,9 @@ std::string place(const std::string& path, const toml::source_region& source) {
 std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) return in_quotes(text->get());
   if (const auto* number = node.as_floating_point())
-    return std::isfinite(number->get()) ? number_text(number->get()) : std::isnan(number->get()) ? "nan" : "an infinity";
+    return std::isfinite(number->get()) ? number_text(number->get())
+           : std::isnan(number->get())  ? "nan"
+                                        : "an infinity";
   if (const auto* number = node.as_integer()) return std::to_string(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (node.is_table()) return "a table";
@@ -110,7 +112,8 @@ Result<TomlTable> TomlTable::parse(const std::string& text, const std::string& p
   try {
     file->top = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    return Error{place(path, error.source()), "broken TOML (" + one_line(error.description()) + ")", "key = value, [table] or [[table]]"};
+    return Error{place(path, error.source()), "broken TOML (" + one_line(error.description()) + ")",
+                 "key = value, [table] or [[table]]"};
   }
   Node* top = file->visit(&file->top);
   return TomlTable(std::move(file), top);

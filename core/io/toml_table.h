@@ -23,10 +23,10 @@ class TomlTable {
   static Result<TomlTable> read(const std::string& path);
   static Result<TomlTable> parse(const std::string& text, const std::string& path);
 
-  bool present() const;                 // false for a sub-table that the file does not have
-  bool has(const char* key) const;      // does not count as asking
+  bool present() const;             // false for a sub-table that the file does not have
+  bool has(const char* key) const;  // does not count as asking
   bool has_table(const char* key) const;
-  void require(const char* key);        // an error where the key is absent
+  void require(const char* key);  // an error where the key is absent
 
   void field(const char* key, double& value);  // integers are read too; infinities are an error
   void field(const char* key, int& value);

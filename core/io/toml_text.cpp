@@ -42,9 +42,13 @@ void TomlText::table_element(const std::string& path) { text_ += (text_.empty() 
 
 void TomlText::field(const char* key, double value) { text_ += std::string(key) + " = " + float_text(value) + "\n"; }
 void TomlText::field(const char* key, int value) { text_ += std::string(key) + " = " + std::to_string(value) + "\n"; }
-void TomlText::field(const char* key, std::uint64_t value) { text_ += std::string(key) + " = " + std::to_string(value) + "\n"; }
+void TomlText::field(const char* key, std::uint64_t value) {
+  text_ += std::string(key) + " = " + std::to_string(value) + "\n";
+}
 void TomlText::field(const char* key, bool value) { text_ += std::string(key) + (value ? " = true\n" : " = false\n"); }
-void TomlText::field(const char* key, const std::string& value) { text_ += std::string(key) + " = " + quoted_text(value) + "\n"; }
+void TomlText::field(const char* key, const std::string& value) {
+  text_ += std::string(key) + " = " + quoted_text(value) + "\n";
+}
 
 void TomlText::field(const char* key, const std::optional<double>& value) {
   if (value) field(key, *value);

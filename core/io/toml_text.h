@@ -14,7 +14,7 @@ namespace odolab {
 class TomlText {
  public:
   void comment(const std::string& text);
-  void table(const std::string& path);         // [path], the fields that follow belong to it
+  void table(const std::string& path);          // [path], the fields that follow belong to it
   void table_element(const std::string& path);  // [[path]]
 
   void field(const char* key, double value);  // reads back to the same bits

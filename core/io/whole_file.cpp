@@ -56,7 +56,8 @@ Result<Done> write_whole_file(const std::string& path, const std::string& text) 
   static std::atomic<unsigned> counter{0};
   // a pipe or a terminal cannot be renamed onto
   const bool in_place = std::filesystem::exists(target, failure) && !std::filesystem::is_regular_file(target, failure);
-  const std::string temporary = in_place ? path : path + ".part" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  const std::string temporary =
+      in_place ? path : path + ".part" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) return Error{path, lower_first(std::strerror(errno)), "a file that can be written"};
   bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();

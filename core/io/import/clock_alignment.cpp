@@ -52,7 +52,8 @@ Fit best_shift(const std::vector<double>& a, const std::vector<double>& b, doubl
   const long low = std::max(-static_cast<long>(b.size()), std::lround(from_s / step_s));
   const long high = std::min(static_cast<long>(a.size()), std::lround(to_s / step_s));
   for (long shift = low; shift <= high; ++shift)
-    if (const double c = overlap_product(a, b, shift) / scale; c > best.correlation) best = {c, static_cast<double>(shift) * step_s};
+    if (const double c = overlap_product(a, b, shift) / scale; c > best.correlation)
+      best = {c, static_cast<double>(shift) * step_s};
   return best;
 }
 
@@ -81,8 +82,9 @@ double truth_shift_by_turning(const SampledChannels& odometry, const SampledChan
     best_rate = rate;
   }
   if (best.correlation < -1.0) return first_stamps_s;  // nothing turns
-  best = best_shift(changes(odometry.time_s, turning, kFineGrid_s), changes(scaled(best_rate), heading_rad, kFineGrid_s), kFineGrid_s,
-                    best.shift_s - 2.0 * kGrid_s, best.shift_s + 2.0 * kGrid_s);
+  best =
+      best_shift(changes(odometry.time_s, turning, kFineGrid_s), changes(scaled(best_rate), heading_rad, kFineGrid_s),
+                 kFineGrid_s, best.shift_s - 2.0 * kGrid_s, best.shift_s + 2.0 * kGrid_s);
   // the odometry's first stamp falls on this stamp of the truth's own clock
   return first_stamps_s + best.shift_s / best_rate;
 }

@@ -39,14 +39,17 @@ bool has_recording_header(const std::string& path) {
 Error folder_given(const std::string& path) {
   std::vector<std::string> usable;
   std::error_code failure;
-  for (fs::recursive_directory_iterator at(path, failure), end; at != end && usable.size() < 1000; at.increment(failure)) {
+  for (fs::recursive_directory_iterator at(path, failure), end; at != end && usable.size() < 1000;
+       at.increment(failure)) {
     const std::string file = at->path().string();
     if (at->is_regular_file(failure) && (has_recording_header(file) || format_of(file))) usable.push_back(file);
   }
   std::sort(usable.begin(), usable.end());
   if (usable.empty()) return {path, "a folder without recordings", "the file of a run"};
-  return {path, "a folder with " + std::to_string(usable.size()) + (usable.size() == 1 ? " file" : " files") + " of recordings",
-          "one run, such as " + in_quotes(fs::path(usable.front()).lexically_relative(path).string())};
+  return {
+      path,
+      "a folder with " + std::to_string(usable.size()) + (usable.size() == 1 ? " file" : " files") + " of recordings",
+      "one run, such as " + in_quotes(fs::path(usable.front()).lexically_relative(path).string())};
 }
 
 std::string known_formats() {
@@ -75,7 +78,8 @@ Result<ImportedRecording> import_recording(const std::vector<std::string>& sourc
     }
     if (!of_this) return Error{source, "a file of no known format", known_formats()};
     if (format && of_this != format)
-      return Error{source, std::string("a file of ") + of_this->name, std::string("one of ") + format->name + " as the first source"};
+      return Error{source, std::string("a file of ") + of_this->name,
+                   std::string("one of ") + format->name + " as the first source"};
     format = of_this;
   }
   return format->read(sources);

@@ -18,7 +18,8 @@ bool is_groundtruth(std::string_view start) { return start.find("# Robot Groundt
 bool recognises(const std::string& path, std::string_view start) {
   if (start.empty() || start.front() != '#') return false;
   const std::string name = std::filesystem::path(path).filename().string();
-  const bool named = name.find("_Odometry.dat") != std::string::npos || name.find("_Groundtruth.dat") != std::string::npos;
+  const bool named =
+      name.find("_Odometry.dat") != std::string::npos || name.find("_Groundtruth.dat") != std::string::npos;
   return named || is_odometry(start) || is_groundtruth(start);
 }
 
@@ -53,12 +54,14 @@ SampledChannels in_order(const NumberRows& rows, const std::vector<std::string>&
 }
 
 Result<ImportedRecording> read(const std::vector<std::string>& sources) {
-  if (sources.size() > 2) return Error{sources[2], "a third file", "an Odometry.dat and a Groundtruth.dat of one robot"};
+  if (sources.size() > 2)
+    return Error{sources[2], "a third file", "an Odometry.dat and a Groundtruth.dat of one robot"};
   const std::string other = sources.size() == 2 ? sources[1] : partner_of(sources[0]);
   std::error_code failure;
   if (!std::filesystem::exists(other, failure))
-    return Error{sources[0], holds_odometry(sources[0]) ? "the odometry alone" : "the ground truth alone",
-                 std::string("the robot's ") + (holds_odometry(sources[0]) ? "Groundtruth.dat" : "Odometry.dat") + " beside it"};
+    return Error{
+        sources[0], holds_odometry(sources[0]) ? "the odometry alone" : "the ground truth alone",
+        std::string("the robot's ") + (holds_odometry(sources[0]) ? "Groundtruth.dat" : "Odometry.dat") + " beside it"};
   if (holds_odometry(sources[0]) == holds_odometry(other))
     return Error{other, "a second file of the same kind", "an Odometry.dat and a Groundtruth.dat of one robot"};
   const std::string odometry_path = holds_odometry(sources[0]) ? sources[0] : other;
@@ -75,7 +78,8 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
 
   ImportedRecording imported;
   std::size_t commands_dropped = 0, truths_dropped = 0;
-  SampledChannels commands = in_order(*odometry_rows, {"command_speed_mps", "command_yaw_rate_radps"}, commands_dropped);
+  SampledChannels commands =
+      in_order(*odometry_rows, {"command_speed_mps", "command_yaw_rate_radps"}, commands_dropped);
   SampledChannels truth = in_order(*truth_rows, {"truth_x_m", "truth_y_m", "truth_heading_rad"}, truths_dropped);
   const auto report = [&](std::size_t dropped, const std::string& path) {
     if (dropped > 0)

@@ -62,8 +62,8 @@ Result<NumberRows> read_number_rows(const std::string& path, const NumberRowsSha
     }
     if (cells < shape.cells || (cells > shape.cells && !shape.more_cells))
       return Error{path + ":" + std::to_string(number),
-                   std::string(!ended && cells < shape.cells ? "a last line cut off after " : "") + std::to_string(cells) +
-                       (cells == 1 ? " cell" : " cells"),
+                   std::string(!ended && cells < shape.cells ? "a last line cut off after " : "") +
+                       std::to_string(cells) + (cells == 1 ? " cell" : " cells"),
                    expected_cells};
     rows.lines.push_back(number);
   }

@@ -84,7 +84,8 @@ Result<SampledChannels> read_motive(const std::string& path, std::size_t& lost) 
   return truth;
 }
 
-// The hand-picked times of one run: [odo_ti, odo_tf] since the first row of the odometry, [gt_ti, gt_tf] on Motive's clock.
+// The hand-picked times of one run: [odo_ti, odo_tf] since the first row of the odometry, [gt_ti, gt_tf] on Motive's
+// clock.
 struct RunTimes {
   double odo_start_s = 0.0, odo_stop_s = 0.0, truth_start_s = 0.0, truth_stop_s = 0.0;
 };
@@ -95,7 +96,8 @@ std::optional<double> value_of(std::string_view text, const std::string& key, st
     std::string_view line = trimmed(text.substr(0, size));
     text.remove_prefix(std::min(size + 1, text.size()));
     if (line.substr(0, key.size() + 1) != key + ",") continue;
-    for (std::size_t cell = 0; cell < run && !line.empty(); ++cell) line.remove_prefix(std::min(line.find(',') + 1, line.size()));
+    for (std::size_t cell = 0; cell < run && !line.empty(); ++cell)
+      line.remove_prefix(std::min(line.find(',') + 1, line.size()));
     return number_from(trimmed(line.substr(0, line.find(','))));
   }
   return std::nullopt;
@@ -117,7 +119,8 @@ std::optional<RunTimes> times_of_run(const std::string& odometry_path) {
 
 // Keeps what was sampled from `from_s` to `to_s`, a hair wider than the stamps' own noise.
 void keep_between(SampledChannels& sampled, double from_s, double to_s) {
-  const auto begin = std::lower_bound(sampled.time_s.begin(), sampled.time_s.end(), from_s - 1e-6) - sampled.time_s.begin();
+  const auto begin =
+      std::lower_bound(sampled.time_s.begin(), sampled.time_s.end(), from_s - 1e-6) - sampled.time_s.begin();
   const auto end = std::upper_bound(sampled.time_s.begin(), sampled.time_s.end(), to_s + 1e-6) - sampled.time_s.begin();
   sampled.time_s = {sampled.time_s.begin() + begin, sampled.time_s.begin() + end};
   for (Channel& c : sampled.channels) c.values = {c.values.begin() + begin, c.values.begin() + end};
@@ -143,10 +146,12 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
   if (!std::filesystem::exists(motive_path, failure)) {
     const std::string synchronised = with_ending(odometry_path, "_odo.csv", ".csv");
     const bool there = !synchronised.empty() && std::filesystem::exists(synchronised, failure);
-    return Error{odometry_path, "the odometry alone",
-                 "its _opti.csv too" + (there ? ", or the synchronised file '" + synchronised + "' instead" : std::string())};
+    return Error{
+        odometry_path, "the odometry alone",
+        "its _opti.csv too" + (there ? ", or the synchronised file '" + synchronised + "' instead" : std::string())};
   }
-  if (!std::filesystem::exists(odometry_path, failure)) return Error{motive_path, "the cameras' file alone", "its _odo.csv too"};
+  if (!std::filesystem::exists(odometry_path, failure))
+    return Error{motive_path, "the cameras' file alone", "its _odo.csv too"};
 
   Result<SampledChannels> odometry = read_odometry(odometry_path);
   if (!odometry) return odometry.error();
@@ -162,13 +167,15 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
     for (double& t : truth->time_s) t = to_nanoseconds(times->odo_start_s + rate * (t - times->truth_start_s));
     keep_between(*truth, times->odo_start_s, times->odo_stop_s);
     keep_between(*odometry, times->odo_start_s, times->odo_stop_s);
-    imported.warnings.push_back("the truth's stamps are moved by " + rounded_text(-times->truth_start_s, 2) + " s and scaled by " +
-                                rounded_text(rate, 4) + " onto the encoders' clock, by the hand-picked times in the metadata");
+    imported.warnings.push_back("the truth's stamps are moved by " + rounded_text(-times->truth_start_s, 2) +
+                                " s and scaled by " + rounded_text(rate, 4) +
+                                " onto the encoders' clock, by the hand-picked times in the metadata");
   } else {
     const double shift_s = truth_shift_by_turning(*odometry, *truth);
     for (double& t : truth->time_s) t = to_nanoseconds(t + shift_s);
     keep_between(*truth, odometry->time_s.front(), odometry->time_s.back());
-    imported.warnings.push_back("no metadata lies beside the files: the truth's stamps are moved by " + rounded_text(shift_s, 2) +
+    imported.warnings.push_back("no metadata lies beside the files: the truth's stamps are moved by " +
+                                rounded_text(shift_s, 2) +
                                 " s, so that its turning meets the wheels' at the start; its rate is as recorded");
   }
   imported.recording = merged(*odometry, *truth);

@@ -34,8 +34,10 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
     right[i] += right[i - 1];
     left[i] += left[i - 1];
   }
-  recording.channels = {{"left_ticks", std::move(left)},          {"right_ticks", std::move(right)},
-                        {"truth_x_m", rows->columns[1]},          {"truth_y_m", rows->columns[2]},
+  recording.channels = {{"left_ticks", std::move(left)},
+                        {"right_ticks", std::move(right)},
+                        {"truth_x_m", rows->columns[1]},
+                        {"truth_y_m", rows->columns[2]},
                         {"truth_heading_rad", rows->columns[3]}};
   return imported;
 }

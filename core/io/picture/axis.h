@@ -10,8 +10,8 @@ namespace odolab {
 double round_step(double range, int wanted);
 
 struct Axis {
-  double low = 0.0, high = 1.0;            // values at the ends, low < high
-  double low_px = 0.0, high_px = 1.0;      // where they are drawn
+  double low = 0.0, high = 1.0;        // values at the ends, low < high
+  double low_px = 0.0, high_px = 1.0;  // where they are drawn
 
   double px(double value) const { return low_px + (value - low) / (high - low) * (high_px - low_px); }
   std::vector<double> ticks(int wanted) const;

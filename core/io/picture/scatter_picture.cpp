@@ -29,8 +29,10 @@ Point mean_mm(const std::vector<ReturnError>& errors) {
 }
 
 void draw_mark(Svg& svg, Point at, bool clockwise, const std::string& colour) {
-  if (clockwise) svg.cross(at, 5.0, {colour, 1.8, ""});
-  else svg.circle(at, 5.0, "none", {colour, 1.8, ""});
+  if (clockwise)
+    svg.cross(at, 5.0, {colour, 1.8, ""});
+  else
+    svg.circle(at, 5.0, "none", {colour, 1.8, ""});
 }
 
 }  // namespace
@@ -55,7 +57,8 @@ std::string scatter_picture(const ScatterPicture& picture) {
       low_y = std::min(low_y, kMm * e.y_m);
       high_y = std::max(high_y, kMm * e.y_m);
     }
-  const double mm_per_px = 1.16 * std::max({(high_x - low_x) / (right - left), (high_y - low_y) / (bottom - top), 0.01});
+  const double mm_per_px =
+      1.16 * std::max({(high_x - low_x) / (right - left), (high_y - low_y) / (bottom - top), 0.01});
   const double middle_x = 0.5 * (low_x + high_x), middle_y = 0.5 * (low_y + high_y);
   const double half_x = 0.5 * (right - left) * mm_per_px, half_y = 0.5 * (bottom - top) * mm_per_px;
   const Axis x{middle_x - half_x, middle_x + half_x, left, right};
@@ -84,7 +87,8 @@ std::string scatter_picture(const ScatterPicture& picture) {
     svg.line(at(0.0, 0.0), at(centre.x, centre.y), {cloud.colour, 1.4, "5 3"});
   }
   for (const Cloud& cloud : clouds)
-    for (const ReturnError& e : *cloud.errors) draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud.clockwise, cloud.colour);
+    for (const ReturnError& e : *cloud.errors)
+      draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud.clockwise, cloud.colour);
   for (const Cloud& cloud : clouds) {
     const Point centre = mean_mm(*cloud.errors), p = at(centre.x, centre.y);
     svg.circle(p, 4.5, cloud.colour, {"#ffffff", 1.2, ""});
@@ -95,7 +99,8 @@ std::string scatter_picture(const ScatterPicture& picture) {
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Point centre = mean_mm(*clouds[i].errors);
     char text[120];
-    std::snprintf(text, sizeof text, "%s: centre %.0f mm away", clouds[i].label.c_str(), std::hypot(centre.x, centre.y));
+    std::snprintf(text, sizeof text, "%s: centre %.0f mm away", clouds[i].label.c_str(),
+                  std::hypot(centre.x, centre.y));
     draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i].clockwise, clouds[i].colour);
     svg.text({legend_x + 20.0, legend_y}, text);
     legend_x += 0.5 * (right - left);

@@ -33,23 +33,34 @@ std::string name_of(const std::string& body) {
 std::string escaped(std::string_view text) {
   std::string result;
   for (char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n') result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n')
+      result += c;
   }
   return result;
 }
 
 Stroke stroke_of(Look look) {
   switch (look) {
-    case Look::truth: return {ink::kTruth, 1.8, ""};
-    case Look::estimate: return {ink::kOrange, 1.8, "7 4"};
-    case Look::second: return {ink::kBlue, 1.8, "2.5 3"};
-    case Look::third: return {ink::kGreen, 1.8, "10 3 2 3"};
-    case Look::fourth: return {ink::kPurple, 1.8, "4 2"};
-    case Look::fifth: return {ink::kSky, 1.8, ""};
+    case Look::truth:
+      return {ink::kTruth, 1.8, ""};
+    case Look::estimate:
+      return {ink::kOrange, 1.8, "7 4"};
+    case Look::second:
+      return {ink::kBlue, 1.8, "2.5 3"};
+    case Look::third:
+      return {ink::kGreen, 1.8, "10 3 2 3"};
+    case Look::fourth:
+      return {ink::kPurple, 1.8, "4 2"};
+    case Look::fifth:
+      return {ink::kSky, 1.8, ""};
   }
   return {};
 }
@@ -183,7 +194,8 @@ void Svg::end_clip() { body_ += "</g>\n"; }
 std::string Svg::hatching() {
   const std::string name = std::string(1, kName) + "h";
   if (!hatched_)
-    body_ += "<defs><pattern id=\"" + name + "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
+    body_ += "<defs><pattern id=\"" + name +
+             "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">"
              "<rect width=\"8\" height=\"8\" fill=\"#56B4E9\" fill-opacity=\"0.13\"/>"
              "<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"8\" stroke=\"#56B4E9\" stroke-width=\"2\"/></pattern></defs>\n";
   hatched_ = true;
@@ -199,8 +211,8 @@ std::string Svg::finished() const {
   std::string body;
   body.reserve(body_.size() + 256);
   for (char c : body_) c == kName ? body += name : body += c;
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + " " + height + "\" width=\"" + size + "\" height=\"" +
-         height + "\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n" + body + "</svg>\n";
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + " " + height + "\" width=\"" + size +
+         "\" height=\"" + height + "\" font-family=\"DejaVu Sans, Verdana, sans-serif\">\n" + body + "</svg>\n";
 }
 
 }  // namespace odolab

@@ -29,7 +29,8 @@ std::vector<Vec2> outline(const Shape& shape) {
   std::vector<Vec2> corners;
   if (const auto* r = std::get_if<Rectangle>(&shape)) {
     const double w = 0.5 * r->width_m, h = 0.5 * r->height_m;
-    for (Vec2 c : {Vec2{-w, -h}, Vec2{w, -h}, Vec2{w, h}, Vec2{-w, h}}) corners.push_back(r->centre + rotated(c, r->direction_rad));
+    for (Vec2 c : {Vec2{-w, -h}, Vec2{w, -h}, Vec2{w, h}, Vec2{-w, h}})
+      corners.push_back(r->centre + rotated(c, r->direction_rad));
   } else {
     const Disc& disc = std::get<Disc>(shape);
     for (int i = 0; i < 72; ++i) corners.push_back(disc.centre + rotated({disc.radius_m, 0.0}, i * kPi / 36.0));
@@ -106,7 +107,8 @@ void draw_start(Svg& svg, const View& view, const Pose& start) {
 
 void draw_scale_bar(Svg& svg, const View& view, const TrackPicture& picture) {
   const double length_m = round_step((picture.width_px - 2.0 * kSide_px) / view.scale_px, 5);
-  const double right = picture.width_px - kSide_px, y = picture.height_px - 22.0, left = right - length_m * view.scale_px;
+  const double right = picture.width_px - kSide_px, y = picture.height_px - 22.0,
+               left = right - length_m * view.scale_px;
   svg.line({left, y}, {right, y}, {ink::kText, 2.0, ""});
   svg.line({left, y - 4}, {left, y + 4}, {ink::kText, 2.0, ""});
   svg.line({right, y - 4}, {right, y + 4}, {ink::kText, 2.0, ""});

@@ -70,7 +70,8 @@ inline std::string recordings_folder() {
   return std::filesystem::is_directory(folder) ? folder : "";
 }
 
-#define SKIP_WITHOUT_RECORDINGS() \
-  if (recordings_folder().empty()) GTEST_SKIP() << "the real recordings are not there: ../shared/recordings or ODOLAB_RECORDINGS"
+#define SKIP_WITHOUT_RECORDINGS()  \
+  if (recordings_folder().empty()) \
+  GTEST_SKIP() << "the real recordings are not there: ../shared/recordings or ODOLAB_RECORDINGS"
 
 }  // namespace odolab

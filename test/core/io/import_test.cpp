@@ -1,8 +1,7 @@
-#include "core/io/import/imported_recording.h"
-
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/io/import/imported_recording.h"
 #include "core/io/recording_csv.h"
 #include "test/core/io/files.h"
 
@@ -29,9 +28,10 @@ TEST(Import, SynchronisedTicksAreRightThenLeftAndAddUp) {
 
 TEST(Import, UtiasKeepsCommandsAndTruthOnOneClock) {
   ScratchFolder folder;
-  const std::string odometry = folder.write("Robot1_Odometry.dat",
-                                            "# UTIAS\n# Time [s]\n1248444187.156 \t  0.086 \t -0.398\n1248444187.200 0.1 0.0\n"
-                                            "1248444187.190 0.2 0.0\n1248444187.200 0.3 0.0\n");
+  const std::string odometry =
+      folder.write("Robot1_Odometry.dat",
+                   "# UTIAS\n# Time [s]\n1248444187.156 \t  0.086 \t -0.398\n1248444187.200 0.1 0.0\n"
+                   "1248444187.190 0.2 0.0\n1248444187.200 0.3 0.0\n");
   folder.write("Robot1_Groundtruth.dat", "# UTIAS\n1248444187.100 1 2 3\n1248444187.156 1.1 2.1 3.1\n");
   const Result<ImportedRecording> imported = import_recording({odometry});
   ASSERT_TRUE(imported.ok()) << imported.error().message();
@@ -41,7 +41,8 @@ TEST(Import, UtiasKeepsCommandsAndTruthOnOneClock) {
   EXPECT_EQ(r.channel("command_yaw_rate_radps")->values[1], -0.398);
   EXPECT_EQ(r.channel("truth_heading_rad")->values[1], 3.1);
   EXPECT_EQ(r.channel("command_speed_mps")->values[3], 0.3);
-  EXPECT_EQ(imported->warnings, std::vector<std::string>{"1 row of Robot1_Odometry.dat left out: time goes back there"});
+  EXPECT_EQ(imported->warnings,
+            std::vector<std::string>{"1 row of Robot1_Odometry.dat left out: time goes back there"});
   EXPECT_TRUE(problems_in(r).empty());
 }
 
@@ -51,15 +52,19 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
     return message_of(import_recording(sources), folder.path("x"));
   };
   EXPECT_EQ(complaint({folder.path("none.csv")}), "none.csv: found no such file, expected a file that can be read");
-  EXPECT_EQ(complaint({folder.write("letter.txt", "Dear reader,\n")}),
-            "letter.txt: found a file of no known format, expected a recording CSV, a synchronised OptiOdom file (six columns), "
-            "a raw OptiOdom pair (_odo.csv and _opti.csv) or a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat");
+  EXPECT_EQ(
+      complaint({folder.write("letter.txt", "Dear reader,\n")}),
+      "letter.txt: found a file of no known format, expected a recording CSV, a synchronised OptiOdom file (six "
+      "columns), "
+      "a raw OptiOdom pair (_odo.csv and _opti.csv) or a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat");
   const std::string synchronised = folder.write("run-01.csv", "0,0,0,0,0,0\n0.05,0.1,0.2\n");
   EXPECT_EQ(complaint({synchronised}), "run-01.csv:2: found 3 cells, expected 6");
-  EXPECT_EQ(complaint({synchronised, synchronised}), "run-01.csv: found a second file, expected one synchronised file alone");
+  EXPECT_EQ(complaint({synchronised, synchronised}),
+            "run-01.csv: found a second file, expected one synchronised file alone");
   EXPECT_EQ(complaint({folder.write("b.csv", "0,0,0,0,0,0\n0.05,0,0,0,-")}),
             "b.csv:2: found a last line cut off after 5 cells, expected 6");
-  EXPECT_EQ(complaint({folder.write("c.csv", "0,0,0,0,0,0\n0.05,0,zero,0,1,1\n")}), "c.csv:2: column 3: found 'zero', expected a number");
+  EXPECT_EQ(complaint({folder.write("c.csv", "0,0,0,0,0,0\n0.05,0,zero,0,1,1\n")}),
+            "c.csv:2: column 3: found 'zero', expected a number");
   EXPECT_EQ(complaint({folder.write("d.csv", "0.1,0,0,0,0,0\n0.05,0,0,0,1,1\n")}),
             "d.csv:2: column 1: found 0.05 after 0.1, expected times that never decrease");
   const std::string odometry = folder.write("a_run-01_odo.csv", "23.5,0,0\n23.55,1,2\n");
@@ -67,9 +72,11 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint({odometry, synchronised}),
             "run-01.csv: found a file of OptiOdom, synchronised, expected one of OptiOdom, raw as the first source");
   const std::string utias = folder.write("Robot4_Odometry.dat", "# UTIAS\n1 2 3\n");
-  EXPECT_EQ(complaint({utias}), "Robot4_Odometry.dat: found the odometry alone, expected the robot's Groundtruth.dat beside it");
+  EXPECT_EQ(complaint({utias}),
+            "Robot4_Odometry.dat: found the odometry alone, expected the robot's Groundtruth.dat beside it");
   folder.write("runs/one.csv", "time_s,left_ticks,right_ticks\n0,1,2\n");
-  EXPECT_EQ(complaint({folder.path("runs")}), "runs: found a folder with 1 file of recordings, expected one run, such as 'one.csv'");
+  EXPECT_EQ(complaint({folder.path("runs")}),
+            "runs: found a folder with 1 file of recordings, expected one run, such as 'one.csv'");
   EXPECT_EQ(message_of(load_recording(folder.path("runs/one.csv")), ""), "ok");
 }
 
@@ -78,8 +85,10 @@ TEST(Import, ReadsEveryRealRecording) {
   int synchronised = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(recordings_folder())) {
     const std::string name = entry.path().filename().string();
-    const bool alone = name.find("run-") != std::string::npos && name.size() > 5 && name.find("_o") == std::string::npos;
-    if (!alone && name.find("_Odometry.dat") == std::string::npos && name.find("_opti.csv") == std::string::npos) continue;
+    const bool alone =
+        name.find("run-") != std::string::npos && name.size() > 5 && name.find("_o") == std::string::npos;
+    if (!alone && name.find("_Odometry.dat") == std::string::npos && name.find("_opti.csv") == std::string::npos)
+      continue;
     const Result<ImportedRecording> imported = load_recording(entry.path().string());
     ASSERT_TRUE(imported.ok()) << imported.error().message();
     EXPECT_TRUE(problems_in(imported->recording).empty()) << name;
@@ -106,7 +115,8 @@ TEST(Import, TheRawPairAgreesWithTheSynchronisedFileOfTheSameRun) {
 
     // the wheels: the same counts for the same wheel at the same time
     DifferentialDrive drive;
-    const std::vector<WheelSample> a = wheel_samples(raw->recording, drive), b = wheel_samples(synchronised->recording, drive);
+    const std::vector<WheelSample> a = wheel_samples(raw->recording, drive),
+                                   b = wheel_samples(synchronised->recording, drive);
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       ASSERT_EQ(a[i].left_rad, b[i].left_rad);
@@ -143,11 +153,13 @@ TEST(Import, TheRawPairAgreesWithTheSynchronisedFileOfTheSameRun) {
     EXPECT_NEAR(std::hypot(fit[0], fit[1]), 1.0, 5e-5);  // neither stretched nor mirrored
     double heading_square_sum = 0.0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double e = wrapped(wanted[i].heading_rad - at[i].heading_rad - (wanted[0].heading_rad - at[0].heading_rad)) -
-                       heading_sum / static_cast<double>(n);
+      const double e =
+          wrapped(wanted[i].heading_rad - at[i].heading_rad - (wanted[0].heading_rad - at[0].heading_rad)) -
+          heading_sum / static_cast<double>(n);
       heading_square_sum += e * e;
     }
-    EXPECT_LT(std::sqrt(heading_square_sum / static_cast<double>(n)), 0.003);  // 1.5 mrad measured, of two markers 10 cm apart
+    EXPECT_LT(std::sqrt(heading_square_sum / static_cast<double>(n)),
+              0.003);  // 1.5 mrad measured, of two markers 10 cm apart
   }
 }
 

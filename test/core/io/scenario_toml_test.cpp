@@ -44,7 +44,8 @@ struct Scene {
   ScratchFolder folder;
   Scene() {
     folder.write("vehicles/labmate.toml",
-                 "kind = \"differential_drive\"\n[differential_drive]\nwheel_radius_left_m = 0.08\nwheel_radius_right_m = 0.081\n"
+                 "kind = \"differential_drive\"\n[differential_drive]\nwheel_radius_left_m = "
+                 "0.08\nwheel_radius_right_m = 0.081\n"
                  "wheelbase_m = 0.340\nencoder_counts_per_revolution = 2000\n");
   }
   Result<Scenario> read(const std::string& text) { return read_scenario(folder.write("s.toml", text)); }
@@ -102,9 +103,11 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(scene.complaint(replaced(kScenario, "[floor]", "[flor]\n[floor]")),
             "s.toml:9: found the key 'flor', expected a known key; the nearest is 'floor'");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "height_m = 0.010", "radius_m = 0.010")),
-            "s.toml:15: found the key 'radius_m', expected a known key: x_m, y_m, direction_rad, length_m, height_m or under");
+            "s.toml:15: found the key 'radius_m', expected a known key: x_m, y_m, direction_rad, length_m, height_m or "
+            "under");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "\"square\"", "\"circle\"")),
-            "s.toml:23: kind: found 'circle', expected square, straight, figure_eight, waypoints, wheel_speeds, hand or replay");
+            "s.toml:23: kind: found 'circle', expected square, straight, figure_eight, waypoints, wheel_speeds, hand "
+            "or replay");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "inside_wheel", "outside_wheel")),
             "s.toml:16: under: found 'outside_wheel', expected any_wheel, left_wheel, right_wheel or inside_wheel");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "0.010", "0.2")),
@@ -122,21 +125,28 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
             "s.toml:26: benchmark: found an array of tables, expected a table");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "[[floor.bump]]", "[floor.bump]")),
             "s.toml:13: bump: found a table, expected tables, each under [[...]]");
-  EXPECT_EQ(scene.complaint(replaced(kScenario, "at_most = 0.03", "")), "s.toml:30: found no key 'at_most', expected it to be given");
+  EXPECT_EQ(scene.complaint(replaced(kScenario, "at_most = 0.03", "")),
+            "s.toml:30: found no key 'at_most', expected it to be given");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "vehicles/labmate", "vehicles/labmat")),
-            "s.toml:3: vehicle: found 'vehicles/labmat.toml', which does not exist, expected a vehicle file, relative to the scenario");
-  EXPECT_EQ(scene.complaint("[path]\nkind = \"replay\"\n"), "s.toml:1: found no key 'recording', expected it to be given");
-  EXPECT_EQ(scene.complaint("[path]\nkind = \"waypoints\"\n"), "s.toml:1: path.point: found 0, expected one point or more");
+            "s.toml:3: vehicle: found 'vehicles/labmat.toml', which does not exist, expected a vehicle file, relative "
+            "to the scenario");
+  EXPECT_EQ(scene.complaint("[path]\nkind = \"replay\"\n"),
+            "s.toml:1: found no key 'recording', expected it to be given");
+  EXPECT_EQ(scene.complaint("[path]\nkind = \"waypoints\"\n"),
+            "s.toml:1: path.point: found 0, expected one point or more");
   const std::string cut_off = std::string(kScenario).substr(0, std::string(kScenario).find("4\n\n[benchmark]"));
   EXPECT_EQ(scene.complaint(cut_off).substr(0, 30), "s.toml:24: found broken TOML (");
 }
 
 TEST(ScenarioToml, AnErrorInTheVehicleNamesTheVehiclesFile) {
   Scene scene;
-  scene.folder.write("vehicles/labmate.toml",
-                     "kind = \"differential_drive\"\n[differential_drive]\nwheel_radius_left_m = 0\nwheel_radius_right_m = 0.08\n"
-                     "wheelbase_m = 0.34\n");
-  EXPECT_EQ(scene.complaint(kScenario), "vehicles/labmate.toml:3: differential_drive.wheel_radius_left_m: found 0, expected a length in metres above 0");
+  scene.folder.write(
+      "vehicles/labmate.toml",
+      "kind = \"differential_drive\"\n[differential_drive]\nwheel_radius_left_m = 0\nwheel_radius_right_m = 0.08\n"
+      "wheelbase_m = 0.34\n");
+  EXPECT_EQ(
+      scene.complaint(kScenario),
+      "vehicles/labmate.toml:3: differential_drive.wheel_radius_left_m: found 0, expected a length in metres above 0");
 }
 
 // Everything that a scenario can hold, each value unlike its default.
@@ -203,9 +213,10 @@ TEST_P(ScenarioTomlPaths, RoundTripWritesTheSameFileAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, ScenarioTomlPaths,
-                         testing::Values(Path(SquarePath{3.9, true}), Path(StraightPath{7.0, true}), Path(FigureEightPath{0.7, 3}),
-                                         Path(WaypointPath{{{1, 2}, {3.5, -4}}}),
-                                         Path(WheelSpeedPath{{{1.0, 2.0, 3.0}, {4.0, -5.0, 6.0}}, 0.25}), Path(HandPath{12.0}),
+                         testing::Values(Path(SquarePath{3.9, true}), Path(StraightPath{7.0, true}),
+                                         Path(FigureEightPath{0.7, 3}), Path(WaypointPath{{{1, 2}, {3.5, -4}}}),
+                                         Path(WheelSpeedPath{{{1.0, 2.0, 3.0}, {4.0, -5.0, 6.0}}, 0.25}),
+                                         Path(HandPath{12.0}),
                                          Path(ReplayPath{"runs/one.csv", ReplayPath::By::commands})));
 
 TEST(ScenarioToml, NamesItsVehicleFileWhereThereIsOne) {

@@ -73,24 +73,29 @@ TEST(VehicleToml, RoundTripKeepsEveryBit) {
 TEST(VehicleToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint(replaced(kLabMate, "wheelbase_m = 0.340", "wheelbase_m = 0.340\nwheel_bse_m = 0.34")),
             "x.toml:8: found the key 'wheel_bse_m', expected a known key; the nearest is 'wheelbase_m'");
-  EXPECT_EQ(complaint(std::string(kLabMate) + "wheel_radius_rigt_m = 0.07\n"),
-            "x.toml:9: found the key 'wheel_radius_rigt_m', expected a known key; the nearest is 'wheel_radius_right_m'");
+  EXPECT_EQ(
+      complaint(std::string(kLabMate) + "wheel_radius_rigt_m = 0.07\n"),
+      "x.toml:9: found the key 'wheel_radius_rigt_m', expected a known key; the nearest is 'wheel_radius_right_m'");
   EXPECT_EQ(complaint(replaced(kLabMate, "wheelbase_m = 0.340", "wheel_bse_m = 0.34")),
             "x.toml:4: found no key 'wheelbase_m', expected it to be given");
   EXPECT_EQ(complaint(replaced(kLabMate, "name", "colour = \"red\"\nname")),
             "x.toml:2: found the key 'colour', expected a known key: kind, name, differential_drive or truth_mounting");
   EXPECT_EQ(complaint(replaced(kLabMate, "0.075\n", "0\n")),
             "x.toml:5: differential_drive.wheel_radius_left_m: found 0, expected a length in metres above 0");
-  EXPECT_EQ(complaint(replaced(kLabMate, "0.340", "\"wide\"")), "x.toml:7: wheelbase_m: found 'wide', expected a number");
-  EXPECT_EQ(complaint(replaced(kLabMate, "0.340", "inf")), "x.toml:7: wheelbase_m: found an infinity, expected a number");
+  EXPECT_EQ(complaint(replaced(kLabMate, "0.340", "\"wide\"")),
+            "x.toml:7: wheelbase_m: found 'wide', expected a number");
+  EXPECT_EQ(complaint(replaced(kLabMate, "0.340", "inf")),
+            "x.toml:7: wheelbase_m: found an infinity, expected a number");
   EXPECT_EQ(complaint(replaced(kLabMate, "differential_drive", "hovercraft")),
             "x.toml:1: kind: found 'hovercraft', expected differential_drive");
   EXPECT_EQ(complaint(replaced(kLabMate, "kind = \"differential_drive\"\n", "")),
             "x.toml: found no key 'kind', expected it to be given");
-  EXPECT_EQ(complaint("kind = \"differential_drive\"\n"), "x.toml: found no key 'differential_drive', expected it to be given");
+  EXPECT_EQ(complaint("kind = \"differential_drive\"\n"),
+            "x.toml: found no key 'differential_drive', expected it to be given");
   EXPECT_EQ(complaint(std::string(kLabMate) + "counter_bits = 70\n"),
             "x.toml:9: differential_drive.counter_bits: found 70, expected 0 (never wraps) to 62");
-  EXPECT_EQ(complaint(std::string(kLabMate) + "counter_bits = 1.5\n"), "x.toml:9: counter_bits: found 1.5, expected a whole number");
+  EXPECT_EQ(complaint(std::string(kLabMate) + "counter_bits = 1.5\n"),
+            "x.toml:9: counter_bits: found 1.5, expected a whole number");
   EXPECT_EQ(complaint(""), "x.toml: found an empty file, expected TOML keys");
 }
 
@@ -98,7 +103,8 @@ TEST(VehicleToml, NoticesBrokenToml) {
   const std::string cut_off = complaint("kind = \"differential_drive\"\n[differential_drive]\nwheel_radius_left_m = ");
   EXPECT_EQ(cut_off.substr(0, 29), "x.toml:3: found broken TOML (");
   EXPECT_EQ(cut_off.find('\n'), std::string::npos);
-  EXPECT_EQ(complaint("kind = \"differential_drive\"\n[differential_dr").substr(0, 29), "x.toml:2: found broken TOML (");
+  EXPECT_EQ(complaint("kind = \"differential_drive\"\n[differential_dr").substr(0, 29),
+            "x.toml:2: found broken TOML (");
   EXPECT_EQ(complaint("name = \"a\"\nname = \"b\"\n").substr(0, 29), "x.toml:2: found broken TOML (");
 }
 
@@ -107,14 +113,16 @@ TEST(VehicleToml, WritesNoVehicleThatHasProblems) {
   Vehicle vehicle;
   std::get<DifferentialDrive>(vehicle.kind).wheelbase_m = -1.0;
   const std::string path = folder.path("x.toml");
-  EXPECT_EQ(message_of(write_vehicle(path, vehicle), path), "x.toml: wheelbase_m: found -1, expected a length in metres above 0");
+  EXPECT_EQ(message_of(write_vehicle(path, vehicle), path),
+            "x.toml: wheelbase_m: found -1, expected a length in metres above 0");
   EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(FileKind, IsSeenByContent) {
   ScratchFolder folder;
   EXPECT_EQ(file_kind(folder.write("a.txt", kLabMate)), FileKind::vehicle);
-  EXPECT_EQ(file_kind(folder.write("b.txt", "# a square\nname = \"square\"\n[path]\nkind = \"square\"\n")), FileKind::scenario);
+  EXPECT_EQ(file_kind(folder.write("b.txt", "# a square\nname = \"square\"\n[path]\nkind = \"square\"\n")),
+            FileKind::scenario);
   EXPECT_EQ(file_kind(folder.write("c.txt", "\xEF\xBB\xBFtime_s,left_ticks\n")), FileKind::recording);
   EXPECT_EQ(file_kind(folder.write("d.txt", "0,0,0,0,0,0\n0.05,0,0,0,1,2\n")), FileKind::foreign_recording);
   EXPECT_EQ(file_kind(folder.write("e.toml", "name = \n")), FileKind::scenario);
