@@ -22,6 +22,9 @@ struct TomlTable::File {
   toml::table top;
   std::vector<std::unique_ptr<Node>> nodes;
   std::optional<Error> failure;
+  // A key that had to be given and was not. If the same table has a key much like it, that one is misspelt.
+  std::optional<Error> missing;
+  std::string missing_key;
 
   Node* visit(const toml::table* table) {
     if (table)
@@ -88,6 +91,10 @@ std::string expected_instead_of(std::string_view key, const std::vector<std::str
   return known.empty() ? "no key here" : known.size() == 1 ? "the key " + known[0] : "a known key: " + joined(known);
 }
 
+bool near(std::string_view key, std::string_view known) {
+  return edit_distance(key, known) <= std::max<std::size_t>(2, key.size() / 3);
+}
+
 // TOML++ explains at length, over several lines; its first clause says what matters.
 std::string one_line(std::string_view text) {
   std::string line(text.substr(0, text.find('\n')));
@@ -136,14 +143,16 @@ void TomlTable::fail(Error error) {
   if (!file_->failure) file_->failure = std::move(error);
 }
 
-const std::optional<Error>& TomlTable::failure() const { return file_->failure; }
+const std::optional<Error>& TomlTable::failure() const { return file_->failure ? file_->failure : file_->missing; }
 
 void TomlTable::require(const char* key) {
   asked_for(node_->table, node_->asked, key);
   if (has(key)) return;
   const bool top = node_->table == &file_->top;
   const std::string where = node_->table && !top ? place(file_->path, node_->table->source()) : file_->path;
-  fail({where, "no key '" + std::string(key) + "'", "it to be given"});
+  if (file_->missing || file_->failure) return;
+  file_->missing = Error{where, "no key '" + std::string(key) + "'", "it to be given"};
+  file_->missing_key = key;
 }
 
 void TomlTable::field(const char* key, double& value) {
@@ -292,7 +301,7 @@ Error TomlTable::error_of(const std::string& problem) const {
 }
 
 Result<Done> TomlTable::finish() const {
-  if (file_->failure) return *file_->failure;
+  if (file_->failure && !file_->missing) return *file_->failure;
   const toml::key* first = nullptr;
   const Node* of = nullptr;
   for (const std::unique_ptr<Node>& node : file_->nodes) {
@@ -304,6 +313,7 @@ Result<Done> TomlTable::finish() const {
       of = node.get();
     }
   }
+  if (file_->missing && !(first && near(first->str(), file_->missing_key))) return *file_->missing;
   if (!first) return Done{};
   return Error{place(file_->path, first->source()), "the key '" + std::string(first->str()) + "'",
                expected_instead_of(first->str(), of->asked)};

@@ -1,0 +1,49 @@
+// Runs the program as a script would.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace odolab {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // standard output
+  std::string errors;  // standard error
+};
+
+inline std::string text_of_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A folder of a test's own, empty at its start.
+inline std::filesystem::path fresh_folder(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("odolab_test_" + name);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+// `arguments` as a shell would read them; the program starts in the project's folder.
+inline Outcome odolab(const std::string& arguments) {
+  static int count = 0;
+  const std::filesystem::path log =
+      std::filesystem::temp_directory_path() / ("odolab_log_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+  const std::string command = "cd '" ODOLAB_SOURCE_DIR "' && '" ODOLAB_PROGRAM "' " + arguments + " >'" + log.string() + ".out' 2>'" +
+                              log.string() + ".err' </dev/null";
+  const int status = std::system(command.c_str());
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(log.string() + ".out"), text_of_file(log.string() + ".err")};
+  std::filesystem::remove(log.string() + ".out");
+  std::filesystem::remove(log.string() + ".err");
+  return outcome;
+}
+
+}  // namespace odolab
