@@ -77,7 +77,7 @@ TEST(VehicleToml, SaysInOneLineWhatIsWrong) {
       complaint(std::string(kLabMate) + "wheel_radius_rigt_m = 0.07\n"),
       "x.toml:9: found the key 'wheel_radius_rigt_m', expected a known key; the nearest is 'wheel_radius_right_m'");
   EXPECT_EQ(complaint(replaced(kLabMate, "wheelbase_m = 0.340", "wheel_bse_m = 0.34")),
-            "x.toml:4: found no key 'wheelbase_m', expected it to be given");
+            "x.toml:7: found the key 'wheel_bse_m', expected a known key; the nearest is 'wheelbase_m'");
   EXPECT_EQ(complaint(replaced(kLabMate, "name", "colour = \"red\"\nname")),
             "x.toml:2: found the key 'colour', expected a known key: kind, name, differential_drive or truth_mounting");
   EXPECT_EQ(complaint(replaced(kLabMate, "0.075\n", "0\n")),
