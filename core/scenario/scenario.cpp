@@ -67,6 +67,9 @@ ActualDrive as_drawn(const DifferentialDrive& nominal) {
   ActualDrive actual;
   actual.wheel_radius_left_m = nominal.wheel_radius_left_m;
   actual.wheel_radius_right_m = nominal.wheel_radius_right_m;
+  const double size = nominal.wheelbase_m / actual.wheelbase_m;
+  actual.mass_kg *= size * size * size;
+  actual.moment_of_inertia_kgm2 *= size * size * size * size * size;
   actual.wheelbase_m = nominal.wheelbase_m;
   return actual;
 }

@@ -121,7 +121,8 @@ struct Scenario {
 // All that is wrong with a scenario, each a sentence that starts with the key.
 std::vector<std::string> problems_in(const Scenario& scenario);
 
-// The actual drive of a machine that is just as its drawing says.
+// The actual drive of a machine that is just as its drawing says. A drawing knows no weight: mass and inertia are those of
+// a LabMate scaled to the wheelbase, as bodies of one shape and density are.
 ActualDrive as_drawn(const DifferentialDrive& nominal);
 
 }  // namespace odolab

@@ -9,7 +9,10 @@ namespace {
 
 constexpr double kRest_s = 0.3;            // pause at a stop, so that the next leg starts from rest
 constexpr double kApproach_s = 0.15;
-constexpr double kReturnLength_m = 0.25;   // way over which an offset from the leg is steered out
+// An offset from the leg is steered out over this way, or over what is driven in this time where that is longer.
+constexpr double kReturnLength_m = 0.25;
+constexpr double kReturnTime_s = 1.25;
+constexpr double kCurvatureHaste = 4.0;  // between two arcs the turn rate may change so many times faster than in a turn
 constexpr double kLineDone_m = 0.0005;     // a leg is done within this
 constexpr double kTurnDone_rad = 0.0005;
 
@@ -23,8 +26,8 @@ double eased(double remaining, double largest, double acceleration, double last,
 
 // The yaw rate that brings a point which moves at `speed` back onto a line: critically damped over the way travelled.
 double steering(double speed_mps, double offset_m, double heading_error_rad) {
-  return -2.0 / kReturnLength_m * std::abs(speed_mps) * std::sin(heading_error_rad) -
-         speed_mps * offset_m / (kReturnLength_m * kReturnLength_m);
+  const double way_m = std::max(kReturnLength_m, kReturnTime_s * std::abs(speed_mps));
+  return -2.0 / way_m * std::abs(speed_mps) * std::sin(heading_error_rad) - speed_mps * offset_m / (way_m * way_m);
 }
 
 }  // namespace
@@ -88,7 +91,7 @@ BaseCommand PathFollower::around_arc(const Leg& leg, const Pose& believed) {
   const double tangent_rad = leg.from.heading_rad + turned_rad_;
   const double wanted = speed / radius_m + steering(speed, left_of_arc_m, wrapped(believed.heading_rad - tangent_rad));
   // Between two arcs the curvature jumps; the turn rate may not.
-  const double change = driving_.turn_acceleration_radps2 * period_s_;
+  const double change = kCurvatureHaste * driving_.turn_acceleration_radps2 * period_s_;
   return {speed, std::clamp(wanted, last_.yaw_rate_radps - change, last_.yaw_rate_radps + change)};
 }
 

@@ -1,0 +1,79 @@
+#include "physics/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/io/import/imported_recording.h"
+#include "core/io/vehicle_toml.h"
+#include "physics/simulation.h"
+
+namespace odolab {
+namespace {
+
+std::string recordings_folder() {
+  const char* given = std::getenv("ODOLAB_RECORDINGS");
+  return given ? given : ODOLAB_SOURCE_DIR "/../shared/recordings";
+}
+
+TEST(Replay, SimulatedVehicleFollowsARecordingOfItsOwnKind) {
+  Scenario scenario;
+  scenario.path = FigureEightPath{0.8, 1};
+  scenario.actual.wheelbase_m = 0.345;
+  scenario.vehicle.truth.axle_T_tracked = {0.1, -0.05, 0.2};
+  Simulation driven(scenario, 5);
+  run_to_end(driven);
+  const auto recording = std::make_shared<const Recording>(driven.recording());
+
+  Vehicle right = scenario.vehicle;
+  std::get<DifferentialDrive>(right.kind).wheelbase_m = 0.345;
+  const Result<Replay> same = replay(replay_scenario(right, *recording), recording);
+  ASSERT_TRUE(same);
+  // Half a count of each encoder: 0.12 mm, 0.7 mrad over a metre.
+  EXPECT_LT(same->simulated_error->position_rms_m, 1e-3);
+  EXPECT_LT(same->simulated_error->heading_rms_rad, 1e-3);
+
+  const Result<Replay> as_drawn = replay(replay_scenario(scenario.vehicle, *recording), recording);
+  // Eq. 2.4: a wheelbase 345/340 too small turns 1.5 % too far; windows turn by a radian or drive a metre on 0.8 m radius.
+  EXPECT_NEAR(as_drawn->simulated_error->heading_rms_rad, 0.0147, 0.002);
+}
+
+TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
+  Recording commands;
+  commands.name = "commands";
+  for (int k = 0; k <= 400; ++k) commands.time_s.push_back(0.01 * k);
+  std::vector<double> speed(401, 0.3), rate(401, 0.0);
+  speed.back() = 0.0;
+  commands.channels = {{"command_speed_mps", speed}, {"command_yaw_rate_radps", rate}};
+  const auto recording = std::make_shared<const Recording>(commands);
+  const Scenario scenario = replay_scenario(Vehicle{}, commands);
+  const Result<Replay> result = replay(scenario, recording);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->dead_reckoned.back().pose.x_m, 1.2, 1e-9);
+  // Motors have inertia and slip while they speed up: behind by some time constants (0.1 s) of travel, never ahead.
+  EXPECT_LT(result->simulated.back().pose.x_m, 1.2);
+  EXPECT_GT(result->simulated.back().pose.x_m, 1.2 - 0.3 * 0.2);
+}
+
+TEST(Replay, RealSquareIsFollowedToWithinAFewCentimetres) {
+  const std::string file = recordings_folder() + "/optiodom/square/231220200029/231220200029_run-01.csv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real recordings are not beside the project (../shared/recordings)";
+  const Result<ImportedRecording> loaded = load_recording(file);
+  ASSERT_TRUE(loaded) << loaded.error().message();
+  const auto recording = std::make_shared<const Recording>(loaded->recording);
+  const Result<Vehicle> vehicle = read_vehicle(ODOLAB_SOURCE_DIR "/assets/vehicles/optiodom_robot.toml");
+  ASSERT_TRUE(vehicle);
+  const Result<Replay> result = replay(replay_scenario(*vehicle, *recording), recording);
+  ASSERT_TRUE(result);
+  EXPECT_GT(travelled_m(result->truth), 5.0);
+  // The physics adds nothing to dead reckoning where nothing slips: both stay together over the whole run.
+  const auto apart = track_error(result->simulated, result->dead_reckoned);
+  ASSERT_TRUE(apart);
+  EXPECT_LT(apart->largest_position_m, 5e-3);
+  // A real robot by its drawing alone: 2 % of a 6.8 m square.
+  EXPECT_LT(result->simulated_error->end_position_m, 0.14);
+}
+
+}  // namespace
+}  // namespace odolab
