@@ -40,7 +40,7 @@ void DriveRun::remember() {
   const SimulationState& s = simulation_.state();
   const Pose gap = between(s.true_pose, s.estimated_pose);
   history_.push_back(s);
-  times_.push_back(s.time_s);
+  times_.push_back(s.time_s - start_s());
   gap_m_.push_back(length(gap.position()));
   gap_heading_.push_back(wrapped(gap.heading_rad));
 }
@@ -49,16 +49,14 @@ void DriveRun::note_events(const SimulationState& before, const SimulationState&
   const auto note = [&](RunEvent::Kind kind, const std::string& words) {
     if (events_.size() >= kMostEvents) return;
     for (RunEvent& e : events_)
-      if (e.kind == kind && now.time_s - e.time_s < kSameEvent) {
+      if (e.kind == kind && now.time_s - start_s() - e.time_s < kSameEvent) {
         if (e.words.find(words) == std::string::npos) e.words += ", " + words;
         return;
       }
-    events_.push_back({kind, now.time_s, words});
+    events_.push_back({kind, now.time_s - start_s(), words});
   };
-  if (scenario_.floor.roughness.largest_height_m <= 0.0 || !scenario_.floor.bumps.empty()) {
-    if (now.left.on_bump && !before.left.on_bump) note(RunEvent::Kind::bump, "left wheel on a cable");
-    if (now.right.on_bump && !before.right.on_bump) note(RunEvent::Kind::bump, "right wheel on a cable");
-  }
+  if (now.left.on_bump && !before.left.on_bump) note(RunEvent::Kind::bump, "left wheel on a cable");
+  if (now.right.on_bump && !before.right.on_bump) note(RunEvent::Kind::bump, "right wheel on a cable");
   if (now.left.in_slip_zone && !before.left.in_slip_zone) note(RunEvent::Kind::slip_zone, "left wheel on a slippery patch");
   if (now.right.in_slip_zone && !before.right.in_slip_zone) note(RunEvent::Kind::slip_zone, "right wheel on a slippery patch");
 }
@@ -117,9 +115,9 @@ SimulationState DriveRun::shown() const {
   if (after == 0) return history_.front();
   if (after >= history_.size()) return history_.back();
   const SimulationState &a = history_[after - 1], &b = history_[after];
-  const double span = b.time_s - a.time_s, u = span > 0.0 ? (shown_s_ - a.time_s) / span : 1.0;
+  const double span = b.time_s - a.time_s, u = span > 0.0 ? (start_s() + shown_s_ - a.time_s) / span : 1.0;
   SimulationState s = u < 0.5 ? a : b;
-  s.time_s = shown_s_;
+  s.time_s = start_s() + shown_s_;
   s.true_pose = mixed_pose(a.true_pose, b.true_pose, u);
   s.estimated_pose = mixed_pose(a.estimated_pose, b.estimated_pose, u);
   s.left.rotation_rad = mixed_value(a.left.rotation_rad, b.left.rotation_rad, u);

@@ -36,8 +36,10 @@ class DriveRun {
 
   const Scenario& scenario() const { return scenario_; }
   const Simulation& simulation() const { return simulation_; }
+  // Times are since the start of the run; in a replay its tracks begin at another time than zero.
+  double start_s() const { return history_.front().time_s; }
   double shown_s() const { return shown_s_; }
-  double latest_s() const { return history_.back().time_s; }
+  double latest_s() const { return times_.back(); }
   double total_s() const;             // expected, and never less than what was
   bool finished() const { return history_.back().finished; }
   bool at_end() const { return finished() && shown_s_ >= latest_s(); }

@@ -30,7 +30,6 @@ void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
       const char* words;
       Unit unit;
     };
-    const Unit fine{"mm", 1e3, 3, 0.0};
     static const Name kNames[] = {{"wheel_radius_left_m", "radius left", {"mm", 1e3, 3, 0.0}}, {"wheel_radius_right_m", "radius right", {"mm", 1e3, 3, 0.0}},
                                   {"wheelbase_m", "wheelbase", {"mm", 1e3, 2, 0.0}},          {"truth_mounting.x_m", "mount x", {"mm", 1e3, 1, 0.0}},
                                   {"truth_mounting.y_m", "mount y", {"mm", 1e3, 1, 0.0}},     {"truth_mounting.heading_rad", "mount angle", {"°", kDegrees.per_si, 2, 0.0}},
