@@ -35,6 +35,9 @@ struct SetFloor {  // takes effect while the run goes on
   Floor floor;
   bool begins_gesture = true;  // false: goes on with the same drag, one step for undo
 };
+struct DriveByHandInstead {  // of the scenario's path, or back to it
+  bool by_hand = true;
+};
 struct DriveByHand {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
@@ -84,7 +87,7 @@ struct SavePicture {};
 struct Quit {};
 
 using Action = std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
-                            DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration, ClearBenchmark,
+                            DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration, ClearBenchmark,
                             CancelJob, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile, SaveScenario,
                             SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
 

@@ -43,8 +43,12 @@ void Comparison::open(std::shared_ptr<const Recording> recording, const Vehicle&
   jobs.start("driving the recording in the simulation", [this, driven, vehicle, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
     const auto result = std::make_shared<Result<ComparedReplay>>(compared(vehicle, driven, progress));
     deliver([this, result, on_error] {
-      if (*result) nominal_ = std::move(**result);
-      else if (on_error) on_error(result->error().message());
+      if (*result) {
+        nominal_ = std::move(**result);
+        time_s = duration_s();  // the whole of it in sight
+      } else if (on_error) {
+        on_error(result->error().message());
+      }
     });
   });
 }

@@ -17,7 +17,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kPictureStep = 1.0 / 60.0;      // s, where no clock is read
+constexpr double kPictureStep = 1.0 / 60.0;      // s for the widgets, where no clock is read
 constexpr double kSimulatedPerPicture = 0.75;    // s simulated for each picture of a screenshot
 constexpr double kTimeForSimulation = 0.012;     // s of a picture's time that the simulation may take
 
@@ -76,6 +76,16 @@ void remember_files(const Session& session, std::size_t& known, ScreenState& sta
   }
 }
 
+// The scenarios that come with the project.
+std::vector<std::string> example_files() {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/scenarios", none))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 // Draws a given number of pictures with a clock of its own and writes the last one.
 int run_for_picture(const GuiOptions& options, Session& session, Window& window) {
   ScreenState state;
@@ -83,16 +93,20 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   const double scale = options.scale > 0.0 ? options.scale : 1.0;
   const ui::Theme theme = window.use_theme(options.dark, scale);
   state.welcome.open = options.files.empty();
-  session.execute(ui::SetSpeed{kSimulatedPerPicture / kPictureStep});
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
   if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
     session.execute(ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
     session.execute(ui::ApplyCalibration{});
   }
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty()) session.execute(ui::RecordSimulatedRun{});
+  session.advance(0.0, [] { return false; });  // takes in what opening the files has begun
+  if (session.comparison().nominal() && session.comparison().has_wheels()) {
+    session.execute(ui::CalibrateFromRecording{});
+    session.execute(ui::ReplayWith{ui::ReplayVehicle::nominal});
+  }
   for (int i = 0; i < std::max(1, options.frames); ++i) {
     window.begin_picture(kPictureStep);
-    session.advance(kPictureStep, [] { return true; });
+    session.advance(kSimulatedPerPicture, [] { return true; });
     draw_screen(session, state, theme);
     window.end_picture(theme.panel);
   }
@@ -104,6 +118,7 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
   ScreenState state = screen_state_of(settings);
   if (options.scale > 0.0) state.choices.scale = options.scale;
   state.welcome.open = options.files.empty() && !settings.welcome_seen;
+  state.example_files = example_files();
   std::size_t known_files = 0;
   double scale = 0.0;
   bool dark = false;

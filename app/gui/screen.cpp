@@ -8,7 +8,6 @@
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/compare_panel.h"
 #include "ui/panels/error_panel.h"
-#include "ui/panels/floor_panel.h"
 #include "ui/panels/keys_panel.h"
 #include "ui/panels/path_panel.h"
 #include "ui/panels/vehicle_panel.h"
@@ -112,7 +111,7 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   estimate.until_s = shown.time_s;
   estimate.end = shown.estimated_pose;
   estimate.colour = theme.orange;
-  estimate.dashed = true;
+  estimate.dash = ui::Dash::dashes;
   scene.tracks = {truth, estimate};
   ui::VehicleGlyph vehicle;
   vehicle.pose = shown.true_pose;
@@ -132,6 +131,11 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   return scene;
 }
 
+// At a time, or at the end of the track that is nearest to it: encoders and truth do not begin and end together.
+std::optional<Pose> pose_nearest(const Track& track, double time_s) {
+  return track.empty() ? std::nullopt : pose_at(track, std::clamp(time_s, track.front().time_s, track.back().time_s));
+}
+
 ui::FloorScene compare_scene(const Session& session, const Theme& theme) {
   ui::FloorScene scene;
   scene.reference_name = "recorded";
@@ -148,15 +152,14 @@ ui::FloorScene compare_scene(const Session& session, const Theme& theme) {
   simulated.track = &replay.simulated;
   simulated.reference = &replay.truth;
   simulated.colour = theme.orange;
-  simulated.dashed = true;
+  simulated.dash = ui::Dash::dashes;
   reckoned.label = "dead reckoning";
   reckoned.track = &replay.dead_reckoned;
   reckoned.reference = &replay.truth;
   reckoned.colour = theme.blue;
-  reckoned.dashed = true;
-  // Before it is played, a comparison shows the whole of it.
-  if (session.comparison().time_s > 0.0) truth.until_s = simulated.until_s = reckoned.until_s = now;
-  scene.tracks = {reckoned, truth, simulated};
+  reckoned.dash = ui::Dash::dots;
+  truth.until_s = simulated.until_s = reckoned.until_s = now;
+  scene.tracks = {truth, simulated, reckoned};
   const DifferentialDrive& drive = std::get<DifferentialDrive>(shown->vehicle.kind);
   const auto glyph = [&](const std::optional<Pose>& pose, bool outline, ImU32 colour) {
     if (!pose) return;
@@ -169,8 +172,8 @@ ui::FloorScene compare_scene(const Session& session, const Theme& theme) {
     v.colour = colour;
     scene.vehicles.push_back(v);
   };
-  scene.reference = pose_at(replay.truth, now);
-  scene.deviating = pose_at(replay.simulated, now);
+  scene.reference = pose_nearest(replay.truth, now);
+  scene.deviating = pose_nearest(replay.simulated, now);
   glyph(scene.reference, false, theme.truth);
   glyph(scene.deviating, true, theme.orange);
   return scene;
@@ -206,14 +209,13 @@ ui::Transport compare_transport(const Session& session, const Theme& theme) {
   t.playing = session.playing();
   t.time_s = c.time_s;
   t.latest_s = t.total_s = c.duration_s();
-  t.finished = true;
   t.can_step_back = c.time_s > 0.0;
   t.speed = session.speed();
   t.reached_speed = session.reached_speed();
   t.quantity = "error";
   if (shown) {
-    t.position_curves = {{"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, true}, {"simulated", &shown->time_s, &shown->simulated_m, theme.orange, false}};
-    t.heading_curves = {{"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, true}, {"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, false}};
+    t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, false}, {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, true}};
+    t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, false}, {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, true}};
   }
   return t;
 }
@@ -230,6 +232,7 @@ ui::Bench bench_of(const Session& session) {
   if (const SquarePath* square = std::get_if<SquarePath>(&scenario.path)) b.side_m = square->side_m;
   const Floor& floor = session.run().scenario().floor;
   b.has_things = !floor.bumps.empty() || !floor.slip_zones.empty();
+  b.rough = scenario.floor.roughness.largest_height_m > 0.0;
   b.vehicle_name = scenario.vehicle.name;
   b.actual = scenario.actual;
   return b;
@@ -278,6 +281,7 @@ ui::Readout readout_of(const Session& session, const SimulationState& shown) {
   r.gap_heading_rad = wrapped(gap.heading_rad);
   r.gap_along_m = gap.x_m;
   r.gap_across_m = gap.y_m;
+  r.by_hand = std::holds_alternative<HandPath>(session.run().scenario().path);
   r.wheel_radius_left_m = session.run().scenario().actual.wheel_radius_left_m;
   r.wheel_radius_right_m = session.run().scenario().actual.wheel_radius_right_m;
   return r;
@@ -288,9 +292,9 @@ ui::ErrorNow error_now(const Session& session) {
   const ComparedReplay* shown = session.comparison().shown();
   if (!shown) return now;
   const double t = session.comparison().start_s() + session.comparison().time_s;
-  now.truth = pose_at(shown->replay.truth, t);
-  now.simulated = pose_at(shown->replay.simulated, t);
-  now.dead_reckoned = pose_at(shown->replay.dead_reckoned, t);
+  now.truth = pose_nearest(shown->replay.truth, t);
+  now.simulated = pose_nearest(shown->replay.simulated, t);
+  now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, t);
   if (now.truth && now.simulated) {
     now.simulated_gap_m = length(now.simulated->position() - now.truth->position());
     now.simulated_gap_heading_rad = wrapped(now.simulated->heading_rad - now.truth->heading_rad);
@@ -304,7 +308,7 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
     case ui::Mode::drive: {
       append(actions, ui::vehicle_panel(state.draft, state.editing, theme));
       const Vec2 place = state.drive_floor.camera.centre;
-      append(actions, ui::floor_panel(session.run().scenario().floor, state.drive_floor.selected, place, theme));
+      append(actions, ui::floor_panel(session.run().scenario().floor, state.drive_floor.selected, state.floor_panel, place, theme));
       append(actions, ui::path_panel(state.draft, state.editing, theme));
       break;
     }

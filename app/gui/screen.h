@@ -6,6 +6,7 @@
 #include "app/gui/session.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/cluster_panel.h"
+#include "ui/panels/floor_panel.h"
 #include "ui/panels/floor_view.h"
 #include "ui/panels/path_dialog.h"
 #include "ui/panels/readout_panel.h"
@@ -20,6 +21,7 @@ struct ScreenState {
   double left_width = 316.0, right_width = 292.0, bottom_height = 186.0;  // at scale 1
   ui::Welcome welcome;
   ui::FloorViewState drive_floor, compare_floor;
+  ui::FloorPanelState floor_panel;
   ui::TransportState drive_transport, compare_transport;
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;

@@ -82,6 +82,19 @@ struct Session::Executor {
     if (a.begins_gesture) remember_for_undo(true);
     s.run_->set_floor(a.floor);
   }
+  void operator()(const ui::DriveByHandInstead& a) const {
+    Scenario scenario = s.run_->scenario();
+    if (a.by_hand == std::holds_alternative<HandPath>(scenario.path)) return;
+    if (a.by_hand) {
+      s.path_before_hand_ = scenario.path;
+      scenario.path = HandPath{600.0};
+      scenario.benchmark.reset();
+    } else {
+      scenario.path = s.path_before_hand_;
+    }
+    (*this)(ui::EditScenario{scenario});
+    s.playing_ = true;
+  }
   void operator()(const ui::DriveByHand& a) const {
     if (std::holds_alternative<HandPath>(s.run_->scenario().path)) s.run_->drive_by_hand(a.speed_mps, a.yaw_rate_radps);
   }

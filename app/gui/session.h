@@ -70,6 +70,7 @@ class Session {
   double speed_ = 1.0;
   double reached_speed_ = 0.0;
   std::unique_ptr<DriveRun> run_;
+  Path path_before_hand_ = SquarePath{};
   std::string scenario_path_;  // empty: not from a file
   std::shared_ptr<const Recording> replayed_;
   UmbmarkBench bench_;

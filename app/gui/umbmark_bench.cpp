@@ -55,6 +55,12 @@ void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehic
     }
     e.measure = measure_umbmark(e.runs);
     e.calibration = calibrate_umbmark(e.runs, e.vehicle);
+    if (e.calibration) {
+      // Eqs. 6.29 and 6.24 the other way: alpha = 90 deg (1 - 1 / Eb); beta = side (Ed - 1) / wheelbase to first order.
+      const UmbmarkCalibration& c = *e.calibration;
+      e.alpha_stderr_rad = 0.5 * kPi / (c.wheelbase_ratio * c.wheelbase_ratio) * c.wheelbase_ratio_stderr;
+      e.beta_stderr_rad = e.runs.side_m / c.corrected.wheelbase_m * c.wheel_diameter_ratio_stderr;
+    }
     e.only_clockwise = calibrate_one_direction(e.runs, true, e.vehicle);
     e.only_counter_clockwise = calibrate_one_direction(e.runs, false, e.vehicle);
   };

@@ -23,8 +23,11 @@ struct Camera {
 
   // Zooms so that the point under `at` stays where it is.
   void zoom(ImVec2 at, double factor);
-  // Shows the rectangle between two corners with air around it.
-  void fit(Vec2 lowest, Vec2 highest, double air_px);
+  // Shows the rectangle between two corners inside margins of the canvas.
+  struct Margins {
+    double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+  };
+  void fit(Vec2 lowest, Vec2 highest, const Margins& margins_px);
 };
 
 }  // namespace odolab::ui

@@ -67,7 +67,7 @@ void draw_wheel(ImDrawList& draw, const Camera& camera, const Pose& pose, double
                 const Theme& theme) {
   const std::vector<ImVec2> tyre = box(camera, pose, -radius_m, y_m - 0.5 * width_m, radius_m, y_m + 0.5 * width_m);
   draw.AddConvexPolyFilled(tyre.data(), 4, theme.ink);
-  if (radius_m * camera.px_per_m < 5.0) return;
+  if (radius_m * camera.px_per_m < theme.px(9)) return;
   // Treads seen from above: they move forward on top of the wheel and crowd at its ends.
   constexpr int kTreads = 8;
   for (int i = 0; i < kTreads; ++i) {
@@ -126,8 +126,8 @@ void draw_grid(ImDrawList& draw, const Camera& camera, const Theme& theme) {
   const float l = theme.px(26);
   arrow(draw, o, {o.x + l, o.y}, theme.muted, theme.px(1.5f), theme.px(7));
   arrow(draw, o, {o.x, o.y - l}, theme.muted, theme.px(1.5f), theme.px(7));
-  draw.AddText({o.x + l + theme.px(2), o.y - height / 2}, theme.muted, "x");
-  draw.AddText({o.x - theme.px(4), o.y - l - height}, theme.muted, "y");
+  draw.AddText({o.x + l - theme.px(4), o.y + theme.px(1)}, theme.muted, "x");
+  draw.AddText({o.x - theme.px(12), o.y - l - theme.px(4)}, theme.muted, "y");
 }
 
 void draw_scale_bar(ImDrawList& draw, const Camera& camera, const Theme& theme) {
@@ -192,6 +192,14 @@ void draw_planned(ImDrawList& draw, const Camera& camera, const std::vector<Vec2
   dashed_line(draw, points, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2), theme.px(4));
 }
 
+void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, Dash dash, const Theme& theme) {
+  switch (dash) {
+    case Dash::solid: solid_line(draw, points, colour, theme.px(2.0f)); break;
+    case Dash::dashes: dashed_line(draw, points, colour, theme.px(2.2f), theme.px(8), theme.px(5)); break;
+    case Dash::dots: dashed_line(draw, points, colour, theme.px(2.6f), theme.px(2.6f), theme.px(5.4f)); break;
+  }
+}
+
 void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration, const Theme& theme) {
   if (!line.track) return;
   std::vector<ImVec2> points;
@@ -209,18 +217,16 @@ void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, d
       at = true_at + exaggeration * (at - true_at);
     }
     const ImVec2 s = camera.screen(at);
-    if (std::abs(s.x - last.x) + std::abs(s.y - last.y) < 1.0f) continue;  // no more points than pixels
+    if (std::abs(s.x - last.x) + std::abs(s.y - last.y) < theme.px(1.5f)) continue;  // no more points than pixels
     points.push_back(s);
     last = s;
   }
   if (line.end && !points.empty()) points.push_back(camera.screen(line.end->position()));
-  const float width = theme.px(line.dashed ? 2.2f : 2.0f);
-  if (line.dashed) dashed_line(draw, points, line.colour, width, theme.px(8), theme.px(5));
-  else solid_line(draw, points, line.colour, width);
+  draw_stroke(draw, points, line.colour, line.dash, theme);
 }
 
 void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, const Theme& theme) {
-  const double w = v.wheelbase_m, tyre = 0.14 * w;
+  const double w = v.wheelbase_m, tyre = 0.16 * w;
   const double back = -0.85 * w, front = 0.85 * w, side = 0.5 * w + tyre;
   // The body's corners are cut, so that its front is told from its back at any size.
   const Vec2 shape[] = {{back, -side}, {0.55 * front, -side}, {front, -0.55 * side}, {front, 0.55 * side}, {0.55 * front, side}, {back, side}};

@@ -14,6 +14,8 @@ void draw_bump(ImDrawList& draw, const Camera& camera, const Bump& bump, bool se
 void draw_slip_zone(ImDrawList& draw, const Camera& camera, const SlipZone& zone, bool selected, const Theme& theme);
 void draw_tilt(ImDrawList& draw, const Camera& camera, const Floor& floor, const Theme& theme);
 void draw_planned(ImDrawList& draw, const Camera& camera, const std::vector<Vec2>& path, const Theme& theme);
+// The stroke of a kind of track, for legends as well.
+void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, Dash dash, const Theme& theme);
 // `exaggeration` multiplies the deviation from the line's reference, where it has one.
 void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration, const Theme& theme);
 void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& vehicle, const Theme& theme);

@@ -71,7 +71,7 @@ void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scen
   // The distance between two grid lines, as the lens' own scale bar.
   const float bar = float(step * camera.px_per_m);
   const ImVec2 right{camera.high.x - theme.px(8), camera.high.y - theme.px(8)};
-  const std::string text = shown_length(step);
+  const std::string text = step < 0.9995 ? shown(step, kMillimetres, step < 0.00095 ? (step < 0.000095 ? 2 : 1) : 0) : shown(step, kMetres, 0);
   const float w = ImGui::CalcTextSize(text.c_str()).x;
   draw.AddRectFilled({right.x - std::max(bar, w) - theme.px(4), right.y - line - theme.px(5)}, camera.high, faded(theme.paper, 0.8f));
   draw.AddLine({right.x - bar, right.y}, right, theme.ink, theme.px(2));

@@ -11,6 +11,8 @@
 
 namespace odolab::ui {
 
+enum class Dash { solid, dashes, dots };
+
 // A track as it is drawn, up to a time. Where a reference is given, the deviation from it can be exaggerated.
 struct TrackLine {
   std::string label;
@@ -19,7 +21,7 @@ struct TrackLine {
   double until_s = 1e300;
   std::optional<Pose> end;  // drawn up to here, beyond the last sample
   ImU32 colour = 0;
-  bool dashed = false;
+  Dash dash = Dash::solid;
 };
 
 // A vehicle as it is drawn: solid for the real one, an outline for what an estimate believes.

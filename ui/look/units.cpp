@@ -56,7 +56,7 @@ std::string times(double factor) {
   if (factor >= 9.95)
     std::snprintf(text, sizeof text, "×%.0f", factor);
   else
-    std::snprintf(text, sizeof text, "×%.3g", std::round(factor * 100.0) / 100.0);
+    std::snprintf(text, sizeof text, "×%.2g", factor);
   return text;
 }
 

@@ -25,9 +25,9 @@ struct ButtonLook {
 bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook& look);
 bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width = 0.0f);
 
-// One of several; returns the new choice when it changes.
+// One of several; returns the new choice when it changes. Only the first `available` can be chosen.
 std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,
-                             float width = 0.0f);
+                             float width = 0.0f, int available = 1000);
 
 // A heading that can be folded; true while open.
 bool section(const char* title, const Theme& theme, bool open_at_first = true);

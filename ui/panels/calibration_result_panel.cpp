@@ -107,13 +107,14 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
   }
   const UmbmarkCalibration& c = *shown_one->calibration;
   heading(shown_one == &first ? "What is wrong with the vehicle" : "What the second calibration found", theme);
-  const Unit ratio{"", 1.0, 5, 0.0}, deg{"°", kDegrees.per_si, 4, 0.0};
-  figure_row("α each corner", shown(c.exact.alpha_rad, deg), "Type A: heading error of each turn on the spot, above zero where it turns too little (Eq. 6.22, exact path).", theme);
-  figure_row("β each side", shown(c.exact.beta_rad, deg), "Type B: heading error gathered on each straight side (Eq. 6.26, exact path).", theme);
+  const Unit ratio{"", 1.0, 5, 0.0}, deg{"°", kDegrees.per_si, 3, 0.0};
+  figure_row("α each corner", shown_with_error(c.exact.alpha_rad, shown_one->alpha_stderr_rad, deg, 3), "Type A: heading error of each turn on the spot, above zero where it turns too little (Eq. 6.22, exact path).", theme);
+  figure_row("β each side", shown_with_error(c.exact.beta_rad, shown_one->beta_stderr_rad, deg, 3), "Type B: heading error gathered on each straight side (Eq. 6.26, exact path).", theme);
   figure_row("Eb", shown_with_error(c.wheelbase_ratio, c.wheelbase_ratio_stderr, ratio, 5), "Wheelbase, actual over nominal (Eq. 6.29).", theme);
   figure_row("Ed", shown_with_error(c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, ratio, 5), "Wheel diameters, right over left (Eq. 6.24).", theme);
   ImGui::Dummy({1, theme.px(2)});
   change_table(*shown_one, bench.actual, theme);
+  if (bench.rough) note("Squares cannot see a common scale: what a rough floor adds to both wheels goes into the base (Eq. 6.30).", theme);
   one_direction_block(*shown_one, theme);
 }
 

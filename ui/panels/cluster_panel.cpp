@@ -46,39 +46,68 @@ class Clouds {
   std::deque<Cloud> kept_;  // its elements stay where they are
 };
 
-void add_experiment(Plot& plot, Clouds& clouds, const BenchExperiment& e, bool is_last, bool labels, const Theme& theme) {
+void add_experiment(Plot& plot, Clouds& clouds, const BenchExperiment& e, bool is_last, const char* when, const Theme& theme) {
   const float strength = is_last ? 1.0f : 0.6f;
   const ImU32 cw = faded(theme.orange, strength), ccw = faded(theme.blue, strength);
   if (e.measure) {
     for (const auto& [cluster, colour] : {std::pair<const Cluster&, ImU32>{e.measure->clockwise, cw}, {e.measure->counter_clockwise, ccw}})
       clouds.add(plot, {{0.0, cluster.centre_of_gravity.x_m}, {0.0, cluster.centre_of_gravity.y_m}}, "", colour, Marker::none, Stroke::dashed);
   }
-  clouds.add(plot, cloud_of(e.runs.clockwise), labels ? "clockwise" : "", cw, is_last ? Marker::disc : Marker::ring);
-  clouds.add(plot, cloud_of(e.runs.counter_clockwise), labels ? "counter-clockwise" : "", ccw, is_last ? Marker::square : Marker::box);
+  clouds.add(plot, cloud_of(e.runs.clockwise), when ? std::string("cw") + when : "", cw, is_last ? Marker::disc : Marker::ring);
+  clouds.add(plot, cloud_of(e.runs.counter_clockwise), when ? std::string("ccw") + when : "", ccw, is_last ? Marker::square : Marker::box);
   if (e.measure)
     for (const Cluster* cluster : {&e.measure->clockwise, &e.measure->counter_clockwise})
       clouds.add(plot, {{cluster->centre_of_gravity.x_m}, {cluster->centre_of_gravity.y_m}}, "", theme.ink, Marker::cross);
 }
 
-// Words at a cluster's centre of gravity, on the side away from the origin.
-void centre_label(const Cluster& cluster, const std::string& words, const PlotResult& result, const PlotView& view, const Theme& theme) {
-  const ImVec2 at = result.screen_at(cluster.centre_of_gravity.x_m, cluster.centre_of_gravity.y_m, view);
+struct Box {
+  float x0, y0, x1, y1;
+
+  bool contains(ImVec2 p, float near) const { return p.x > x0 - near && p.x < x1 + near && p.y > y0 - near && p.y < y1 + near; }
+  bool meets(const Box& b) const { return x0 < b.x1 && x1 > b.x0 && y0 < b.y1 && y1 > b.y0; }
+};
+
+// Words near a cluster's centre of gravity, at the place around it that hides the fewest points and no other words.
+void centre_label(ImVec2 at, const std::string& words, const std::vector<ImVec2>& points, std::vector<Box>& taken, const PlotResult& result, const Theme& theme) {
   if (at.x < result.low.x || at.x > result.high.x || at.y < result.low.y || at.y > result.high.y) return;
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-  const float away = cluster.centre_of_gravity.y_m >= 0.0 ? -1.0f : 1.0f;
-  ImVec2 text{at.x - 0.5f * size.x, at.y + away * theme.px(34) - 0.5f * size.y};
-  text.x = std::clamp(text.x, result.low.x + theme.px(6), std::max(result.low.x + theme.px(6), result.high.x - size.x - theme.px(6)));
-  text.y = std::clamp(text.y, result.low.y + theme.px(4), result.high.y - size.y - theme.px(4));
+  const float pad = theme.px(4);
+  Box best{};
+  int least = 1 << 30;
+  for (const float reach : {20.0f, 36.0f, 56.0f})
+    for (int k = 0; k < 8; ++k) {
+      const float angle = 0.785398f * float(k), dx = std::cos(angle), dy = std::sin(angle);
+      const float away_x = theme.px(reach) + (std::abs(dx) > 0.5f ? 0.5f * size.x : 0.0f);
+      const ImVec2 middle{at.x + dx * away_x, at.y + dy * (theme.px(reach) + 0.5f * size.y)};
+      const Box box{middle.x - 0.5f * size.x - pad, middle.y - 0.5f * size.y - 0.5f * pad, middle.x + 0.5f * size.x + pad, middle.y + 0.5f * size.y + 0.5f * pad};
+      if (box.x0 < result.low.x || box.x1 > result.high.x || box.y0 < result.low.y || box.y1 > result.high.y) continue;
+      int cost = 0;
+      for (const ImVec2 p : points) cost += box.contains(p, theme.px(5)) ? 10 : 0;
+      for (const Box& other : taken) cost += box.meets(other) ? 1000 : 0;
+      if (cost < least) {
+        least = cost;
+        best = box;
+      }
+    }
+  if (least == 1 << 30) return;
+  taken.push_back(best);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled({text.x - theme.px(4), text.y - theme.px(2)}, {text.x + size.x + theme.px(4), text.y + size.y + theme.px(2)}, faded(theme.paper, 0.88f), theme.px(3));
-  draw.AddText({std::round(text.x), std::round(text.y)}, theme.ink, words.c_str());
+  draw.AddRectFilled({best.x0, best.y0}, {best.x1, best.y1}, faded(theme.paper, 0.88f), theme.px(3));
+  draw.AddText({std::round(best.x0 + pad), std::round(best.y0 + 0.5f * pad)}, theme.ink, words.c_str());
 }
 
 void labels_of(const BenchExperiment& e, const PlotResult& result, const PlotView& view, const Theme& theme) {
   if (!e.measure) return;
   const Unit mm{"mm", 1e3, 1, 0.0};
-  if (!e.runs.clockwise.empty()) centre_label(e.measure->clockwise, "cw centre " + shown(e.measure->clockwise.distance_m, mm), result, view, theme);
-  if (!e.runs.counter_clockwise.empty()) centre_label(e.measure->counter_clockwise, "ccw centre " + shown(e.measure->counter_clockwise.distance_m, mm), result, view, theme);
+  std::vector<ImVec2> points;
+  for (const auto* errors : {&e.runs.clockwise, &e.runs.counter_clockwise})
+    for (const ReturnError& r : *errors) points.push_back(result.screen_at(r.x_m, r.y_m, view));
+  std::vector<Box> taken;
+  const auto label = [&](const Cluster& cluster, const char* way) {
+    centre_label(result.screen_at(cluster.centre_of_gravity.x_m, cluster.centre_of_gravity.y_m, view), way + shown(cluster.distance_m, mm), points, taken, result, theme);
+  };
+  if (!e.runs.clockwise.empty()) label(e.measure->clockwise, "cw ");
+  if (!e.runs.counter_clockwise.empty()) label(e.measure->counter_clockwise, "ccw ");
 }
 
 Plot plot_of_errors(const Theme&) {
@@ -131,8 +160,8 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   std::size_t points = 0;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     const bool last = i + 1 == experiments.size();
-    add_experiment(p, clouds, experiments[i], last, last, theme);
-    if (experiments[i].measure && (i == 0 || last)) p.circles.push_back({experiments[i].measure->largest_systematic_error_m, theme.muted});
+    const char* when = experiments.size() < 2 ? "" : last ? ", after" : i == 0 ? ", before" : nullptr;
+    add_experiment(p, clouds, experiments[i], last, when, theme);
     points += experiments[i].runs.clockwise.size() + experiments[i].runs.counter_clockwise.size();
   }
   if (points < state.points_seen || points == 0) state.view.fitted = state.enlarged.fitted = true;
@@ -155,8 +184,7 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   Plot q = plot_of_errors(theme);
   q.legend = false;
   Clouds near;
-  add_experiment(q, near, experiments.back(), true, false, theme);
-  if (experiments.back().measure) q.circles.push_back({experiments.back().measure->largest_systematic_error_m, theme.muted});
+  add_experiment(q, near, experiments.back(), true, nullptr, theme);
   ImGui::SetCursorScreenPos({low.x + theme.px(2), low.y + theme.px(4)});
   const PlotResult inner = plot("enlarged", {size.x - theme.px(8), size.y - theme.px(10)}, q, state.enlarged, theme);
   const double enlargement = (inner.high.x - inner.low.x) / (state.enlarged.x1 - state.enlarged.x0) / ((result.high.x - result.low.x) / (state.view.x1 - state.view.x0));

@@ -15,37 +15,48 @@ void fact(const char* label, const std::string& value, const Theme& theme) {
   if (ImGui::CalcTextSize(value.c_str()).x > ImGui::GetItemRectSize().x) tooltip(value, theme);
 }
 
+// How a parameter of the vehicle file is called and counted on the screen.
+struct ParameterName {
+  const char* key;
+  const char* words;
+  const char* unit;
+  double per_si;
+  int decimals;
+};
+
+constexpr ParameterName kNames[] = {
+    {"wheel_radius_left_m", "radius left", "mm", 1e3, 3}, {"wheel_radius_right_m", "radius right", "mm", 1e3, 3},
+    {"wheelbase_m", "wheelbase", "mm", 1e3, 2},           {"truth_mounting.x_m", "mounted x", "mm", 1e3, 1},
+    {"truth_mounting.y_m", "mounted y", "mm", 1e3, 1},    {"truth_mounting.heading_rad", "turned", "°", kDegrees.per_si, 2},
+    {"truth_mounting.time_offset_s", "truth late", "ms", 1e3, 1},
+};
+
 void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
-  if (!ImGui::BeginTable("parameters", 3, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.8f, 0.75f, 1.4f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  if (!ImGui::BeginTable("parameters", 4, ImGuiTableFlags_BordersInnerH)) return;
+  for (const float weight : {0.95f, 0.3f, 0.68f, 1.2f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow();
+  ImGui::TableNextColumn();
   ImGui::TableNextColumn();
   for (const char* title : {"nominal", "calibrated"}) {
     ImGui::TableNextColumn();
     text_right(title, theme.muted);
   }
   for (const ParameterEstimate& p : c.parameters) {
-    struct Name {
-      const char* key;
-      const char* words;
-      Unit unit;
-    };
-    static const Name kNames[] = {{"wheel_radius_left_m", "radius left", {"mm", 1e3, 3, 0.0}}, {"wheel_radius_right_m", "radius right", {"mm", 1e3, 3, 0.0}},
-                                  {"wheelbase_m", "wheelbase", {"mm", 1e3, 2, 0.0}},          {"truth_mounting.x_m", "mount x", {"mm", 1e3, 1, 0.0}},
-                                  {"truth_mounting.y_m", "mount y", {"mm", 1e3, 1, 0.0}},     {"truth_mounting.heading_rad", "mount angle", {"°", kDegrees.per_si, 2, 0.0}},
-                                  {"truth_mounting.time_offset_s", "truth late", {"ms", 1e3, 1, 0.0}}};
-    const Name* name = nullptr;
-    for (const Name& n : kNames)
-      if (p.name == n.key || p.name == std::string(n.key).substr(std::string(n.key).find('.') + 1)) name = &n;
-    const Unit unit = name ? name->unit : Unit{p.unit.c_str(), 1.0, 4, 0.0};
+    ParameterName name{p.name.c_str(), p.name.c_str(), p.unit.c_str(), 1.0, 4};
+    for (const ParameterName& n : kNames)
+      if (p.name == n.key) name = n;
+    const Unit bare{"", name.per_si, name.decimals, 0.0};
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(name ? name->words : p.name.c_str());
+    ImGui::TextUnformatted(fitted(name.words, ImGui::GetContentRegionAvail().x).c_str());
     tooltip(p.name, theme);
     ImGui::TableNextColumn();
-    text_right(shown(p.nominal, {"", unit.per_si, unit.decimals, 0.0}), theme.muted);
+    ImGui::TextDisabled("%s", name.unit);
     ImGui::TableNextColumn();
-    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, unit, unit.decimals) : "not determined", p.determined ? theme.ink : theme.muted);
+    text_right(shown(p.nominal, bare), theme.muted);
+    ImGui::TableNextColumn();
+    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown", p.determined ? theme.ink : theme.muted);
+    if (!p.determined) tooltip("The recording holds no information on it; the nominal value stays.", theme);
   }
   ImGui::EndTable();
 }
@@ -82,8 +93,8 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
 
   if (c.loaded) {
     heading("Replay with the vehicle", theme);
-    if (const auto choice = segmented("vehicle", {"nominal", "calibrated"}, int(c.vehicle), theme, width)) {
-      if (*choice == 0 || c.calibrated) actions.push_back(ReplayWith{ReplayVehicle(*choice)});
+    if (const auto choice = segmented("vehicle", {"nominal", "calibrated"}, int(c.vehicle), theme, width, c.calibrated ? 2 : 1)) {
+      actions.push_back(ReplayWith{ReplayVehicle(*choice)});
     }
     tooltip(c.calibrated ? "Which vehicle file the replay drives." : "Calibrate first: there is no calibrated vehicle yet.", theme);
     ButtonLook calibrate;

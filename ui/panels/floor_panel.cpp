@@ -78,7 +78,7 @@ const char* name_of(const Shape& shape) {
 
 }  // namespace
 
-Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, Vec2 place, const Theme& theme) {
+Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, FloorPanelState& state, Vec2 place, const Theme& theme) {
   Actions actions;
   if (!section("Floor", theme)) return actions;
   ImGui::PushID("floor");
@@ -134,7 +134,9 @@ Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, Vec
     result = Edited::done;
   }
   ImGui::PopID();
-  if (result != Edited::no && problems_in(edited).empty()) actions.push_back(SetFloor{std::move(edited), result == Edited::done});
+  if (result == Edited::no || !problems_in(edited).empty()) return actions;
+  actions.push_back(SetFloor{std::move(edited), !state.in_gesture});
+  state.in_gesture = result == Edited::changing;
   return actions;
 }
 

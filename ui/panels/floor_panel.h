@@ -9,7 +9,11 @@
 
 namespace odolab::ui {
 
+struct FloorPanelState {
+  bool in_gesture = false;  // a field is being dragged: one step for undo
+};
+
 // `place` is where a new thing is put down, e.g. the middle of the view.
-Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, Vec2 place, const Theme& theme);
+Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, FloorPanelState& state, Vec2 place, const Theme& theme);
 
 }  // namespace odolab::ui

@@ -74,9 +74,13 @@ void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme)
   exaggerate.toggled = state.exaggerate;
   exaggerate.tip = "Draw the deviation of the " + scene.deviating_name + " track from the " + scene.reference_name + " one larger than it is, by the factor beside this button";
   if (icon_button("exaggerate", Icon::exaggerate, theme, exaggerate)) state.exaggerate = !state.exaggerate;
-  ImGui::SameLine(0, theme.px(4));
+  ImGui::SameLine(0, theme.px(6));
   NumberField factor{"##factor", {"×", 1.0, 0, 0.2}, 2.0, 200.0, "How many times larger the deviation is drawn."};
-  if (number_field(factor, state.exaggeration, theme.px(64), theme) != Edited::no) state.exaggerate = true;
+  if (number_field(factor, state.exaggeration, theme.px(52), theme) != Edited::no) state.exaggerate = true;
+}
+
+float lens_side(const Camera& camera, const Theme& theme) {
+  return std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
 }
 
 // Everything worth seeing, for a fit.
@@ -92,6 +96,12 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
     if (line.track)
       for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
   for (const VehicleGlyph& v : scene.vehicles) take(v.pose.position(), v.wheelbase_m);
+  if (scene.floor && low.x_m <= high.x_m)
+    for (const Bump& bump : scene.floor->bumps) {
+      const auto [a, b] = ends_of(bump);
+      take(a);
+      take(b);
+    }
   if (low.x_m > high.x_m) {
     low = {-1.0, -1.0};
     high = {5.0, 5.0};
@@ -114,8 +124,7 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
   const float middle = y + 0.5f * line;
   for (const TrackLine& t : scene.tracks) {
     if (t.label.empty()) continue;
-    if (t.dashed) dashed_line(draw, {{x, middle}, {x + swatch, middle}}, t.colour, theme.px(2.2f), theme.px(6), theme.px(3));
-    else draw.AddLine({x, middle}, {x + swatch, middle}, t.colour, theme.px(2.2f));
+    draw_stroke(draw, {{x, middle}, {x + swatch, middle}}, t.colour, t.dash, theme);
     draw.AddText({x + swatch + theme.px(6), y}, theme.ink, t.label.c_str());
     x += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
   }
@@ -163,7 +172,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   legend(draw, scene, state, theme);
   draw_scale_bar(draw, camera, theme);
   if (state.show_lens) {
-    const float side = std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+    const float side = lens_side(camera, theme);
     const float margin = theme.px(14), below = margin + 2.0f * ImGui::GetTextLineHeight() + theme.px(16);
     draw_lens(draw, {camera.high.x - margin - side, camera.high.y - below - side}, {camera.high.x - margin, camera.high.y - below}, scene, camera.px_per_m, theme);
   }
@@ -272,7 +281,8 @@ Actions floor_view(const FloorScene& scene, FloorViewState& state, const Theme& 
   if (state.fit_next || (!state.touched && !state.follow)) {
     Vec2 lowest, highest;
     extent_of(scene, lowest, highest);
-    camera.fit(lowest, highest, theme.px(56));
+    const float lens = state.show_lens && scene.deviating ? lens_side(camera, theme) + theme.px(8) : 0.0f;
+    camera.fit(lowest, highest, {theme.px(58), theme.px(44), theme.px(20) + lens, theme.px(34)});
     if (state.fit_next) state.touched = false;
     state.fit_next = false;
   }

@@ -99,11 +99,16 @@ Actions readout_panel(const Readout& r, const Theme& theme) {
   ImGui::SameLine(0, 0);
   big_figure(shown(r.gap_heading_rad, kDegrees), "heading", theme.orange, half, theme);
   note(shown(std::abs(r.gap_along_m), kMillimetres) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") + shown(std::abs(r.gap_across_m), kMillimetres) +
-           (r.gap_across_m >= 0.0 ? " left of the truth" : " right of the truth"), theme);
+           (r.gap_across_m >= 0.0 ? " left" : " right"), theme);
   heading("Poses", theme);
   pose_table(r, theme);
   heading("Wheels", theme);
   wheel_table(r, theme);
+  ImGui::Dummy({1, theme.px(2)});
+  ButtonLook hand;
+  hand.toggled = r.by_hand;
+  hand.tip = r.by_hand ? "Back to the path that was driven before." : "Take the wheel: drive with the arrow keys or W A S D.";
+  if (text_button(r.by_hand ? "Driven by hand: arrow keys" : "Drive by hand", theme, hand, -1.0f)) actions.push_back(DriveByHandInstead{!r.by_hand});
   return actions;
 }
 
@@ -123,13 +128,14 @@ Actions welcome_card(Welcome& welcome, const Theme& theme) {
     ImGui::TextUnformatted("Three things to try");
   }
   static const char* kTries[] = {
-      "Drag the yellow cable out of the way. Watch the gap.",
-      "Give both wheels the same true diameter, on the left.",
-      "Calibrate, above: find the errors from squares driven both ways.",
+      "Drag the yellow cable out of the way, and restart (R).",
+      "Path, on the left: drive clockwise. The gap grows tenfold.",
+      "Calibrate, above: squares both ways tell why.",
   };
   for (int i = 0; i < 3; ++i) {
+    const float x = ImGui::GetCursorPosX();
     ImGui::Text("%d", i + 1);
-    ImGui::SameLine(theme.px(44));
+    ImGui::SameLine(x + theme.px(18));
     ImGui::TextUnformatted(kTries[i]);
   }
   ImGui::PopTextWrapPos();

@@ -21,7 +21,6 @@ struct Readout {
   double wheel_radius_left_m = 0.075;
   double wheel_radius_right_m = 0.075;
   bool by_hand = false;        // the arrow keys drive
-  bool can_drive_by_hand = true;
 };
 
 Actions readout_panel(const Readout& readout, const Theme& theme);

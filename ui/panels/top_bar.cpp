@@ -8,7 +8,14 @@ namespace odolab::ui {
 
 namespace {
 
-std::string file_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+// "square with cable" of ".../square_with_cable.toml"
+std::string words_of_file(const std::string& path) {
+  std::string words = path.substr(path.find_last_of('/') + 1);
+  words = words.substr(0, words.find_last_of('.'));
+  for (char& c : words)
+    if (c == '_') c = ' ';
+  return words;
+}
 
 void file_menu(const TopBar& bar, WindowChoices& choices, Actions& actions) {
   if (ImGui::MenuItem("Open…", "Ctrl+O")) choices.show_open = true;
@@ -20,7 +27,7 @@ void file_menu(const TopBar& bar, WindowChoices& choices, Actions& actions) {
   if (ImGui::BeginMenu("Examples")) {
     if (ImGui::MenuItem("LabMate on its square, a cable across the way")) actions.push_back(LoadFirstScenario{});
     for (const std::string& path : bar.example_files)
-      if (ImGui::MenuItem(file_name(path).c_str())) actions.push_back(OpenFile{path});
+      if (ImGui::MenuItem(words_of_file(path).c_str())) actions.push_back(OpenFile{path});
     ImGui::EndMenu();
   }
   ImGui::Separator();

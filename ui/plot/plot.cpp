@@ -49,12 +49,6 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
         y.take(s.y[i]);
       }
   if (what.equal_scale) {
-    double reach = 0.0;
-    for (const PlotCircle& c : what.circles) reach = std::max(reach, c.radius);
-    x.take(-0.35 * reach);
-    x.take(0.35 * reach);
-    y.take(-0.35 * reach);
-    y.take(0.35 * reach);
     x.take(0.0);
     y.take(0.0);
   }
@@ -152,11 +146,12 @@ std::string axis_title(const PlotAxis& axis) {
 void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const Theme& theme, ImVec2 outer_low) {
   const float line_height = ImGui::GetTextLineHeight();
   const double sx = what.x.unit.per_si, sy = what.y.unit.per_si;
-  const int most_x = std::max(2, int(frame.width() / theme.px(80))), most_y = std::max(2, int(frame.height() / theme.px(32)));
-  const double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
-  const double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
+  const int most_x = std::max(2, int(frame.width() / theme.px(80))), most_y = std::max(3, int(frame.height() / theme.px(36)));
+  double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
+  double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
+  if (what.equal_scale) step_x = step_y = std::max(step_x, step_y);
   const float title_width = ImGui::CalcTextSize(axis_title(what.x).c_str()).x;
-  for (const double v : round_ticks(frame.view.x0 * sx, frame.view.x1 * sx, most_x)) {
+  for (const double v : ticks_every(step_x, frame.view.x0 * sx, frame.view.x1 * sx)) {
     const float x = std::round(frame.x(v / sx));
     const bool zero = what.equal_scale && v == 0.0;
     draw.AddLine({x, frame.low.y}, {x, frame.high.y}, zero ? theme.muted : theme.faint, 1.0f);
@@ -167,7 +162,7 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
       draw.AddText({std::round(x - half), frame.high.y + theme.px(3)}, theme.muted, text.c_str());
   }
   draw.AddText({std::round(frame.high.x - title_width), frame.high.y + theme.px(3)}, theme.muted, axis_title(what.x).c_str());
-  for (const double v : round_ticks(frame.view.y0 * sy, frame.view.y1 * sy, most_y)) {
+  for (const double v : ticks_every(step_y, frame.view.y0 * sy, frame.view.y1 * sy)) {
     const float y = std::round(frame.y(v / sy));
     const bool zero = what.equal_scale && v == 0.0;
     draw.AddLine({frame.low.x, y}, {frame.high.x, y}, zero ? theme.muted : theme.faint, 1.0f);
@@ -283,15 +278,6 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
     const float x = std::round(frame.x(m.x));
     draw.AddLine({x, result.low.y}, {x, result.high.y}, faded(m.colour, 0.55f), theme.px(1));
     draw.AddTriangleFilled({x - theme.px(4), result.low.y}, {x + theme.px(4), result.low.y}, {x, result.low.y + theme.px(6)}, m.colour);
-  }
-  for (const PlotCircle& c : what.circles) {
-    const float r = float(c.radius / (view.x1 - view.x0)) * frame.width();
-    if (r < 2.0f || r > 20000.0f) continue;
-    const ImVec2 o{frame.x(0.0), frame.y(0.0)};
-    std::vector<ImVec2> rim;
-    const int n = 180;
-    for (int i = 0; i <= n; ++i) rim.push_back({o.x + r * float(std::cos(2 * 3.14159265 * i / n)), o.y + r * float(std::sin(2 * 3.14159265 * i / n))});
-    dashed_line(draw, rim, c.colour, theme.px(1), theme.px(3), theme.px(4));
   }
   for (const PlotSeries& s : what.series) {
     any = any || s.count > 0;

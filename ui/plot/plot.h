@@ -33,12 +33,6 @@ struct PlotMark {
   ImU32 colour = 0;
 };
 
-// A circle about the origin.
-struct PlotCircle {
-  double radius = 0.0;
-  ImU32 colour = 0;
-};
-
 struct PlotAxis {
   std::string label;
   Unit unit = kCoefficient;
@@ -48,7 +42,6 @@ struct Plot {
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   std::vector<PlotMark> marks;
-  std::vector<PlotCircle> circles;
   std::optional<double> cursor_x;   // e.g. the time that is shown
   std::optional<double> x_low, x_high;  // instead of the data's range where the plot is fitted
   bool equal_scale = false;         // one unit of x is as long as one of y; the origin is in sight

@@ -16,9 +16,13 @@ double round_step(double span, int most) {
 }
 
 std::vector<double> round_ticks(double low, double high, int most) {
+  if (!(high > low) || !std::isfinite(high - low)) return {};
+  return ticks_every(round_step(high - low, most), low, high);
+}
+
+std::vector<double> ticks_every(double step, double low, double high) {
   std::vector<double> ticks;
   if (!(high > low) || !std::isfinite(high - low)) return ticks;
-  const double step = round_step(high - low, most);
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
   for (double k = first; k <= last; k += 1.0) ticks.push_back(k * step);
   return ticks;
