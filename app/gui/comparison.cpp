@@ -91,7 +91,7 @@ double Comparison::start_s() const {
 double Comparison::duration_s() const {
   if (const ComparedReplay* c = shown())
     if (!c->time_s.empty()) return c->time_s.back();
-  return recording_ ? recording_->duration_s() : 1.0;
+  return recording_ ? recording_->duration_s() : 0.0;
 }
 
 }  // namespace odolab

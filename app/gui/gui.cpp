@@ -93,6 +93,7 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   const double scale = options.scale > 0.0 ? options.scale : 1.0;
   const ui::Theme theme = window.use_theme(options.dark, scale);
   state.welcome.open = options.files.empty();
+  state.example_files = example_files();
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
   if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
     session.execute(ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
@@ -143,12 +144,13 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     last = now;
     for (const ui::Action& action : draw_screen(session, state, theme)) session.execute(action);
     window.end_picture(theme.panel);
-    remember_files(session, known_files, state);
     if (session.take_picture_wish()) {
       const std::string path = picture_name();
       const Result<Done> saved = window.save_picture(path);
       session.say(saved ? "Picture saved as " + std::filesystem::absolute(path).string() : saved.error().message(), !saved.ok());
     }
+    window.show_picture();
+    remember_files(session, known_files, state);
   }
   write_settings(settings_path(), settings_of(state, window, window.monitor_scale()));
   return 0;

@@ -140,6 +140,7 @@ ui::FloorScene compare_scene(const Session& session, const Theme& theme) {
   ui::FloorScene scene;
   scene.reference_name = "recorded";
   scene.deviating_name = "simulated";
+  scene.empty_text = session.comparison().loaded() ? "The recording is being driven in the simulation…" : "Open a recording, or drop one here";
   const ComparedReplay* shown = session.comparison().shown();
   if (!shown) return scene;
   const Replay& replay = shown->replay;
@@ -246,7 +247,7 @@ std::optional<ui::ReplayFigures> figures_of(const ComparedReplay* c) {
   return f;
 }
 
-ui::Compare compare_of(const Session& session) {
+ui::Compare compare_of(const Session& session, const ScreenState& state) {
   const Comparison& c = session.comparison();
   ui::Compare view;
   if (session.jobs().running()) {
@@ -254,6 +255,8 @@ ui::Compare compare_of(const Session& session) {
     view.share_done = session.jobs().share_done();
   }
   view.loaded = c.loaded();
+  for (const std::string& path : state.example_files)
+    if (path.find("/real") != std::string::npos) view.example_files.push_back(path);
   if (!c.loaded()) return view;
   view.name = c.recording().name;
   view.provenance = c.recording().provenance;
@@ -313,7 +316,7 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
       break;
     }
     case ui::Mode::calibrate: append(actions, ui::calibrate_panel(bench_of(session), state.calibrate, theme)); break;
-    case ui::Mode::compare: append(actions, ui::compare_panel(compare_of(session), state.choices.show_open, theme)); break;
+    case ui::Mode::compare: append(actions, ui::compare_panel(compare_of(session, state), state.choices.show_open, theme)); break;
   }
   return actions;
 }
@@ -326,7 +329,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
       append(actions, ui::readout_panel(readout_of(session, shown), theme));
       break;
     case ui::Mode::calibrate: ui::calibration_result_panel(bench_of(session), theme); break;
-    case ui::Mode::compare: ui::error_panel(compare_of(session), error_now(session), theme); break;
+    case ui::Mode::compare: ui::error_panel(compare_of(session, state), error_now(session), theme); break;
   }
   return actions;
 }

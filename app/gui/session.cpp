@@ -27,7 +27,7 @@ struct Session::Executor {
 
   void operator()(const ui::Play&) const {
     if (comparing()) {
-      if (!s.comparison_.loaded()) return;
+      if (!s.comparison_.shown()) return;
       if (s.comparison_.time_s >= s.comparison_.duration_s()) s.comparison_.time_s = 0.0;
     } else if (s.run_->at_end()) {
       return;
@@ -56,7 +56,7 @@ struct Session::Executor {
   void operator()(const ui::Restart&) const {
     if (comparing()) s.comparison_.time_s = 0.0;
     else s.run_->restart();
-    s.playing_ = true;
+    s.playing_ = !comparing() || s.comparison_.shown() != nullptr;
   }
   void operator()(const ui::SetSpeed& a) const { s.speed_ = a.factor; }
   void operator()(const ui::ScrubTo& a) const {

@@ -195,9 +195,10 @@ void Window::end_picture(ImU32 background) {
   glClearColor(c.x, c.y, c.z, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  // A hidden window is read before it would be swapped.
-  if (parts_->hidden) glFinish();
-  else glfwSwapBuffers(parts_->window);
+}
+
+void Window::show_picture() {
+  if (!parts_->hidden) glfwSwapBuffers(parts_->window);
 }
 
 Result<Done> Window::save_picture(const std::string& path) {
@@ -205,7 +206,8 @@ Result<Done> Window::save_picture(const std::string& path) {
   glfwGetFramebufferSize(parts_->window, &w, &h);
   std::vector<unsigned char> pixels(std::size_t(w) * std::size_t(h) * 3);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadBuffer(parts_->hidden ? GL_BACK : GL_FRONT);
+  glFinish();
+  glReadBuffer(GL_BACK);  // after a swap its content is anyone's guess
   glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
   std::vector<unsigned char> upright(pixels.size());
   const std::size_t row = std::size_t(w) * 3;

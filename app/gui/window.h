@@ -42,8 +42,10 @@ class Window {
   // `fixed_step_s` above 0 replaces the clock, for pictures that must always be the same.
   void begin_picture(double fixed_step_s = 0.0);
   void end_picture(ImU32 background);
-  // The picture drawn last, as a PNG file.
+  // The picture that has ended but is not yet shown, as a PNG file.
   Result<Done> save_picture(const std::string& path);
+  // Brings it before the person's eyes; in a hidden window nothing happens.
+  void show_picture();
 
   // Since the last picture.
   const std::vector<KeyPress>& key_presses() const;

@@ -44,6 +44,7 @@ struct FloorScene {
   std::vector<VehicleGlyph> vehicles;
   // The two poses whose gap matters, for the gap line and the lens; the second deviates from the first.
   std::optional<Pose> reference, deviating;
+  std::string empty_text;            // said in the middle while there is nothing else to see
   std::string reference_name = "true", deviating_name = "estimated";
 };
 

@@ -22,7 +22,7 @@ void tooltip(const std::string& text, const Theme& theme) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(8)));
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(theme.px(340));
+  ImGui::PushTextWrapPos(theme.px(400));
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -175,6 +175,14 @@ void text_right(const std::string& text, ImU32 colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
+}
+
+std::string words_of_file(const std::string& path) {
+  std::string words = path.substr(path.find_last_of('/') + 1);
+  words = words.substr(0, words.find_last_of('.'));
+  for (char& c : words)
+    if (c == '_') c = ' ';
+  return words;
 }
 
 std::string fitted(const std::string& text, float width) {

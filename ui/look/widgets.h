@@ -60,6 +60,9 @@ inline Edited more(Edited a, Edited b) { return a > b ? a : b; }
 // Text that ends at the right edge of the remaining width.
 void text_right(const std::string& text, ImU32 colour);
 
+// The name of a file as words: "square with cable" of ".../square_with_cable.toml".
+std::string words_of_file(const std::string& path);
+
 // Text shortened with an ellipsis to a width.
 std::string fitted(const std::string& text, float width);
 

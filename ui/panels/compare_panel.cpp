@@ -33,7 +33,7 @@ constexpr ParameterName kNames[] = {
 
 void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
   if (!ImGui::BeginTable("parameters", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.95f, 0.3f, 0.68f, 1.2f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  for (const float weight : {0.88f, 0.28f, 0.62f, 1.3f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TableNextColumn();
@@ -66,6 +66,7 @@ void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
 Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) {
   Actions actions;
   const float width = ImGui::GetContentRegionAvail().x;
+  const float half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
   const bool busy = !c.job.empty();
   const std::string busy_words = busy ? "Busy: " + c.job + "." : "";
   heading("Recording", theme);
@@ -84,12 +85,20 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
   ButtonLook open;
   open.primary = !c.loaded;
   open.tip = "Open a recording: a CSV file with the columns that the documentation lists, or one of another format (Ctrl+O)";
-  if (text_button("Open a recording…", theme, open, width)) ask_for_file = true;
+  if (text_button(c.loaded ? "Open…" : "Open a recording…", theme, open, c.loaded ? half : width)) ask_for_file = true;
+  if (c.loaded) ImGui::SameLine();
   ButtonLook record;
   record.enabled = !busy;
   record.why_disabled = busy_words;
   record.tip = "Drive the scenario of Drive to its end and take what its encoders and the outside measurement recorded.";
-  if (text_button("Record a simulated run", theme, record, width)) actions.push_back(RecordSimulatedRun{});
+  if (text_button(c.loaded ? "Simulate one" : "Record a simulated run", theme, record, c.loaded ? half : width)) actions.push_back(RecordSimulatedRun{});
+
+  if (!c.loaded)
+    for (const std::string& path : c.example_files) {
+      ButtonLook example;
+      example.tip = path;
+      if (text_button(("Example: " + words_of_file(path)).c_str(), theme, example, width)) actions.push_back(OpenFile{path});
+    }
 
   if (c.loaded) {
     heading("Replay with the vehicle", theme);

@@ -169,6 +169,12 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
     draw.AddLine(camera.screen(scene.reference->position()), camera.screen(end.position()), theme.orange, theme.px(2));
   }
   if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
+  if (scene.tracks.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
+    const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());
+    const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)), std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
+    draw.AddRectFilled({at.x - theme.px(10), at.y - theme.px(6)}, {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
+    draw.AddText(at, theme.muted, scene.empty_text.c_str());
+  }
   legend(draw, scene, state, theme);
   draw_scale_bar(draw, camera, theme);
   if (state.show_lens) {

@@ -8,15 +8,6 @@ namespace odolab::ui {
 
 namespace {
 
-// "square with cable" of ".../square_with_cable.toml"
-std::string words_of_file(const std::string& path) {
-  std::string words = path.substr(path.find_last_of('/') + 1);
-  words = words.substr(0, words.find_last_of('.'));
-  for (char& c : words)
-    if (c == '_') c = ' ';
-  return words;
-}
-
 void file_menu(const TopBar& bar, WindowChoices& choices, Actions& actions) {
   if (ImGui::MenuItem("Open…", "Ctrl+O")) choices.show_open = true;
   if (ImGui::BeginMenu("Recent", !bar.recent_files.empty())) {

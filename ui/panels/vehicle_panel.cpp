@@ -87,7 +87,7 @@ Actions vehicle_panel(Scenario& draft, bool& editing, const Theme& theme) {
       }
       ButtonLook drawn;
       drawn.tip = "Make the machine just as its drawing says: no systematic error is left.";
-      if (text_button("True := nominal", theme, drawn, -1.0f)) {
+      if (text_button("Make it as drawn", theme, drawn, -1.0f)) {
         const ActualDrive as_is = draft.actual;
         draft.actual = as_drawn(*nominal);
         draft.actual.mass_kg = as_is.mass_kg;

@@ -149,7 +149,10 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
   const int most_x = std::max(2, int(frame.width() / theme.px(80))), most_y = std::max(3, int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
   double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
-  if (what.equal_scale) step_x = step_y = std::max(step_x, step_y);
+  if (what.equal_scale) {  // the same marks on both, as close as the numbers along x allow
+    const double near = std::min(step_x, step_y), px_per_unit = frame.width() / ((frame.view.x1 - frame.view.x0) * sx);
+    step_x = step_y = near * px_per_unit > theme.px(46) ? near : std::max(step_x, step_y);
+  }
   const float title_width = ImGui::CalcTextSize(axis_title(what.x).c_str()).x;
   for (const double v : ticks_every(step_x, frame.view.x0 * sx, frame.view.x1 * sx)) {
     const float x = std::round(frame.x(v / sx));
