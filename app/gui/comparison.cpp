@@ -1,0 +1,97 @@
+#include "app/gui/comparison.h"
+
+#include <cmath>
+#include <limits>
+
+namespace odolab {
+
+namespace {
+
+void errors_along(const Track& estimate, const Track& truth, std::vector<double>& metres, std::vector<double>& radians) {
+  for (const TimedPose& t : truth) {
+    const std::optional<Pose> e = pose_at(estimate, t.time_s);
+    metres.push_back(e ? length(e->position() - t.pose.position()) : std::numeric_limits<double>::quiet_NaN());
+    radians.push_back(e ? wrapped(e->heading_rad - t.pose.heading_rad) : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+Result<ComparedReplay> compared(const Vehicle& vehicle, const std::shared_ptr<const Recording>& recording, const Progress& progress) {
+  Result<Replay> result = replay(replay_scenario(vehicle, *recording), recording, progress);
+  if (!result) return result.error();
+  ComparedReplay c;
+  c.vehicle = vehicle;
+  c.replay = std::move(*result);
+  const Track& truth = c.replay.truth;
+  for (const TimedPose& t : truth) c.time_s.push_back(t.time_s - truth.front().time_s);
+  errors_along(c.replay.simulated, truth, c.simulated_m, c.simulated_rad);
+  errors_along(c.replay.dead_reckoned, truth, c.dead_reckoned_m, c.dead_reckoned_rad);
+  return c;
+}
+
+}  // namespace
+
+void Comparison::open(std::shared_ptr<const Recording> recording, const Vehicle& vehicle, Jobs& jobs, OnError on_error) {
+  if (jobs.running()) return;
+  recording_ = std::move(recording);
+  vehicle_ = vehicle;
+  nominal_.reset();
+  calibrated_.reset();
+  calibration_.reset();
+  chosen_ = ui::ReplayVehicle::nominal;
+  time_s = 0.0;
+  const std::shared_ptr<const Recording> driven = recording_;
+  jobs.start("driving the recording in the simulation", [this, driven, vehicle, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
+    const auto result = std::make_shared<Result<ComparedReplay>>(compared(vehicle, driven, progress));
+    deliver([this, result, on_error] {
+      if (*result) {
+        nominal_ = std::move(**result);
+        time_s = duration_s();  // the whole of it in sight
+      } else if (on_error) {
+        on_error(result->error().message());
+      }
+    });
+  });
+}
+
+void Comparison::calibrate(Jobs& jobs, OnError on_error) {
+  if (!recording_ || jobs.running()) return;
+  const std::shared_ptr<const Recording> recording = recording_;
+  const Vehicle nominal = vehicle_;
+  jobs.start("calibrating from the recording", [this, recording, nominal, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
+    const Progress first = [&](double share) { return goes_on(progress, 0.7 * share); };
+    const Progress second = [&](double share) { return goes_on(progress, 0.7 + 0.3 * share); };
+    const auto found = std::make_shared<Result<LeastSquaresCalibration>>(calibrate_least_squares({*recording}, nominal, {}, first));
+    if (!*found) {
+      deliver([found, on_error] {
+        if (on_error) on_error(found->error().message());
+      });
+      return;
+    }
+    const auto result = std::make_shared<Result<ComparedReplay>>(compared((*found)->vehicle, recording, second));
+    deliver([this, found, result, on_error] {
+      if (!*result) {
+        if (on_error) on_error(result->error().message());
+        return;
+      }
+      calibration_ = std::move(**found);
+      calibrated_ = std::move(**result);
+      chosen_ = ui::ReplayVehicle::calibrated;
+    });
+  });
+}
+
+bool Comparison::has_wheels() const { return recording_ && !wheel_samples(*recording_, std::get<DifferentialDrive>(vehicle_.kind)).empty(); }
+
+double Comparison::start_s() const {
+  if (const ComparedReplay* c = shown())
+    if (!c->replay.truth.empty()) return c->replay.truth.front().time_s;
+  return recording_ && !recording_->time_s.empty() ? recording_->time_s.front() : 0.0;
+}
+
+double Comparison::duration_s() const {
+  if (const ComparedReplay* c = shown())
+    if (!c->time_s.empty()) return c->time_s.back();
+  return recording_ ? recording_->duration_s() : 0.0;
+}
+
+}  // namespace odolab

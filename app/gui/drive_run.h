@@ -1,0 +1,70 @@
+// A simulation that is watched: it runs ahead at a wanted speed, and every moment so far can be looked at again.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "physics/simulation.h"
+
+namespace odolab {
+
+// Something that a person will want to find again on the timeline.
+struct RunEvent {
+  enum class Kind { bump, slip_zone, floor_changed, pushed } kind = Kind::bump;
+  double time_s = 0.0;
+  std::string words;
+};
+
+class DriveRun {
+ public:
+  // The scenario has no problems.
+  explicit DriveRun(const Scenario& scenario, std::shared_ptr<const Recording> replayed = nullptr);
+
+  void restart();
+  // Moves the shown moment on by this much, simulating what is not there yet as long as `go_on` says so.
+  void advance(double seconds, const std::function<bool()>& go_on);
+  // One picture of about 20 ms, simulated or from what is there.
+  void step_forward();
+  void step_back();
+  void show(double time_s);
+  // Takes effect from the latest moment on.
+  void set_floor(const Floor& floor);
+  void drive_by_hand(double speed_mps, double yaw_rate_radps);
+  void push(Vec2 impulse_ns);
+
+  const Scenario& scenario() const { return scenario_; }
+  const Simulation& simulation() const { return simulation_; }
+  // Times are since the start of the run; in a replay its tracks begin at another time than zero.
+  double start_s() const { return history_.front().time_s; }
+  double shown_s() const { return shown_s_; }
+  double latest_s() const { return times_.back(); }
+  double total_s() const;             // expected, and never less than what was
+  bool finished() const { return history_.back().finished; }
+  bool at_end() const { return finished() && shown_s_ >= latest_s(); }
+  // The state at the shown moment; poses and wheel rotations are interpolated between pictures.
+  SimulationState shown() const;
+
+  // The gap between estimate and truth at every picture.
+  const std::vector<double>& time_s() const { return times_; }
+  const std::vector<double>& gap_m() const { return gap_m_; }
+  const std::vector<double>& gap_heading_rad() const { return gap_heading_; }
+  const std::vector<RunEvent>& events() const { return events_; }
+
+ private:
+  void simulate_picture();
+  void remember();
+  void note_events(const SimulationState& before, const SimulationState& now);
+
+  Scenario scenario_;
+  std::shared_ptr<const Recording> replayed_;
+  Simulation simulation_;
+  int steps_per_picture_ = 20;
+  std::vector<SimulationState> history_;  // a state for each picture
+  std::vector<double> times_, gap_m_, gap_heading_;
+  std::vector<RunEvent> events_;
+  double shown_s_ = 0.0;
+};
+
+}  // namespace odolab

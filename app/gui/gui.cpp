@@ -1,0 +1,184 @@
+#include "app/gui/gui.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+
+#include "app/gui/keys.h"
+#include "app/gui/screen.h"
+#include "app/gui/session.h"
+#include "app/gui/settings.h"
+#include "app/gui/window.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kPictureStep = 1.0 / 60.0;      // s for the widgets, where no clock is read
+constexpr double kSimulatedPerPicture = 0.75;    // s simulated for each picture of a screenshot
+constexpr double kTimeForSimulation = 0.012;     // s of a picture's time that the simulation may take
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "odolab: %s\n", error.message().c_str());
+  return 2;
+}
+
+std::optional<ui::Mode> mode_named(const std::string& name) {
+  if (name == "drive") return ui::Mode::drive;
+  if (name == "calibrate") return ui::Mode::calibrate;
+  if (name == "compare") return ui::Mode::compare;
+  return std::nullopt;
+}
+
+std::string picture_name() {
+  char text[64];
+  const std::time_t now = std::time(nullptr);
+  std::strftime(text, sizeof text, "odolab-%Y%m%d-%H%M%S.png", std::localtime(&now));
+  return text;
+}
+
+ScreenState screen_state_of(const Settings& settings) {
+  ScreenState state;
+  state.choices.dark = settings.dark;
+  state.choices.scale = settings.scale;
+  state.left_width = settings.left_width;
+  state.right_width = settings.right_width;
+  state.bottom_height = settings.bottom_height;
+  state.recent_files = settings.recent_files;
+  return state;
+}
+
+Settings settings_of(const ScreenState& state, const Window& window, double scale) {
+  Settings s;
+  s.dark = state.choices.dark;
+  s.scale = state.choices.scale;
+  s.left_width = state.left_width;
+  s.right_width = state.right_width;
+  s.bottom_height = state.bottom_height;
+  s.welcome_seen = !state.welcome.open;
+  s.recent_files = state.recent_files;
+  s.width = int(std::lround(window.width() / std::max(1.0, scale)));
+  s.height = int(std::lround(window.height() / std::max(1.0, scale)));
+  return s;
+}
+
+void remember_files(const Session& session, std::size_t& known, ScreenState& state) {
+  for (; known < session.opened_files().size(); ++known) {
+    std::error_code ignored;
+    const std::string path = std::filesystem::absolute(session.opened_files()[known], ignored).lexically_normal().string();
+    std::vector<std::string>& recent = state.recent_files;
+    recent.erase(std::remove(recent.begin(), recent.end(), path), recent.end());
+    recent.insert(recent.begin(), path);
+    if (recent.size() > 8) recent.resize(8);
+  }
+}
+
+// The scenarios that come with the project.
+std::vector<std::string> example_files() {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/scenarios", none))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Draws a given number of pictures with a clock of its own and writes the last one.
+int run_for_picture(const GuiOptions& options, Session& session, Window& window) {
+  ScreenState state;
+  state.choices.dark = options.dark;
+  const double scale = options.scale > 0.0 ? options.scale : 1.0;
+  const ui::Theme theme = window.use_theme(options.dark, scale);
+  state.welcome.open = options.files.empty();
+  state.example_files = example_files();
+  if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
+  if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
+    session.execute(ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
+    session.execute(ui::ApplyCalibration{});
+  }
+  if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty()) session.execute(ui::RecordSimulatedRun{});
+  session.advance(0.0, [] { return false; });  // takes in what opening the files has begun
+  if (session.comparison().nominal() && session.comparison().has_wheels()) {
+    session.execute(ui::CalibrateFromRecording{});
+    session.execute(ui::ReplayWith{ui::ReplayVehicle::nominal});
+  }
+  for (int i = 0; i < std::max(1, options.frames); ++i) {
+    window.begin_picture(kPictureStep);
+    session.advance(kSimulatedPerPicture, [] { return true; });
+    draw_screen(session, state, theme);
+    window.end_picture(theme.panel);
+  }
+  const Result<Done> saved = window.save_picture(options.screenshot_path);
+  return saved ? 0 : fail(saved.error());
+}
+
+int run_for_person(const GuiOptions& options, Session& session, Window& window, const Settings& settings) {
+  ScreenState state = screen_state_of(settings);
+  if (options.scale > 0.0) state.choices.scale = options.scale;
+  state.welcome.open = options.files.empty() && !settings.welcome_seen;
+  state.example_files = example_files();
+  std::size_t known_files = 0;
+  double scale = 0.0;
+  bool dark = false;
+  ui::Theme theme;
+  if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
+  double last = window.seconds();
+  while (!window.wants_to_close() && !session.wants_to_quit()) {
+    const double wanted_scale = state.choices.scale > 0.0 ? state.choices.scale : window.monitor_scale();
+    if (wanted_scale != scale || state.choices.dark != dark) theme = window.use_theme(state.choices.dark, wanted_scale);
+    scale = wanted_scale;
+    dark = state.choices.dark;
+
+    window.begin_picture();
+    for (const std::string& path : window.dropped_files()) session.execute(ui::OpenFile{path});
+    if (!ImGui::GetIO().WantTextInput)
+      for (const KeyPress& press : window.key_presses())
+        for (const ui::Action& action : actions_of(press, session, state)) session.execute(action);
+    if (std::holds_alternative<HandPath>(session.run().scenario().path) && !ImGui::GetIO().WantTextInput)
+      session.execute(hand_command(window, session.run().scenario()));
+    const double now = window.seconds();
+    session.advance(std::min(now - last, 0.1), [&] { return window.seconds() - now < kTimeForSimulation; });
+    last = now;
+    for (const ui::Action& action : draw_screen(session, state, theme)) session.execute(action);
+    window.end_picture(theme.panel);
+    if (session.take_picture_wish()) {
+      const std::string path = picture_name();
+      const Result<Done> saved = window.save_picture(path);
+      session.say(saved ? "Picture saved as " + std::filesystem::absolute(path).string() : saved.error().message(), !saved.ok());
+    }
+    window.show_picture();
+    remember_files(session, known_files, state);
+  }
+  write_settings(settings_path(), settings_of(state, window, window.monitor_scale()));
+  return 0;
+}
+
+}  // namespace
+
+int run_gui(const GuiOptions& options) {
+  const bool for_picture = !options.screenshot_path.empty();
+  const std::optional<ui::Mode> mode = mode_named(options.mode);
+  if (!options.mode.empty() && !mode) return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate or compare"});
+  Session session(!for_picture);
+  for (const std::string& file : options.files)
+    if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal
+      std::fprintf(stderr, "odolab: %s\n", session.messages().back().text.c_str());
+      return 2;
+    }
+  if (mode) session.execute(ui::SetMode{*mode});
+
+  const Settings settings = for_picture ? Settings{} : read_settings(settings_path());
+  Window::Options how;
+  how.title = "OdoLab";
+  how.hidden = for_picture;
+  how.width = for_picture ? options.width : settings.width;
+  how.height = for_picture ? options.height : settings.height;
+  Result<std::unique_ptr<Window>> window = Window::open(how);
+  if (!window) return fail(window.error());
+  return for_picture ? run_for_picture(options, session, **window) : run_for_person(options, session, **window, settings);
+}
+
+}  // namespace odolab

@@ -1,0 +1,13 @@
+// The line that a driver means to follow, for the picture of the floor.
+#pragma once
+
+#include <vector>
+
+#include "core/scenario/scenario.h"
+
+namespace odolab {
+
+// Corners of the line on the floor; empty where a path has no line, as with wheel speeds.
+std::vector<Vec2> planned_path(const Scenario& scenario);
+
+}  // namespace odolab

@@ -1,0 +1,333 @@
+#include "app/gui/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/first_scenario.h"
+#include "core/io/file_kind.h"
+#include "core/io/import/imported_recording.h"
+#include "core/io/recording_csv.h"
+#include "core/io/scenario_toml.h"
+#include "core/io/vehicle_toml.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::size_t kMostUndo = 100;
+constexpr double kFastest = 1e6;  // "as fast as possible" is bounded by the time of a picture alone
+
+}  // namespace
+
+// Carries out one action each.
+struct Session::Executor {
+  Session& s;
+
+  bool comparing() const { return s.mode_ == ui::Mode::compare; }
+
+  void operator()(const ui::Play&) const {
+    if (comparing()) {
+      if (!s.comparison_.shown()) return;
+      if (s.comparison_.time_s >= s.comparison_.duration_s()) s.comparison_.time_s = 0.0;
+    } else if (s.run_->at_end()) {
+      return;
+    }
+    s.playing_ = true;
+  }
+  void operator()(const ui::Pause&) const { s.playing_ = false; }
+  void operator()(const ui::StepForward&) const {
+    s.playing_ = false;
+    if (comparing()) s.comparison_.time_s = std::min(s.comparison_.duration_s(), s.comparison_.time_s + 0.02);
+    else s.run_->step_forward();
+  }
+  void operator()(const ui::StepBack&) const {
+    s.playing_ = false;
+    if (comparing()) s.comparison_.time_s = std::max(0.0, s.comparison_.time_s - 0.02);
+    else s.run_->step_back();
+  }
+  void operator()(const ui::ToStart&) const {
+    if (comparing()) s.comparison_.time_s = 0.0;
+    else s.run_->show(0.0);
+  }
+  void operator()(const ui::ToEnd&) const {
+    if (comparing()) s.comparison_.time_s = s.comparison_.duration_s();
+    else s.run_->show(s.run_->latest_s());
+  }
+  void operator()(const ui::Restart&) const {
+    if (comparing()) s.comparison_.time_s = 0.0;
+    else s.run_->restart();
+    s.playing_ = !comparing() || s.comparison_.shown() != nullptr;
+  }
+  void operator()(const ui::SetSpeed& a) const { s.speed_ = a.factor; }
+  void operator()(const ui::ScrubTo& a) const {
+    s.playing_ = false;
+    if (comparing()) s.comparison_.time_s = std::clamp(a.time_s, 0.0, s.comparison_.duration_s());
+    else s.run_->show(a.time_s);
+  }
+  void operator()(const ui::EditScenario& a) const {
+    const std::vector<std::string> problems = problems_in(a.scenario);
+    if (!problems.empty()) {
+      s.say(problems.front(), true);
+      return;
+    }
+    remember_for_undo(false);
+    s.change(a.scenario);
+  }
+  void operator()(const ui::SetFloor& a) const {
+    const std::vector<std::string> problems = problems_in(a.floor);
+    if (!problems.empty()) {
+      s.say(problems.front(), true);
+      return;
+    }
+    if (a.begins_gesture) remember_for_undo(true);
+    s.run_->set_floor(a.floor);
+  }
+  void operator()(const ui::DriveByHandInstead& a) const {
+    Scenario scenario = s.run_->scenario();
+    if (a.by_hand == std::holds_alternative<HandPath>(scenario.path)) return;
+    if (a.by_hand) {
+      s.path_before_hand_ = scenario.path;
+      scenario.path = HandPath{600.0};
+      scenario.benchmark.reset();
+    } else {
+      scenario.path = s.path_before_hand_;
+    }
+    (*this)(ui::EditScenario{scenario});
+    s.playing_ = true;
+  }
+  void operator()(const ui::DriveByHand& a) const {
+    if (std::holds_alternative<HandPath>(s.run_->scenario().path)) s.run_->drive_by_hand(a.speed_mps, a.yaw_rate_radps);
+  }
+  void operator()(const ui::Push& a) const { s.run_->push(a.impulse_ns); }
+  void operator()(const ui::Undo&) const { swap_scenario(s.undo_, s.redo_); }
+  void operator()(const ui::Redo&) const { swap_scenario(s.redo_, s.undo_); }
+  void remember_for_undo(bool floor_only) const {
+    s.undo_.push_back({s.run_->scenario(), floor_only});
+    if (s.undo_.size() > kMostUndo) s.undo_.erase(s.undo_.begin());
+    s.redo_.clear();
+  }
+  void swap_scenario(std::vector<Step>& from, std::vector<Step>& to) const {
+    if (from.empty()) return;
+    const Step step = from.back();
+    from.pop_back();
+    to.push_back({s.run_->scenario(), step.floor_only});
+    if (step.floor_only) s.run_->set_floor(step.scenario.floor);
+    else s.change(step.scenario);
+  }
+  void operator()(const ui::StartBenchmark& a) const {
+    if (!s.refuse_while_busy("UMBmark")) s.bench_.start(s.run_->scenario(), a.runs_each_way, a.keep_things, s.jobs_);
+  }
+  void operator()(const ui::ApplyCalibration&) const {
+    if (!s.refuse_while_busy("the calibrated squares")) s.bench_.apply(s.jobs_);
+  }
+  void operator()(const ui::AdoptCalibration&) const {
+    const DifferentialDrive* vehicle = s.bench_.kept_vehicle();
+    if (!vehicle) return;
+    Scenario scenario = s.run_->scenario();
+    scenario.vehicle.kind = *vehicle;
+    scenario.vehicle_file.clear();
+    (*this)(ui::EditScenario{scenario});
+    s.mode_ = ui::Mode::drive;
+    s.playing_ = true;
+  }
+  void operator()(const ui::ClearBenchmark&) const {
+    if (!s.bench_.running()) s.bench_.clear();
+  }
+  void operator()(const ui::CancelJob&) const { s.jobs_.cancel(); }
+  void operator()(const ui::ReplayWith& a) const { s.comparison_.choose(a.vehicle); }
+  void operator()(const ui::CalibrateFromRecording&) const {
+    if (!s.refuse_while_busy("the calibration")) s.comparison_.calibrate(s.jobs_, [this_session = &s](const std::string& words) { this_session->say(words, true); });
+  }
+  void operator()(const ui::RecordSimulatedRun&) const {
+    if (s.refuse_while_busy("a simulated run")) return;
+    const Scenario scenario = s.run_->scenario();
+    const std::shared_ptr<const Recording> replayed = s.replayed_;
+    Session* session = &s;
+    const auto made = std::make_shared<Recording>();
+    s.jobs_.start("driving the scenario to its end", [scenario, replayed, made](const Progress& progress, const Jobs::Deliver&) {
+      Simulation simulation(scenario, scenario.seed, replayed);
+      const double expected_s = std::max(1.0, simulation.expected_duration_s());
+      for (long k = 0; !simulation.state().finished; ++k) {
+        simulation.step();
+        if (k % 1000 == 0 && !goes_on(progress, simulation.state().time_s / expected_s)) return;
+      }
+      *made = simulation.recording();
+      made->name = scenario.name + ", simulated";
+    }, [session, scenario, made](bool cancelled) {
+      if (!cancelled) session->compare(made, scenario.vehicle);
+    });
+  }
+  void operator()(const ui::OpenFile& a) const { s.open(a.path); }
+  void operator()(const ui::SaveScenario& a) const {
+    Scenario scenario = s.run_->scenario();
+    scenario.vehicle_file.clear();
+    const Result<Done> done = write_scenario(a.path, scenario);
+    if (done) s.say("Scenario saved as " + a.path, false);
+    else s.say(done.error().message(), true);
+  }
+  void operator()(const ui::SaveRecording& a) const {
+    const bool recorded = comparing() && s.comparison_.loaded();
+    const Result<Done> done = write_recording_csv(a.path, recorded ? s.comparison_.recording() : s.run_->simulation().recording());
+    if (done) s.say("Recording saved as " + a.path, false);
+    else s.say(done.error().message(), true);
+  }
+  void operator()(const ui::LoadFirstScenario&) const {
+    s.load(first_scenario(), nullptr, "");
+    s.mode_ = ui::Mode::drive;
+    s.playing_ = true;
+  }
+  void operator()(const ui::SetMode& a) const {
+    if (a.mode == s.mode_) return;
+    s.mode_ = a.mode;
+    s.playing_ = false;
+  }
+  void operator()(const ui::DismissMessage& a) const {
+    if (a.index < s.messages_.size()) s.messages_.erase(s.messages_.begin() + long(a.index));
+  }
+  void operator()(const ui::SavePicture&) const { s.picture_wished_ = true; }
+  void operator()(const ui::Quit&) const { s.wants_to_quit_ = true; }
+};
+
+Session::Session(bool threaded) : jobs_(threaded) { load(first_scenario(), nullptr, ""); }
+
+void Session::execute(const ui::Action& action) {
+  std::visit(Executor{*this}, action);
+  jobs_.poll();
+}
+
+void Session::advance(double wall_s, const std::function<bool()>& go_on) {
+  jobs_.poll();
+  if (!playing_ || wall_s <= 0.0) {
+    reached_speed_ = 0.0;
+    return;
+  }
+  const double wanted_s = wall_s * (speed_ == 0.0 ? kFastest : speed_);
+  double before_s = 0.0, after_s = 0.0;
+  if (mode_ == ui::Mode::compare) {
+    before_s = comparison_.time_s;
+    const double fastest = comparison_.duration_s() / 4.0 * wall_s;  // the whole in four seconds
+    comparison_.time_s = std::min(comparison_.duration_s(), before_s + (speed_ == 0.0 ? fastest : wanted_s));
+    after_s = comparison_.time_s;
+    if (after_s >= comparison_.duration_s()) playing_ = false;
+  } else {
+    before_s = run_->shown_s();
+    run_->advance(wanted_s, go_on);
+    after_s = run_->shown_s();
+    if (run_->at_end()) playing_ = false;
+  }
+  const double now = (after_s - before_s) / wall_s;
+  reached_speed_ = reached_speed_ == 0.0 ? now : reached_speed_ + std::min(1.0, wall_s / 0.4) * (now - reached_speed_);
+}
+
+void Session::say(const std::string& text, bool is_error) {
+  for (const ui::Message& m : messages_)
+    if (m.text == text) return;
+  messages_.push_back({text, is_error});
+}
+
+bool Session::take_picture_wish() {
+  const bool wished = picture_wished_;
+  picture_wished_ = false;
+  return wished;
+}
+
+bool Session::refuse_while_busy(const std::string& what) {
+  if (!jobs_.running()) return false;
+  say("Busy " + jobs_.name() + ": cancel it, or start " + what + " when it is done.", true);
+  return true;
+}
+
+void Session::load(const Scenario& scenario, std::shared_ptr<const Recording> replayed, const std::string& path) {
+  replayed_ = std::move(replayed);
+  run_ = std::make_unique<DriveRun>(scenario, replayed_);
+  scenario_path_ = path;
+  title_ = path.empty() ? scenario.name : scenario.name + " – " + path.substr(path.find_last_of('/') + 1);
+  undo_.clear();
+  redo_.clear();
+  if (!jobs_.running()) bench_.clear();
+  ++loads_;
+}
+
+void Session::change(const Scenario& scenario) {
+  const bool replays = std::holds_alternative<ReplayPath>(scenario.path);
+  run_ = std::make_unique<DriveRun>(scenario, replays ? replayed_ : nullptr);
+}
+
+bool Session::open(const std::string& path) {
+  bool opened = false;
+  switch (file_kind(path)) {
+    case FileKind::scenario: opened = open_scenario(path); break;
+    case FileKind::vehicle: opened = open_vehicle(path); break;
+    default: opened = open_recording(path);  // says itself what it is missing in a file of no known kind
+  }
+  if (opened) {
+    opened_files_.erase(std::remove(opened_files_.begin(), opened_files_.end(), path), opened_files_.end());
+    opened_files_.push_back(path);
+  }
+  return opened;
+}
+
+bool Session::open_scenario(const std::string& path) {
+  const Result<Scenario> scenario = read_scenario(path);
+  if (!scenario) {
+    say(scenario.error().message(), true);
+    return false;
+  }
+  if (const ReplayPath* replays = std::get_if<ReplayPath>(&scenario->path)) {
+    Result<ImportedRecording> imported = load_recording(beside(path, replays->recording));
+    if (!imported) {
+      say(imported.error().message(), true);
+      return false;
+    }
+    const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
+    load(*scenario, recording, path);
+    compare(recording, scenario->vehicle);
+    return true;
+  }
+  load(*scenario, nullptr, path);
+  mode_ = scenario->benchmark ? ui::Mode::calibrate : ui::Mode::drive;
+  playing_ = !scenario->benchmark;
+  return true;
+}
+
+bool Session::open_vehicle(const std::string& path) {
+  const Result<Vehicle> vehicle = read_vehicle(path);
+  if (!vehicle) {
+    say(vehicle.error().message(), true);
+    return false;
+  }
+  opened_vehicle_ = *vehicle;
+  Scenario scenario = run_->scenario();
+  scenario.vehicle = *vehicle;
+  scenario.vehicle_file.clear();
+  if (const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&vehicle->kind)) {
+    const ActualDrive drawn = as_drawn(*drive);
+    scenario.actual.wheel_radius_left_m = drawn.wheel_radius_left_m;
+    scenario.actual.wheel_radius_right_m = drawn.wheel_radius_right_m;
+    scenario.actual.wheelbase_m = drawn.wheelbase_m;
+  }
+  execute(ui::EditScenario{scenario});
+  if (comparison_.loaded() && !jobs_.running()) compare(std::make_shared<const Recording>(comparison_.recording()), *vehicle);
+  return true;
+}
+
+bool Session::open_recording(const std::string& path) {
+  if (refuse_while_busy("the recording")) return false;
+  Result<ImportedRecording> imported = load_recording(path);
+  if (!imported) {
+    say(imported.error().message(), true);
+    return false;
+  }
+  for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
+  compare(std::make_shared<const Recording>(std::move(imported->recording)), opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle);
+  return true;
+}
+
+void Session::compare(std::shared_ptr<const Recording> recording, const Vehicle& vehicle) {
+  mode_ = ui::Mode::compare;
+  playing_ = false;
+  ++loads_;
+  comparison_.open(std::move(recording), vehicle, jobs_, [this](const std::string& words) { say(words, true); });
+}
+
+}  // namespace odolab

@@ -1,0 +1,89 @@
+// Everything that is open: the scenario and its run, the bench, the recording. It carries out what panels ask for,
+// through the same doors as the command line.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gui/comparison.h"
+#include "app/gui/drive_run.h"
+#include "app/gui/jobs.h"
+#include "app/gui/umbmark_bench.h"
+#include "ui/actions.h"
+#include "ui/panels/message_bar.h"
+
+namespace odolab {
+
+class Session {
+ public:
+  // Without threads every job is done when its action has been carried out.
+  explicit Session(bool threaded);
+
+  void execute(const ui::Action& action);
+  // Plays on after `wall_s` seconds in front of the window; `go_on` says whether there is time left for this picture.
+  void advance(double wall_s, const std::function<bool()>& go_on);
+
+  // Opens a scenario, a vehicle or a recording. False, with a message, where that fails.
+  bool open(const std::string& path);
+  void say(const std::string& text, bool is_error);
+
+  ui::Mode mode() const { return mode_; }
+  bool playing() const { return playing_; }
+  double speed() const { return speed_; }
+  double reached_speed() const { return reached_speed_; }
+  const DriveRun& run() const { return *run_; }
+  const UmbmarkBench& bench() const { return bench_; }
+  const Comparison& comparison() const { return comparison_; }
+  const Jobs& jobs() const { return jobs_; }
+  const std::vector<ui::Message>& messages() const { return messages_; }
+  const std::string& title() const { return title_; }
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
+  bool wants_to_quit() const { return wants_to_quit_; }
+  // True once after a person has asked for a picture.
+  bool take_picture_wish();
+  // Grows whenever another scenario or recording is loaded, so that views can fit themselves.
+  int loads() const { return loads_; }
+  // The files opened so far, the newest last.
+  const std::vector<std::string>& opened_files() const { return opened_files_; }
+
+ private:
+  struct Executor;
+  // A scenario to come back to; where only the floor was changed, the run goes on.
+  struct Step {
+    Scenario scenario;
+    bool floor_only = false;
+  };
+
+  void load(const Scenario& scenario, std::shared_ptr<const Recording> replayed, const std::string& path);
+  void change(const Scenario& scenario);
+  bool open_scenario(const std::string& path);
+  bool open_vehicle(const std::string& path);
+  bool open_recording(const std::string& path);
+  void compare(std::shared_ptr<const Recording> recording, const Vehicle& vehicle);
+  bool refuse_while_busy(const std::string& what);
+
+  ui::Mode mode_ = ui::Mode::drive;
+  bool playing_ = false;
+  double speed_ = 1.0;
+  double reached_speed_ = 0.0;
+  std::unique_ptr<DriveRun> run_;
+  Path path_before_hand_ = SquarePath{};
+  std::string scenario_path_;  // empty: not from a file
+  std::shared_ptr<const Recording> replayed_;
+  UmbmarkBench bench_;
+  Comparison comparison_;
+  std::optional<Vehicle> opened_vehicle_;
+  std::vector<ui::Message> messages_;
+  std::string title_;
+  std::vector<Step> undo_, redo_;
+  std::vector<std::string> opened_files_;
+  bool picture_wished_ = false;
+  bool wants_to_quit_ = false;
+  int loads_ = 0;
+  Jobs jobs_;  // last: its thread ends before what it works on
+};
+
+}  // namespace odolab

@@ -1,0 +1,229 @@
+#include "app/gui/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "app/gui/first_scenario.h"
+#include "app/gui/planned_path.h"
+
+namespace odolab {
+namespace {
+
+const auto kAlways = [] { return true; };
+
+Scenario small_square() {
+  Scenario s = first_scenario();
+  s.path = SquarePath{0.6, false};
+  s.floor.bumps[0].centre = {0.3, -0.42};
+  return s;
+}
+
+std::uint64_t bits(double value) {
+  std::uint64_t b = 0;
+  std::memcpy(&b, &value, sizeof b);
+  return b;
+}
+
+void expect_same_bits(const Recording& a, const Recording& b) {
+  ASSERT_EQ(a.time_s.size(), b.time_s.size());
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  for (std::size_t c = 0; c < a.channels.size(); ++c) {
+    EXPECT_EQ(a.channels[c].name, b.channels[c].name);
+    for (std::size_t i = 0; i < a.time_s.size(); ++i)
+      if (!(std::isnan(a.channels[c].values[i]) && std::isnan(b.channels[c].values[i])))
+        ASSERT_EQ(bits(a.channels[c].values[i]), bits(b.channels[c].values[i])) << a.channels[c].name << " row " << i;
+  }
+}
+
+// Plays to the end with pictures of uneven length, as a window on a busy machine would.
+void play_to_end(Session& session, double first_frame_s) {
+  session.execute(ui::Play{});
+  double frame_s = first_frame_s;
+  for (int i = 0; i < 100000 && session.playing(); ++i) {
+    session.advance(frame_s, kAlways);
+    frame_s = 0.004 + std::fmod(frame_s * 1.618 + 0.013, 0.09);
+  }
+  ASSERT_TRUE(session.run().finished());
+}
+
+TEST(Session, PlayedAtAnyFrameRateRecordsWhatAHeadlessRunRecordsToTheBit) {
+  const Scenario scenario = small_square();
+  Simulation headless(scenario, scenario.seed);
+  run_to_end(headless);
+  for (const double frame_s : {0.016, 0.07}) {
+    Session session(false);
+    session.execute(ui::EditScenario{scenario});
+    play_to_end(session, frame_s);
+    expect_same_bits(session.run().simulation().recording(), headless.recording());
+  }
+}
+
+TEST(Session, ScrubbingAndSteppingBackChangeNothingOfTheRun) {
+  const Scenario scenario = small_square();
+  Session plain(false), scrubbed(false);
+  plain.execute(ui::EditScenario{scenario});
+  scrubbed.execute(ui::EditScenario{scenario});
+  play_to_end(plain, 0.02);
+  scrubbed.execute(ui::Play{});
+  for (int i = 0; i < 100; ++i) scrubbed.advance(0.033, kAlways);
+  const double latest = scrubbed.run().latest_s();
+  scrubbed.execute(ui::ScrubTo{0.5 * latest});
+  EXPECT_FALSE(scrubbed.playing());
+  EXPECT_NEAR(scrubbed.run().shown().time_s, 0.5 * latest, 1e-12);
+  EXPECT_DOUBLE_EQ(scrubbed.run().latest_s(), latest);
+  scrubbed.execute(ui::StepBack{});
+  EXPECT_LT(scrubbed.run().shown_s(), 0.5 * latest);
+  scrubbed.execute(ui::ToStart{});
+  EXPECT_DOUBLE_EQ(scrubbed.run().shown_s(), 0.0);
+  play_to_end(scrubbed, 0.05);
+  expect_same_bits(scrubbed.run().simulation().recording(), plain.run().simulation().recording());
+}
+
+TEST(Session, AStepIsOnePictureAndPauses) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  session.execute(ui::Play{});
+  session.execute(ui::StepForward{});
+  EXPECT_FALSE(session.playing());
+  EXPECT_NEAR(session.run().shown_s(), 0.020, 1e-9);
+  session.execute(ui::StepForward{});
+  EXPECT_NEAR(session.run().shown_s(), 0.040, 1e-9);
+  session.execute(ui::StepBack{});
+  EXPECT_NEAR(session.run().shown_s(), 0.020, 1e-9);
+}
+
+TEST(Session, ACableTakenAwayBeforeTheRobotReachesItNeverTurnsIt) {
+  Scenario with = small_square();
+  with.floor.roughness = {};
+  Scenario without = with;
+  without.floor.bumps.clear();
+  Session session(false), clear(false);
+  session.execute(ui::EditScenario{with});
+  clear.execute(ui::EditScenario{without});
+  session.execute(ui::Play{});
+  session.advance(0.2, kAlways);  // still far from the cable at 0.3 m
+  session.execute(ui::SetFloor{without.floor});
+  play_to_end(session, 0.02);
+  play_to_end(clear, 0.02);
+  expect_same_bits(session.run().simulation().recording(), clear.run().simulation().recording());
+  ASSERT_EQ(session.run().events().size(), 1u);
+  EXPECT_EQ(session.run().events()[0].kind, RunEvent::Kind::floor_changed);
+}
+
+TEST(Session, MarksTheCableOnTheTimelineWhenAWheelMeetsIt) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  play_to_end(session, 0.02);
+  ASSERT_FALSE(session.run().events().empty());
+  EXPECT_EQ(session.run().events()[0].kind, RunEvent::Kind::bump);
+  EXPECT_NE(session.run().events()[0].words.find("right wheel"), std::string::npos);
+}
+
+TEST(Session, UndoTakesBackAFloorEditWithoutARestartAndRedoRepeatsIt) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  session.execute(ui::Play{});
+  session.advance(0.5, kAlways);
+  Floor floor = session.run().scenario().floor;
+  floor.bumps.clear();
+  session.execute(ui::SetFloor{floor, true});
+  session.execute(ui::Undo{});
+  EXPECT_EQ(session.run().scenario().floor.bumps.size(), 1u);
+  EXPECT_GT(session.run().latest_s(), 0.4);
+  session.execute(ui::Redo{});
+  EXPECT_TRUE(session.run().scenario().floor.bumps.empty());
+}
+
+TEST(Session, RefusesAScenarioWithProblemsInWordsAndKeepsTheOldOne) {
+  Session session(false);
+  Scenario bad = small_square();
+  bad.actual.wheelbase_m = 0.0;
+  session.execute(ui::EditScenario{bad});
+  ASSERT_EQ(session.messages().size(), 1u);
+  EXPECT_NE(session.messages()[0].text.find("actual.wheelbase_m"), std::string::npos);
+  EXPECT_GT(session.run().scenario().actual.wheelbase_m, 0.1);
+  session.execute(ui::DismissMessage{0});
+  EXPECT_TRUE(session.messages().empty());
+}
+
+TEST(Session, ABadFileLeavesAMessageAndEverythingElseAsItWas) {
+  const std::string path = (std::filesystem::temp_directory_path() / "odolab_session_test_bad.toml").string();
+  std::ofstream(path) << "[floor]\nfrictoin = 0.5\n";
+  Session session(false);
+  const std::string title = session.title();
+  EXPECT_FALSE(session.open(path));
+  EXPECT_FALSE(session.open("/no/such/file.csv"));
+  ASSERT_EQ(session.messages().size(), 2u);
+  EXPECT_NE(session.messages()[0].text.find("frictoin"), std::string::npos);
+  EXPECT_NE(session.messages()[1].text.find("/no/such/file.csv"), std::string::npos);
+  EXPECT_EQ(session.title(), title);
+  std::filesystem::remove(path);
+}
+
+TEST(Session, HandDrivingGoesWhereItIsToldAndBackToThePath) {
+  Session session(false);
+  Scenario scenario = small_square();
+  scenario.floor = Floor{};
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::DriveByHandInstead{true});
+  session.execute(ui::DriveByHand{0.2, 0.0});
+  for (int i = 0; i < 100; ++i) session.advance(0.03, kAlways);
+  EXPECT_GT(session.run().shown().true_pose.x_m, 0.2);  // 3 s at 0.2 m/s, less the acceleration
+  session.execute(ui::DriveByHandInstead{false});
+  EXPECT_TRUE(std::holds_alternative<SquarePath>(session.run().scenario().path));
+}
+
+TEST(Session, UmbmarkInTheWindowFindsTheErrorsAndDrivesAtLeastTenTimesBetterAfterwards) {
+  Session session(false);
+  Scenario scenario = first_scenario();
+  scenario.path = SquarePath{2.0, false};
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::StartBenchmark{4, false});
+  ASSERT_EQ(session.bench().experiments().size(), 1u);
+  const ui::BenchExperiment& before = session.bench().experiments().front();
+  EXPECT_EQ(before.runs.clockwise.size(), 4u);
+  ASSERT_TRUE(before.calibration.has_value());
+  session.execute(ui::ApplyCalibration{});
+  ASSERT_EQ(session.bench().experiments().size(), 2u);
+  const ui::BenchExperiment& after = session.bench().experiments().back();
+  ASSERT_TRUE(after.measure.has_value());
+  // The bar of the report's own results; the rest is the rough floor's chance.
+  EXPECT_LT(after.measure->largest_systematic_error_m, 0.1 * session.bench().experiments().front().measure->largest_systematic_error_m);
+  session.execute(ui::AdoptCalibration{});
+  EXPECT_EQ(session.mode(), ui::Mode::drive);
+  EXPECT_NE(std::get<DifferentialDrive>(session.run().scenario().vehicle.kind).wheelbase_m, 0.340);
+}
+
+TEST(Session, ARecordedRunIsReplayedAndCalibratedAgainstItsTruth) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  session.execute(ui::RecordSimulatedRun{});
+  session.advance(0.0, kAlways);  // the replay follows the recording as a job of its own
+  session.advance(0.0, kAlways);
+  EXPECT_EQ(session.mode(), ui::Mode::compare);
+  ASSERT_NE(session.comparison().nominal(), nullptr);
+  ASSERT_TRUE(session.comparison().nominal()->replay.simulated_error.has_value());
+  session.execute(ui::CalibrateFromRecording{});
+  session.advance(0.0, kAlways);
+  ASSERT_NE(session.comparison().calibrated(), nullptr);
+  const double before = session.comparison().nominal()->replay.dead_reckoned_error->position_rms_m;
+  const double after = session.comparison().calibrated()->replay.dead_reckoned_error->position_rms_m;
+  EXPECT_LT(after, before);
+}
+
+TEST(PlannedPath, OfASquareClosesAndTurnsTheWayItIsDriven) {
+  Scenario s;
+  s.start = {1.0, 1.0, 0.0};
+  s.path = SquarePath{4.0, true};
+  const std::vector<Vec2> line = planned_path(s);
+  ASSERT_EQ(line.size(), 5u);
+  EXPECT_NEAR(length(line.front() - line.back()), 0.0, 1e-12);
+  EXPECT_NEAR(line[2].y_m, -3.0, 1e-12);  // clockwise: to the right of the start
+}
+
+}  // namespace
+}  // namespace odolab

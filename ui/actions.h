@@ -1,0 +1,100 @@
+// What a person wants done. Panels return actions; whoever owns the session carries them out.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/scenario/scenario.h"
+
+namespace odolab::ui {
+
+enum class Mode { drive, calibrate, compare };
+
+// The transport bar, of whatever the present mode plays.
+struct Play {};
+struct Pause {};
+struct StepForward {};  // by one picture, 20 ms
+struct StepBack {};
+struct ToStart {};
+struct ToEnd {};
+struct Restart {};
+struct SetSpeed {
+  double factor = 1.0;  // 0: as fast as possible
+};
+struct ScrubTo {
+  double time_s = 0.0;
+};
+
+// The experiment.
+struct EditScenario {  // restarts the run
+  Scenario scenario;
+};
+struct SetFloor {  // takes effect while the run goes on
+  Floor floor;
+  bool begins_gesture = true;  // false: goes on with the same drag, one step for undo
+};
+struct DriveByHandInstead {  // of the scenario's path, or back to it
+  bool by_hand = true;
+};
+struct DriveByHand {
+  double speed_mps = 0.0;
+  double yaw_rate_radps = 0.0;
+};
+struct Push {
+  Vec2 impulse_ns;
+};
+struct Undo {};
+struct Redo {};
+
+// The bench.
+struct StartBenchmark {
+  int runs_each_way = 5;
+  bool keep_things = false;  // cables and patches stay on the floor; else only its friction, tilt and roughness count
+};
+struct ApplyCalibration {};   // the corrected vehicle is driven through the same benchmark
+struct AdoptCalibration {};   // the corrected vehicle becomes the one that Drive drives
+struct ClearBenchmark {};
+struct CancelJob {};
+
+// Recordings.
+enum class ReplayVehicle { nominal, calibrated };
+struct ReplayWith {
+  ReplayVehicle vehicle = ReplayVehicle::nominal;
+};
+struct CalibrateFromRecording {};
+struct RecordSimulatedRun {};  // the present scenario, driven to its end, becomes the recording to compare
+
+// Files and the window.
+struct OpenFile {
+  std::string path;
+};
+struct SaveScenario {
+  std::string path;
+};
+struct SaveRecording {
+  std::string path;
+};
+struct LoadFirstScenario {};
+struct SetMode {
+  Mode mode = Mode::drive;
+};
+struct DismissMessage {
+  std::size_t index = 0;
+};
+struct SavePicture {};
+struct Quit {};
+
+using Action = std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
+                            DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration, ClearBenchmark,
+                            CancelJob, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile, SaveScenario,
+                            SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+
+using Actions = std::vector<Action>;
+
+inline void append(Actions& all, Actions more) {
+  for (Action& a : more) all.push_back(std::move(a));
+}
+
+}  // namespace odolab::ui

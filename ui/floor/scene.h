@@ -1,0 +1,51 @@
+// What there is to see on the floor at one moment. Everything belongs to the caller.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/track.h"
+#include "core/scenario/scenario.h"
+#include "ui/look/theme.h"
+
+namespace odolab::ui {
+
+enum class Dash { solid, dashes, dots };
+
+// A track as it is drawn, up to a time. Where a reference is given, the deviation from it can be exaggerated.
+struct TrackLine {
+  std::string label;
+  const Track* track = nullptr;
+  const Track* reference = nullptr;
+  double until_s = 1e300;
+  std::optional<Pose> end;  // drawn up to here, beyond the last sample
+  ImU32 colour = 0;
+  Dash dash = Dash::solid;
+};
+
+// A vehicle as it is drawn: solid for the real one, an outline for what an estimate believes.
+struct VehicleGlyph {
+  Pose pose;
+  double wheelbase_m = 0.34;
+  double wheel_radius_left_m = 0.075;
+  double wheel_radius_right_m = 0.075;
+  double left_rotation_rad = 0.0;
+  double right_rotation_rad = 0.0;
+  bool outline = false;
+  ImU32 colour = 0;
+};
+
+struct FloorScene {
+  const Floor* floor = nullptr;      // null: nothing on it
+  bool editable = false;
+  std::vector<Vec2> planned;         // the path the driver means to follow
+  std::vector<TrackLine> tracks;
+  std::vector<VehicleGlyph> vehicles;
+  // The two poses whose gap matters, for the gap line and the lens; the second deviates from the first.
+  std::optional<Pose> reference, deviating;
+  std::string empty_text;            // said in the middle while there is nothing else to see
+  std::string reference_name = "true", deviating_name = "estimated";
+};
+
+}  // namespace odolab::ui

@@ -1,0 +1,200 @@
+#include "ui/look/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace odolab::ui {
+
+namespace {
+
+// Where the field of a labelled row begins, as a share of the panel's width.
+constexpr float kLabelShare = 0.50f;
+
+Edited edited(bool changed) {
+  if (ImGui::IsItemDeactivatedAfterEdit()) return Edited::done;
+  return changed ? Edited::changing : Edited::no;
+}
+
+}  // namespace
+
+void tooltip(const std::string& text, const Theme& theme) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(8)));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(theme.px(400));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
+bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook& look) {
+  const float side = ImGui::GetFrameHeight();
+  ImGui::PushID(id);
+  ImGui::BeginDisabled(!look.enabled);
+  const bool clicked = ImGui::InvisibleButton("##icon", {side * 1.15f, side});
+  ImGui::EndDisabled();
+  ImGui::PopID();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const bool filled = look.toggled || look.primary;
+  ImU32 back = filled ? theme.ink : 0;
+  if (look.enabled && !filled && ImGui::IsItemHovered()) back = ImGui::IsItemActive() ? theme.pressed : theme.hovered;
+  if (back) draw.AddRectFilled(low, high, faded(back, look.enabled ? 1.0f : 0.4f), theme.px(4));
+  const ImU32 front = filled ? theme.on_ink : theme.ink;
+  draw_icon(draw, icon, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}, side * 0.62f, look.enabled ? front : faded(front, 0.35f));
+  tooltip(look.enabled || look.why_disabled.empty() ? look.tip : look.why_disabled, theme);
+  return clicked && look.enabled;
+}
+
+bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width) {
+  ImGui::BeginDisabled(!look.enabled);
+  if (look.primary || look.toggled) {
+    const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(theme.ink);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme.on_ink);
+    ImGui::PushStyleColor(ImGuiCol_Button, ink);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, faded(theme.ink, 0.85f));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, faded(theme.ink, 0.75f));
+  }
+  const bool clicked = ImGui::Button(label, {width, 0.0f});
+  if (look.primary || look.toggled) ImGui::PopStyleColor(4);
+  ImGui::EndDisabled();
+  tooltip(look.enabled || look.why_disabled.empty() ? look.tip : look.why_disabled, theme);
+  return clicked && look.enabled;
+}
+
+std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme, float width, int available) {
+  std::optional<int> choice;
+  ImGui::PushID(id);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetFrameHeight(), pad = theme.px(12);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  std::vector<float> widths;
+  float total = 0.0f;
+  for (const std::string& label : labels) {
+    widths.push_back(width > 0.0f ? width / float(labels.size()) : ImGui::CalcTextSize(label.c_str()).x + 2.0f * pad);
+    total += widths.back();
+  }
+  draw.AddRectFilled(at, {at.x + total, at.y + height}, theme.hovered, theme.px(5));
+  float x = at.x;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    ImGui::SetCursorScreenPos({x, at.y});
+    ImGui::PushID(int(i));
+    const bool there = int(i) < available;
+    if (ImGui::InvisibleButton("##part", {widths[i], height}) && int(i) != chosen && there) choice = int(i);
+    ImGui::PopID();
+    const bool on = int(i) == chosen;
+    const float inset = theme.px(2);
+    if (on) draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.ink, theme.px(4));
+    else if (there && ImGui::IsItemHovered()) draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.pressed, theme.px(4));
+    const ImVec2 text = ImGui::CalcTextSize(labels[i].c_str());
+    draw.AddText({std::round(x + 0.5f * (widths[i] - text.x)), std::round(at.y + 0.5f * (height - text.y))}, on ? theme.on_ink : there ? theme.ink : faded(theme.muted, 0.6f), labels[i].c_str());
+    x += widths[i];
+  }
+  ImGui::SetCursorScreenPos(at);
+  ImGui::Dummy({total, height});
+  ImGui::PopID();
+  return choice;
+}
+
+bool section(const char* title, const Theme& theme, bool open_at_first) {
+  ImGui::Dummy({0, theme.px(2)});
+  ImGui::PushID(title);
+  bool& open = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("##open"), open_at_first);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFrameHeight();
+  if (ImGui::InvisibleButton("##section", {width, height})) open = !open;
+  const bool hovered = ImGui::IsItemHovered();
+  ImGui::PopID();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float pad = ImGui::GetStyle().WindowPadding.x;
+  draw.AddRectFilled({at.x - pad, at.y}, {at.x + width + pad, at.y + height}, hovered ? theme.pressed : theme.hovered);
+  const float s = theme.px(4), x = at.x + width - theme.px(8), y = at.y + 0.5f * height;
+  if (open) draw.AddTriangleFilled({x - s, y - 0.6f * s}, {x + s, y - 0.6f * s}, {x, y + 0.8f * s}, theme.muted);
+  else draw.AddTriangleFilled({x + 0.7f * s, y - s}, {x + 0.7f * s, y + s}, {x - 0.7f * s, y}, theme.muted);
+  WithFont strong(theme.strong);
+  draw.AddText({at.x, std::round(at.y + 0.5f * (height - ImGui::GetTextLineHeight()))}, theme.ink, title);
+  return open;
+}
+
+void heading(const char* title, const Theme& theme) {
+  ImGui::Dummy({0, theme.px(2)});
+  WithFont strong(theme.strong);
+  ImGui::TextUnformatted(title);
+}
+
+void note(const std::string& text, const Theme& theme) {
+  ImGui::PushStyleColor(ImGuiCol_Text, theme.muted);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+Edited number_field(const NumberField& field, double& value_si, float width, const Theme& theme) {
+  double value = value_si * field.unit.per_si;
+  const bool bounded = field.least < field.most;
+  const double least = field.least * field.unit.per_si, most = field.most * field.unit.per_si;
+  char format[32];
+  const std::string unit = field.unit.name;
+  const char* gap = unit.empty() || unit == "°" ? "" : " ";
+  if (unit == "×") std::snprintf(format, sizeof format, "×%%.%df", field.unit.decimals);
+  else std::snprintf(format, sizeof format, "%%.%df%s%s", field.unit.decimals, gap, unit == "%" ? "%%" : unit.c_str());
+  ImGui::SetNextItemWidth(width);
+  ImGui::BeginDisabled(!field.enabled);
+  const bool changed = ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag), bounded ? &least : nullptr,
+                                         bounded ? &most : nullptr, format, bounded ? ImGuiSliderFlags_AlwaysClamp : 0);
+  const Edited result = edited(changed);
+  ImGui::EndDisabled();
+  if (changed) value_si = value / field.unit.per_si;
+  if (!ImGui::IsItemActive()) tooltip(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
+  return result;
+}
+
+Edited number_row(const char* label, const NumberField& field, double& value_si, const Theme& theme) {
+  const float width = ImGui::GetContentRegionAvail().x, left = std::round(width * kLabelShare);
+  const float x = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fitted(label, left - theme.px(4)).c_str());
+  tooltip(field.tip, theme);
+  ImGui::SameLine(x + left);
+  return number_field(field, value_si, width - left, theme);
+}
+
+Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip, const Theme& theme) {
+  double number = value;
+  const Edited result = number_row(label, {id, {"", 1.0, 0, 0.1}, double(least), double(most), tip}, number, theme);
+  value = int(std::lround(number));
+  return result;
+}
+
+void text_right(const std::string& text, ImU32 colour) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+std::string words_of_file(const std::string& path) {
+  std::string words = path.substr(path.find_last_of('/') + 1);
+  words = words.substr(0, words.find_last_of('.'));
+  for (char& c : words)
+    if (c == '_') c = ' ';
+  return words;
+}
+
+std::string fitted(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string shorter = text;
+  while (!shorter.empty()) {
+    // Bytes that continue a character go with it.
+    while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xC0u) == 0x80u) shorter.pop_back();
+    if (!shorter.empty()) shorter.pop_back();
+    if (ImGui::CalcTextSize((shorter + "…").c_str()).x <= width) return shorter + "…";
+  }
+  return "…";
+}
+
+}  // namespace odolab::ui

@@ -1,0 +1,69 @@
+// The few widgets that the panels are made of.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/look/icons.h"
+#include "ui/look/theme.h"
+#include "ui/look/units.h"
+
+namespace odolab::ui {
+
+// Shown while the item before it is hovered, enabled or not. Long text is wrapped.
+void tooltip(const std::string& text, const Theme& theme);
+
+// What a button is besides its picture or words.
+struct ButtonLook {
+  bool enabled = true;
+  bool toggled = false;
+  bool primary = false;        // the one button that a person looks for
+  std::string tip;             // what it does, with its key
+  std::string why_disabled;    // shown instead while disabled
+};
+bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook& look);
+bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width = 0.0f);
+
+// One of several; returns the new choice when it changes. Only the first `available` can be chosen.
+std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,
+                             float width = 0.0f, int available = 1000);
+
+// A heading that can be folded; true while open.
+bool section(const char* title, const Theme& theme, bool open_at_first = true);
+// A small heading inside a panel.
+void heading(const char* title, const Theme& theme);
+// Wrapped words in the quiet colour.
+void note(const std::string& text, const Theme& theme);
+
+// What happened to a field in this frame. `done` comes once, when the person lets go or leaves the field.
+enum class Edited { no, changing, done };
+
+// A number that is dragged or, after a double click, typed; bounds are SI and may be equal for none.
+struct NumberField {
+  const char* id;
+  Unit unit;
+  double least = 0.0;
+  double most = 0.0;
+  std::string tip;
+  bool enabled = true;
+};
+Edited number_field(const NumberField& field, double& value_si, float width, const Theme& theme);
+// The same behind a label on the left.
+Edited number_row(const char* label, const NumberField& field, double& value_si, const Theme& theme);
+// A whole number behind a label.
+Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip, const Theme& theme);
+
+// Which of two edits says more.
+inline Edited more(Edited a, Edited b) { return a > b ? a : b; }
+
+// Text that ends at the right edge of the remaining width.
+void text_right(const std::string& text, ImU32 colour);
+
+// The name of a file as words: "square with cable" of ".../square_with_cable.toml".
+std::string words_of_file(const std::string& path);
+
+// Text shortened with an ellipsis to a width.
+std::string fitted(const std::string& text, float width);
+
+}  // namespace odolab::ui

@@ -1,0 +1,140 @@
+#include "ui/panels/calibrate_panel.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "ui/look/widgets.h"
+
+namespace odolab::ui {
+
+namespace {
+
+// A step of the guide with its number in a disc: done, under way, or still to come.
+void step_heading(int number, const char* words, bool done, bool now, const Theme& theme) {
+  ImGui::Dummy({1, theme.px(3)});
+  const float side = ImGui::GetFrameHeight() * 0.95f;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 centre{at.x + 0.5f * side, at.y + 0.5f * side};
+  if (now || done) draw.AddCircleFilled(centre, 0.5f * side, done && !now ? theme.muted : theme.ink);
+  else draw.AddCircle(centre, 0.5f * side - 1, theme.line, 0, theme.px(1.5f));
+  const std::string text = std::to_string(number);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  draw.AddText({std::round(centre.x - 0.5f * size.x), std::round(centre.y - 0.5f * size.y)}, now || done ? theme.on_ink : theme.muted, text.c_str());
+  ImGui::Dummy({side, side});
+  ImGui::SameLine();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (side - ImGui::GetTextLineHeight()));
+  WithFont strong(theme.strong);
+  ImGui::PushStyleColor(ImGuiCol_Text, now || done ? theme.ink : theme.muted);
+  ImGui::TextUnformatted(words);
+  ImGui::PopStyleColor();
+}
+
+void run_table(const BenchExperiment& experiment, const Theme& theme) {
+  const Unit mm{"", 1e3, 1, 0.0}, deg{"°", kDegrees.per_si, 2, 0.0};
+  if (!ImGui::BeginTable("runs", 4, ImGuiTableFlags_BordersInnerH)) return;
+  for (const float weight : {0.7f, 1.0f, 1.0f, 1.0f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  ImGui::TableNextRow();
+  for (const char* title : {"run", "x mm", "y mm", "heading"}) {
+    ImGui::TableNextColumn();
+    if (title[0] == 'r') ImGui::TextDisabled("%s", title);
+    else text_right(title, theme.muted);
+  }
+  tooltip("Return errors: absolute minus calculated pose at the end of a run, Eq. 3.1.", theme);
+  const auto rows = [&](const std::vector<ReturnError>& errors, const char* way, ImU32 colour) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::PushStyleColor(ImGuiCol_Text, colour);
+      ImGui::Text("%s %d", way, int(i) + 1);
+      ImGui::PopStyleColor();
+      ImGui::TableNextColumn();
+      text_right(shown(errors[i].x_m, mm), theme.ink);
+      ImGui::TableNextColumn();
+      text_right(shown(errors[i].y_m, mm), theme.ink);
+      ImGui::TableNextColumn();
+      text_right(shown(errors[i].heading_rad, deg), theme.ink);
+    }
+  };
+  rows(experiment.runs.clockwise, "cw", theme.orange);
+  rows(experiment.runs.counter_clockwise, "ccw", theme.blue);
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& theme) {
+  Actions actions;
+  const std::vector<BenchExperiment>& experiments = *bench.experiments;
+  const std::size_t n = experiments.size();
+  const bool measured = n > 0 && experiments.front().calibration.has_value();
+  const bool applied = n > 1, verified = applied && experiments.back().calibration.has_value();
+  const float width = ImGui::GetContentRegionAvail().x;
+
+  heading("UMBmark", theme);
+  note("Squares driven both ways show the systematic errors of " + bench.vehicle_name + "; one way alone hides them.", theme);
+
+  step_heading(1, "Drive squares both ways", measured, !measured, theme);
+  if (!measured || n == 1) {
+    char words[160];
+    std::snprintf(words, sizeof words, "%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
+    if (!measured) note(words, theme);
+    if (!bench.running && !measured) count_row("Runs each way", "##runs", state.runs_each_way, 1, 50, "The report drives five in each direction (section 3.2).", theme);
+    if (!bench.running && !measured && bench.has_things) {
+      ImGui::Checkbox("Keep cables and patches", &state.keep_things);
+      tooltip("UMBmark asks for a smooth floor: cables and patches are taken away for its runs unless this is ticked.", theme);
+    }
+  }
+  if (n == 0) {
+    ButtonLook start;
+    start.primary = true;
+    start.enabled = bench.can_run;
+    start.tip = "Drive the benchmark in the simulation, faster than real time.";
+    start.why_disabled = bench.why_not;
+    if (text_button("Start", theme, start, width)) actions.push_back(StartBenchmark{state.runs_each_way, state.keep_things});
+  }
+
+  step_heading(2, "Calibrate and drive again", verified, measured && !verified, theme);
+  if (measured && !applied && !bench.running) {
+    note("Put the corrected wheelbase and wheel diameters into the odometry and drive the same squares.", theme);
+    ButtonLook apply;
+    apply.primary = true;
+    apply.tip = "The corrected vehicle is driven through the same squares; before and after come into one plot.";
+    if (text_button("Apply and drive again", theme, apply, width)) actions.push_back(ApplyCalibration{});
+  }
+  step_heading(3, "Keep it", false, verified, theme);
+  if (verified && !bench.running) {
+    const bool again = experiments.back().measure && experiments.back().measure->worth_compensating;
+    note(again ? "A rest is still above 3 standard errors: a second calibration is likely to help (section 6.3)."
+               : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).", theme);
+    ButtonLook second;
+    second.primary = again;
+    second.enabled = again;
+    second.tip = "Calibrate once more, from the runs of the calibrated vehicle.";
+    second.why_disabled = "Below 3 standard errors of the mean, another calibration would fit noise (section 6.3).";
+    if (text_button("Calibrate a second time", theme, second, width)) actions.push_back(ApplyCalibration{});
+    ButtonLook keep;
+    keep.primary = !again;
+    keep.tip = "The calibrated vehicle becomes the nominal one of the scenario, in Drive and when it is saved.";
+    if (text_button("Drive with this vehicle", theme, keep, width)) actions.push_back(AdoptCalibration{});
+  }
+  if (bench.running) {
+    ImGui::Dummy({1, theme.px(4)});
+    ImGui::PushStyleColor(ImGuiCol_Text, bench.share_done > 0.5 ? theme.on_ink : theme.ink);
+    char share[32];
+    std::snprintf(share, sizeof share, "%.0f %%", 100.0 * bench.share_done);
+    ImGui::ProgressBar(float(bench.share_done), {width - theme.px(84), 0.0f}, share);
+    ImGui::PopStyleColor();
+    ImGui::SameLine();
+    if (text_button("Cancel", theme, {}, -1.0f)) actions.push_back(CancelJob{});
+  }
+  if (n > 0) {
+    ImGui::Dummy({1, theme.px(4)});
+    const bool open = section(("Runs, " + experiments.back().name).c_str(), theme);
+    if (open) run_table(experiments.back(), theme);
+    if (!bench.running && text_button("Start anew", theme, {}, width)) actions.push_back(ClearBenchmark{});
+  }
+  return actions;
+}
+
+}  // namespace odolab::ui

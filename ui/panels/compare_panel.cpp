@@ -1,0 +1,134 @@
+#include "ui/panels/compare_panel.h"
+
+#include <cstdio>
+
+#include "ui/look/widgets.h"
+
+namespace odolab::ui {
+
+namespace {
+
+void fact(const char* label, const std::string& value, const Theme& theme) {
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine();
+  text_right(fitted(value, ImGui::GetContentRegionAvail().x), theme.ink);
+  if (ImGui::CalcTextSize(value.c_str()).x > ImGui::GetItemRectSize().x) tooltip(value, theme);
+}
+
+// How a parameter of the vehicle file is called and counted on the screen.
+struct ParameterName {
+  const char* key;
+  const char* words;
+  const char* unit;
+  double per_si;
+  int decimals;
+};
+
+constexpr ParameterName kNames[] = {
+    {"wheel_radius_left_m", "radius left", "mm", 1e3, 3}, {"wheel_radius_right_m", "radius right", "mm", 1e3, 3},
+    {"wheelbase_m", "wheelbase", "mm", 1e3, 2},           {"truth_mounting.x_m", "mounted x", "mm", 1e3, 1},
+    {"truth_mounting.y_m", "mounted y", "mm", 1e3, 1},    {"truth_mounting.heading_rad", "turned", "°", kDegrees.per_si, 2},
+    {"truth_mounting.time_offset_s", "truth late", "ms", 1e3, 1},
+};
+
+void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
+  if (!ImGui::BeginTable("parameters", 4, ImGuiTableFlags_BordersInnerH)) return;
+  for (const float weight : {0.88f, 0.28f, 0.62f, 1.3f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TableNextColumn();
+  for (const char* title : {"nominal", "calibrated"}) {
+    ImGui::TableNextColumn();
+    text_right(title, theme.muted);
+  }
+  for (const ParameterEstimate& p : c.parameters) {
+    ParameterName name{p.name.c_str(), p.name.c_str(), p.unit.c_str(), 1.0, 4};
+    for (const ParameterName& n : kNames)
+      if (p.name == n.key) name = n;
+    const Unit bare{"", name.per_si, name.decimals, 0.0};
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(fitted(name.words, ImGui::GetContentRegionAvail().x).c_str());
+    tooltip(p.name, theme);
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name.unit);
+    ImGui::TableNextColumn();
+    text_right(shown(p.nominal, bare), theme.muted);
+    ImGui::TableNextColumn();
+    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown", p.determined ? theme.ink : theme.muted);
+    if (!p.determined) tooltip("The recording holds no information on it; the nominal value stays.", theme);
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) {
+  Actions actions;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
+  const bool busy = !c.job.empty();
+  const std::string busy_words = busy ? "Busy: " + c.job + "." : "";
+  heading("Recording", theme);
+  if (!c.loaded) {
+    note("A recorded run is driven once more in the simulation by its own wheel rotation or commands. Where the two tracks part, the model of the vehicle is wrong.", theme);
+  } else {
+    ImGui::TextUnformatted(fitted(c.name, width).c_str());
+    tooltip(c.name + "\n" + c.provenance, theme);
+    fact("lasts", clock(c.duration_s), theme);
+    fact("travels", shown(c.travelled_m, {"m", 1.0, 1, 0.0}), theme);
+    fact("driven by", c.inputs, theme);
+    fact("truth", std::to_string(c.truth_samples) + " poses", theme);
+    fact("vehicle", c.vehicle_name, theme);
+  }
+  ImGui::Dummy({1, theme.px(2)});
+  ButtonLook open;
+  open.primary = !c.loaded;
+  open.tip = "Open a recording: a CSV file with the columns that the documentation lists, or one of another format (Ctrl+O)";
+  if (text_button(c.loaded ? "Open…" : "Open a recording…", theme, open, c.loaded ? half : width)) ask_for_file = true;
+  if (c.loaded) ImGui::SameLine();
+  ButtonLook record;
+  record.enabled = !busy;
+  record.why_disabled = busy_words;
+  record.tip = "Drive the scenario of Drive to its end and take what its encoders and the outside measurement recorded.";
+  if (text_button(c.loaded ? "Simulate one" : "Record a simulated run", theme, record, c.loaded ? half : width)) actions.push_back(RecordSimulatedRun{});
+
+  if (!c.loaded)
+    for (const std::string& path : c.example_files) {
+      ButtonLook example;
+      example.tip = path;
+      if (text_button(("Example: " + words_of_file(path)).c_str(), theme, example, width)) actions.push_back(OpenFile{path});
+    }
+
+  if (c.loaded) {
+    heading("Replay with the vehicle", theme);
+    if (const auto choice = segmented("vehicle", {"nominal", "calibrated"}, int(c.vehicle), theme, width, c.calibrated ? 2 : 1)) {
+      actions.push_back(ReplayWith{ReplayVehicle(*choice)});
+    }
+    tooltip(c.calibrated ? "Which vehicle file the replay drives." : "Calibrate first: there is no calibrated vehicle yet.", theme);
+    ButtonLook calibrate;
+    calibrate.primary = !c.calibrated && c.can_calibrate && !busy;
+    calibrate.enabled = c.can_calibrate && !busy;
+    calibrate.tip = "Least squares over the whole recording: wheel radii, wheelbase and where the truth is mounted, each with its uncertainty.";
+    calibrate.why_disabled = busy ? busy_words : c.why_not;
+    if (text_button("Calibrate from this recording", theme, calibrate, width)) actions.push_back(CalibrateFromRecording{});
+  }
+  if (busy) {
+    ImGui::Dummy({1, theme.px(4)});
+    note(c.job, theme);
+    char share[32];
+    std::snprintf(share, sizeof share, "%.0f %%", 100.0 * c.share_done);
+    ImGui::ProgressBar(float(c.share_done), {width - theme.px(84), 0.0f}, share);
+    ImGui::SameLine();
+    if (text_button("Cancel", theme, {}, -1.0f)) actions.push_back(CancelJob{});
+  }
+  if (c.calibration) {
+    heading("Calibration", theme);
+    parameter_table(*c.calibration, theme);
+    for (const std::string& words : c.calibration->cannot_tell) note(words, theme);
+    for (const std::string& words : c.calibration->warnings) note(words, theme);
+  }
+  return actions;
+}
+
+}  // namespace odolab::ui

@@ -1,0 +1,19 @@
+// How far the replay is from the recording: now, per metre, at the end; nominal beside calibrated.
+#pragma once
+
+#include <optional>
+
+#include "ui/compare.h"
+#include "ui/look/theme.h"
+
+namespace odolab::ui {
+
+// The moment shown: recorded truth against the simulated pose and the dead reckoning.
+struct ErrorNow {
+  std::optional<Pose> truth, simulated, dead_reckoned;
+  double simulated_gap_m = 0.0, simulated_gap_heading_rad = 0.0;
+};
+
+void error_panel(const Compare& compare, const ErrorNow& now, const Theme& theme);
+
+}  // namespace odolab::ui

@@ -1,0 +1,309 @@
+#include "ui/panels/floor_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/floor/drawing.h"
+#include "ui/floor/lens.h"
+#include "ui/look/strokes.h"
+#include "ui/look/widgets.h"
+
+namespace odolab::ui {
+
+namespace {
+
+void tool_buttons(FloorViewState& state, bool editable, const Theme& theme) {
+  struct Tool {
+    FloorTool tool;
+    Icon icon;
+    const char* id;
+    const char* tip;
+  };
+  static const Tool kTools[] = {
+      {FloorTool::pointer, Icon::pointer, "pointer", "Move things and the view. Drag a thing to move it, the floor to pan; the wheel zooms."},
+      {FloorTool::bump, Icon::cable, "cable", "Put a cable on the floor: click where it shall lie. A wheel that climbs it turns further than it travels."},
+      {FloorTool::slip_disc, Icon::disc, "disc", "Put down a round slippery patch: click where."},
+      {FloorTool::slip_rectangle, Icon::rectangle, "rectangle", "Put down a rectangular slippery patch: click where."},
+  };
+  for (const Tool& tool : kTools) {
+    ButtonLook look;
+    look.enabled = editable;
+    look.toggled = editable && state.tool == tool.tool;
+    look.tip = tool.tip;
+    look.why_disabled = "This floor is not edited here: change it in Drive.";
+    if (icon_button(tool.id, tool.icon, theme, look)) state.tool = tool.tool;
+    ImGui::SameLine(0, theme.px(2));
+  }
+}
+
+void layer_menu(FloorViewState& state, const Theme& theme) {
+  ButtonLook look;
+  look.tip = "What is drawn";
+  if (icon_button("layers", Icon::layers, theme, look)) ImGui::OpenPopup("layers");
+  if (ImGui::BeginPopup("layers")) {
+    ImGui::Checkbox("Grid and rulers", &state.show_grid);
+    ImGui::Checkbox("Planned path", &state.show_planned);
+    ImGui::Checkbox("Tracks", &state.show_tracks);
+    ImGui::Checkbox("Cables and patches", &state.show_things);
+    ImGui::Checkbox("Lens", &state.show_lens);
+    ImGui::EndPopup();
+  }
+}
+
+void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme) {
+  ImGui::SetCursorPos({theme.px(8), theme.px(5)});
+  tool_buttons(state, scene.editable, theme);
+  ImGui::SameLine(0, theme.px(14));
+  ButtonLook fit;
+  fit.tip = "Fit everything into sight (F)";
+  if (icon_button("fit", Icon::fit, theme, fit)) state.fit_next = true;
+  ImGui::SameLine(0, theme.px(2));
+  ButtonLook follow;
+  follow.toggled = state.follow;
+  follow.tip = "Follow the vehicle";
+  if (icon_button("follow", Icon::follow, theme, follow)) state.follow = !state.follow;
+  ImGui::SameLine(0, theme.px(2));
+  ButtonLook lens;
+  lens.toggled = state.show_lens;
+  lens.tip = "A lens over the vehicle shows the gap between the poses at a stated magnification";
+  if (icon_button("lens", Icon::lens, theme, lens)) state.show_lens = !state.show_lens;
+  ImGui::SameLine(0, theme.px(2));
+  layer_menu(state, theme);
+  ImGui::SameLine(0, theme.px(14));
+  ButtonLook exaggerate;
+  exaggerate.toggled = state.exaggerate;
+  exaggerate.tip = "Draw the deviation of the " + scene.deviating_name + " track from the " + scene.reference_name + " one larger than it is, by the factor beside this button";
+  if (icon_button("exaggerate", Icon::exaggerate, theme, exaggerate)) state.exaggerate = !state.exaggerate;
+  ImGui::SameLine(0, theme.px(6));
+  NumberField factor{"##factor", {"×", 1.0, 0, 0.2}, 2.0, 200.0, "How many times larger the deviation is drawn."};
+  if (number_field(factor, state.exaggeration, theme.px(52), theme) != Edited::no) state.exaggerate = true;
+}
+
+float lens_side(const Camera& camera, const Theme& theme) {
+  return std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+}
+
+// Everything worth seeing, for a fit.
+void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
+  low = {1e300, 1e300};
+  high = {-1e300, -1e300};
+  const auto take = [&](Vec2 p, double reach = 0.0) {
+    low = {std::min(low.x_m, p.x_m - reach), std::min(low.y_m, p.y_m - reach)};
+    high = {std::max(high.x_m, p.x_m + reach), std::max(high.y_m, p.y_m + reach)};
+  };
+  for (const Vec2 p : scene.planned) take(p, 0.3);
+  for (const TrackLine& line : scene.tracks)
+    if (line.track)
+      for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
+  for (const VehicleGlyph& v : scene.vehicles) take(v.pose.position(), v.wheelbase_m);
+  if (scene.floor && low.x_m <= high.x_m)
+    for (const Bump& bump : scene.floor->bumps) {
+      const auto [a, b] = ends_of(bump);
+      take(a);
+      take(b);
+    }
+  if (low.x_m > high.x_m) {
+    low = {-1.0, -1.0};
+    high = {5.0, 5.0};
+  }
+}
+
+void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
+  const Camera& camera = state.camera;
+  const float line = ImGui::GetTextLineHeight(), swatch = theme.px(24), gap = theme.px(16);
+  float x = camera.low.x + theme.px(12);
+  const float y = camera.low.y + theme.px(8);
+  float total = 0.0f;
+  const bool planned = state.show_planned && scene.planned.size() > 1;
+  const char* planned_label = "planned";
+  for (const TrackLine& t : scene.tracks)
+    if (!t.label.empty()) total += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
+  if (planned) total += swatch + theme.px(6) + ImGui::CalcTextSize(planned_label).x + gap;
+  if (total == 0.0f) return;
+  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total - gap + theme.px(6), y + line + theme.px(4)}, faded(theme.paper, 0.85f), theme.px(4));
+  const float middle = y + 0.5f * line;
+  for (const TrackLine& t : scene.tracks) {
+    if (t.label.empty()) continue;
+    draw_stroke(draw, {{x, middle}, {x + swatch, middle}}, t.colour, t.dash, theme);
+    draw.AddText({x + swatch + theme.px(6), y}, theme.ink, t.label.c_str());
+    x += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
+  }
+  if (planned) {
+    dashed_line(draw, {{x, middle}, {x + swatch, middle}}, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2), theme.px(4));
+    draw.AddText({x + swatch + theme.px(6), y}, theme.muted, planned_label);
+  }
+  if (state.exaggerate) {
+    const std::string text = "deviation drawn " + times(state.exaggeration);
+    const float w = ImGui::CalcTextSize(text.c_str()).x;
+    const ImVec2 at{camera.low.x + theme.px(12), y + line + theme.px(10)};
+    draw.AddRectFilled({at.x - theme.px(6), at.y - theme.px(3)}, {at.x + w + theme.px(6), at.y + line + theme.px(3)}, theme.orange, theme.px(4));
+    draw.AddText(at, theme.dark ? theme.on_ink : theme.paper, text.c_str());
+  }
+}
+
+void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
+  const Camera& camera = state.camera;
+  const double factor = state.exaggerate ? state.exaggeration : 1.0;
+  if (state.show_grid) draw_grid(draw, camera, theme);
+  else draw.AddRectFilled(camera.low, camera.high, theme.paper);
+  if (scene.floor && state.show_things) {
+    for (std::size_t i = 0; i < scene.floor->slip_zones.size(); ++i)
+      draw_slip_zone(draw, camera, scene.floor->slip_zones[i], state.selected == FloorThing{ThingKind::slip_zone, i}, theme);
+    for (std::size_t i = 0; i < scene.floor->bumps.size(); ++i)
+      draw_bump(draw, camera, scene.floor->bumps[i], state.selected == FloorThing{ThingKind::bump, i}, theme);
+  }
+  if (state.show_planned) draw_planned(draw, camera, scene.planned, theme);
+  if (state.show_tracks)
+    for (const TrackLine& line : scene.tracks) {
+      TrackLine drawn = line;
+      if (line.reference && line.end && scene.reference) drawn.end = exaggerated(*scene.reference, *line.end, factor);
+      draw_track(draw, camera, drawn, factor, theme);
+    }
+  for (const VehicleGlyph& vehicle : scene.vehicles) {
+    VehicleGlyph drawn = vehicle;
+    if (vehicle.outline && scene.reference) drawn.pose = exaggerated(*scene.reference, vehicle.pose, factor);
+    draw_vehicle(draw, camera, drawn, theme);
+  }
+  if (scene.reference && scene.deviating) {
+    const Pose end = exaggerated(*scene.reference, *scene.deviating, factor);
+    draw.AddLine(camera.screen(scene.reference->position()), camera.screen(end.position()), theme.orange, theme.px(2));
+  }
+  if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
+  if (scene.tracks.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
+    const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());
+    const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)), std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
+    draw.AddRectFilled({at.x - theme.px(10), at.y - theme.px(6)}, {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
+    draw.AddText(at, theme.muted, scene.empty_text.c_str());
+  }
+  legend(draw, scene, state, theme);
+  draw_scale_bar(draw, camera, theme);
+  if (state.show_lens) {
+    const float side = lens_side(camera, theme);
+    const float margin = theme.px(14), below = margin + 2.0f * ImGui::GetTextLineHeight() + theme.px(16);
+    draw_lens(draw, {camera.high.x - margin - side, camera.high.y - below - side}, {camera.high.x - margin, camera.high.y - below}, scene, camera.px_per_m, theme);
+  }
+}
+
+Actions put_down(const FloorScene& scene, FloorViewState& state, FloorTool tool, Vec2 at) {
+  Floor floor = *scene.floor;
+  if (tool == FloorTool::bump) {
+    floor.bumps.push_back(new_bump(at));
+    state.selected = FloorThing{ThingKind::bump, floor.bumps.size() - 1};
+  } else {
+    floor.slip_zones.push_back(tool == FloorTool::slip_disc ? new_slip_disc(at) : new_slip_rectangle(at));
+    state.selected = FloorThing{ThingKind::slip_zone, floor.slip_zones.size() - 1};
+  }
+  state.tool = FloorTool::pointer;
+  return {SetFloor{std::move(floor), true}};
+}
+
+Actions context_menu(const FloorScene& scene, FloorViewState& state) {
+  Actions actions;
+  if (!ImGui::BeginPopup("floor menu")) return actions;
+  if (scene.editable && scene.floor) {
+    if (state.selected && exists(*scene.floor, *state.selected) && ImGui::MenuItem("Remove this", "Delete")) {
+      actions.push_back(SetFloor{removed(*scene.floor, *state.selected), true});
+      state.selected.reset();
+    }
+    if (ImGui::MenuItem("Put a cable here")) append(actions, put_down(scene, state, FloorTool::bump, state.menu_at));
+    if (ImGui::MenuItem("Put a slippery disc here")) append(actions, put_down(scene, state, FloorTool::slip_disc, state.menu_at));
+    if (ImGui::MenuItem("Put a slippery rectangle here")) append(actions, put_down(scene, state, FloorTool::slip_rectangle, state.menu_at));
+    ImGui::Separator();
+    if (!scene.vehicles.empty() && ImGui::MenuItem("Push the vehicle toward here")) {
+      const Vec2 way = state.menu_at - scene.vehicles.front().pose.position();
+      if (length(way) > 0.0) actions.push_back(Push{(20.0 / length(way)) * way});
+    }
+  }
+  if (ImGui::MenuItem("Fit everything", "F")) state.fit_next = true;
+  if (ImGui::MenuItem("Follow the vehicle", nullptr, state.follow)) state.follow = !state.follow;
+  ImGui::EndPopup();
+  return actions;
+}
+
+Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme) {
+  Actions actions;
+  Camera& camera = state.camera;
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImVec2 mouse = io.MousePos;
+  const bool hovered = ImGui::IsItemHovered();
+  const bool editable = scene.editable && scene.floor && state.show_things;
+  const float reach = theme.px(9);
+
+  if (hovered && io.MouseWheel != 0.0f) {
+    camera.zoom(mouse, std::pow(1.18, double(io.MouseWheel)));
+    state.touched = true;
+  }
+  if (hovered && ImGui::IsMouseClicked(1)) {
+    if (editable)
+      if (const auto grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected)) state.selected = grasp->thing;
+    state.menu_at = camera.floor(mouse);
+    ImGui::OpenPopup("floor menu");
+  }
+  if (ImGui::IsItemActivated()) {
+    state.grasp.reset();
+    state.panning = false;
+    if (editable && state.tool != FloorTool::pointer) {
+      append(actions, put_down(scene, state, state.tool, camera.floor(mouse)));
+    } else {
+      if (editable) state.grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected);
+      state.panning = !state.grasp;
+      state.selected = state.grasp ? std::optional<FloorThing>(state.grasp->thing) : std::nullopt;
+      state.grasp_from = camera.floor(mouse);
+      state.gesture_began = true;
+    }
+  } else if (ImGui::IsItemActive()) {
+    const Vec2 at = camera.floor(mouse);
+    if (state.grasp && editable && length(at - state.grasp_from) > 0.0) {
+      actions.push_back(SetFloor{dragged(*scene.floor, *state.grasp, state.grasp_from, at), state.gesture_began});
+      state.gesture_began = false;
+      state.grasp_from = at;
+    } else if (state.panning && length(at - state.grasp_from) > 0.0) {
+      camera.centre = camera.centre - (at - state.grasp_from);
+      state.touched = true;
+      state.follow = false;
+    }
+  } else {
+    state.grasp.reset();
+    state.panning = false;
+  }
+  if (hovered && state.tool == FloorTool::pointer && ImGui::IsMouseDoubleClicked(0) && !state.grasp) state.fit_next = true;
+  if (hovered && editable && state.tool == FloorTool::pointer && !state.panning) {
+    if (const auto grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected))
+      ImGui::SetMouseCursor(grasp->grip == Grip::body ? ImGuiMouseCursor_Hand : ImGuiMouseCursor_ResizeAll);
+  }
+  return actions;
+}
+
+}  // namespace
+
+Actions floor_view(const FloorScene& scene, FloorViewState& state, const Theme& theme) {
+  const float bar = ImGui::GetFrameHeight() + theme.px(10);
+  const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  toolbar(state, scene, theme);
+  Camera& camera = state.camera;
+  camera.low = {low.x, low.y + bar};
+  camera.high = {low.x + size.x, low.y + size.y};
+  if (camera.high.x - camera.low.x < 20.0f || camera.high.y - camera.low.y < 20.0f) return {};
+  if (state.fit_next || (!state.touched && !state.follow)) {
+    Vec2 lowest, highest;
+    extent_of(scene, lowest, highest);
+    const float lens = state.show_lens && scene.deviating ? lens_side(camera, theme) + theme.px(8) : 0.0f;
+    camera.fit(lowest, highest, {theme.px(58), theme.px(44), theme.px(20) + lens, theme.px(34)});
+    if (state.fit_next) state.touched = false;
+    state.fit_next = false;
+  }
+  if (state.follow && !scene.vehicles.empty()) camera.centre = scene.vehicles.front().pose.position();
+
+  ImGui::SetCursorScreenPos(camera.low);
+  ImGui::InvisibleButton("floor", {camera.high.x - camera.low.x, camera.high.y - camera.low.y});
+  Actions actions = react(scene, state, theme);
+  append(actions, context_menu(scene, state));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(camera.low, camera.high, true);
+  draw_scene(draw, scene, state, theme);
+  draw.PopClipRect();
+  draw.AddLine(camera.low, {camera.high.x, camera.low.y}, theme.line);
+  return actions;
+}
+
+}  // namespace odolab::ui

@@ -1,0 +1,21 @@
+// What went wrong, in words, until a person has read it; the app stays open.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ui/actions.h"
+#include "ui/look/theme.h"
+
+namespace odolab::ui {
+
+struct Message {
+  std::string text;
+  bool is_error = true;
+};
+
+// Height that the bar needs at this width; 0 without messages.
+float message_bar_height(const std::vector<Message>& messages, float width, const Theme& theme);
+Actions message_bar(const std::vector<Message>& messages, const Theme& theme);
+
+}  // namespace odolab::ui

@@ -1,0 +1,56 @@
+// First, back, play, forward, last; the speed wanted and reached; a timeline, and the error over time above it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ui/actions.h"
+#include "ui/look/theme.h"
+#include "ui/plot/plot.h"
+
+namespace odolab::ui {
+
+struct TimelineEvent {
+  double time_s = 0.0;
+  std::string words;
+  ImU32 colour = 0;
+};
+
+// A curve over time, e.g. the gap.
+struct TimeCurve {
+  std::string label;
+  const std::vector<double>* time_s = nullptr;
+  const std::vector<double>* value = nullptr;
+  ImU32 colour = 0;
+  bool dashed = false;
+};
+
+struct Transport {
+  bool playing = false;
+  bool finished = false;
+  bool enabled = true;
+  std::string why_disabled;
+  bool can_step_back = true;
+  double time_s = 0.0;        // shown
+  double latest_s = 0.0;      // simulated so far
+  double total_s = 1.0;       // expected
+  double speed = 1.0;         // wanted; 0: as fast as possible
+  double reached_speed = 0.0;
+  std::string quantity = "gap";
+  std::vector<TimeCurve> position_curves;  // metres
+  std::vector<TimeCurve> heading_curves;   // radians
+  std::vector<TimelineEvent> events;
+};
+
+struct TransportState {
+  PlotView view;
+  bool show_heading = false;
+};
+
+// Where on the timeline a time lies and back: a straight map of [0, total] on [left, right], clamped.
+double time_at(float x, float left, float right, double total_s);
+float x_of_time(double time_s, float left, float right, double total_s);
+
+Actions transport_bar(const Transport& transport, TransportState& state, const Theme& theme);
+
+}  // namespace odolab::ui
