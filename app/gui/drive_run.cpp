@@ -108,7 +108,14 @@ void DriveRun::push(Vec2 impulse_ns) {
   if (events_.size() < kMostEvents) events_.push_back({RunEvent::Kind::pushed, latest_s(), "pushed"});
 }
 
-double DriveRun::total_s() const { return finished() ? latest_s() : std::max(simulation_.expected_duration_s(), latest_s()); }
+double DriveRun::total_s() const {
+  if (finished()) return latest_s();
+  const double expected_s = std::max(simulation_.expected_duration_s(), latest_s());
+  if (!std::holds_alternative<HandPath>(scenario_.path)) return expected_s;
+  double window_s = 30.0;  // nobody knows how long a person will drive: the timeline grows
+  while (window_s < latest_s() + 2.0) window_s *= 2.0;
+  return std::min(window_s, expected_s);
+}
 
 SimulationState DriveRun::shown() const {
   const std::size_t after = std::size_t(std::lower_bound(times_.begin(), times_.end(), shown_s_ - 1e-12) - times_.begin());

@@ -11,8 +11,8 @@ Scenario first_scenario() {
   s.actual.wheelbase_m = 0.3425;
   s.floor.roughness = {0.001, 0.02};
   Bump cable;
-  cable.centre = {2.0, -0.42};
-  cable.direction_rad = radians(80.0);
+  cable.centre = {2.0, 0.45};
+  cable.direction_rad = radians(100.0);
   cable.length_m = 0.8;
   s.floor.bumps.push_back(cable);
   return s;

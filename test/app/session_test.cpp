@@ -18,7 +18,7 @@ const auto kAlways = [] { return true; };
 Scenario small_square() {
   Scenario s = first_scenario();
   s.path = SquarePath{0.6, false};
-  s.floor.bumps[0].centre = {0.3, -0.42};
+  s.floor.bumps[0].centre = {0.3, 0.45};
   return s;
 }
 
@@ -120,7 +120,7 @@ TEST(Session, MarksTheCableOnTheTimelineWhenAWheelMeetsIt) {
   play_to_end(session, 0.02);
   ASSERT_FALSE(session.run().events().empty());
   EXPECT_EQ(session.run().events()[0].kind, RunEvent::Kind::bump);
-  EXPECT_NE(session.run().events()[0].words.find("right wheel"), std::string::npos);
+  EXPECT_NE(session.run().events()[0].words.find("left wheel"), std::string::npos);
 }
 
 TEST(Session, UndoTakesBackAFloorEditWithoutARestartAndRedoRepeatsIt) {

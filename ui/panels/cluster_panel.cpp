@@ -123,7 +123,7 @@ Plot plot_of_errors(const Theme&) {
 ImVec2 emptiest_corner(const std::vector<BenchExperiment>& experiments, const PlotResult& result, const PlotView& view, ImVec2 size, const Theme& theme) {
   const float margin = theme.px(10);
   ImVec2 best{};
-  int fewest = 1 << 30;
+  int fewest = 1 << 30;  // points weigh more than lines
   for (const bool right : {true, false})
     for (const bool below : {true, false}) {
       const ImVec2 low{right ? result.high.x - margin - size.x : result.low.x + margin, below ? result.high.y - margin - size.y : result.low.y + margin};
@@ -133,8 +133,16 @@ ImVec2 emptiest_corner(const std::vector<BenchExperiment>& experiments, const Pl
           for (const ReturnError& r : *errors) {
             const ImVec2 at = result.screen_at(r.x_m, r.y_m, view);
             const float near = theme.px(24);
-            if (at.x > low.x - near && at.x < low.x + size.x + near && at.y > low.y - near && at.y < low.y + size.y + near) ++inside;
+            if (at.x > low.x - near && at.x < low.x + size.x + near && at.y > low.y - near && at.y < low.y + size.y + near) inside += 10;
           }
+      for (const BenchExperiment& e : experiments) {
+        if (!e.measure) continue;
+        for (const Cluster* c : {&e.measure->clockwise, &e.measure->counter_clockwise})
+          for (int k = 0; k <= 10; ++k) {  // the lines from the origin to the centres
+            const ImVec2 at = result.screen_at(0.1 * k * c->centre_of_gravity.x_m, 0.1 * k * c->centre_of_gravity.y_m, view);
+            if (at.x > low.x && at.x < low.x + size.x && at.y > low.y && at.y < low.y + size.y) ++inside;
+          }
+      }
       if (inside < fewest) {
         fewest = inside;
         best = low;

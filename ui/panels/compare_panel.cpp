@@ -25,7 +25,7 @@ struct ParameterName {
 };
 
 constexpr ParameterName kNames[] = {
-    {"wheel_radius_left_m", "radius left", "mm", 1e3, 3}, {"wheel_radius_right_m", "radius right", "mm", 1e3, 3},
+    {"wheel_radius_left_m", "radius L", "mm", 1e3, 3}, {"wheel_radius_right_m", "radius R", "mm", 1e3, 3},
     {"wheelbase_m", "wheelbase", "mm", 1e3, 2},           {"truth_mounting.x_m", "mounted x", "mm", 1e3, 1},
     {"truth_mounting.y_m", "mounted y", "mm", 1e3, 1},    {"truth_mounting.heading_rad", "turned", "°", kDegrees.per_si, 2},
     {"truth_mounting.time_offset_s", "truth late", "ms", 1e3, 1},

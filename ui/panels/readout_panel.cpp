@@ -129,7 +129,7 @@ Actions welcome_card(Welcome& welcome, const Theme& theme) {
   }
   static const char* kTries[] = {
       "Drag the yellow cable out of the way, and restart (R).",
-      "Path, on the left: drive clockwise. The gap grows tenfold.",
+      "Path, on the left: drive clockwise. The gap grows many times over.",
       "Calibrate, above: squares both ways tell why.",
   };
   for (int i = 0; i < 3; ++i) {

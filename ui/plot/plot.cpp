@@ -49,6 +49,7 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
         y.take(s.y[i]);
       }
   if (what.equal_scale) {
+    if (x.empty()) x = y = {-0.1, 0.1};
     x.take(0.0);
     y.take(0.0);
   }
@@ -149,7 +150,7 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
   const int most_x = std::max(2, int(frame.width() / theme.px(80))), most_y = std::max(3, int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
   double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
-  if (what.equal_scale) {  // the same marks on both, as close as the numbers along x allow
+  if (what.equal_scale && sx == sy) {  // the same marks on both, as close as the numbers along x allow
     const double near = std::min(step_x, step_y), px_per_unit = frame.width() / ((frame.view.x1 - frame.view.x0) * sx);
     step_x = step_y = near * px_per_unit > theme.px(46) ? near : std::max(step_x, step_y);
   }
@@ -297,7 +298,9 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   if (what.legend) draw_legend(draw, what, frame, outer.y, theme);
   if (!any && !what.empty_text.empty()) {
     const ImVec2 text = ImGui::CalcTextSize(what.empty_text.c_str());
-    draw.AddText({std::round(0.5f * (result.low.x + result.high.x - text.x)), std::round(0.5f * (result.low.y + result.high.y - text.y))}, theme.muted, what.empty_text.c_str());
+    const ImVec2 at{std::round(0.5f * (result.low.x + result.high.x - text.x)), std::round(result.low.y + 0.42f * (result.high.y - result.low.y) - 0.5f * text.y)};
+    draw.AddRectFilled({at.x - theme.px(8), at.y - theme.px(4)}, {at.x + text.x + theme.px(8), at.y + text.y + theme.px(4)}, theme.paper);
+    draw.AddText(at, theme.muted, what.empty_text.c_str());
   }
   if (result.hovered && any && !selecting && !ImGui::IsMouseDown(0)) {
     draw.AddLine({mouse.x, result.low.y}, {mouse.x, result.high.y}, faded(theme.muted, 0.5f), 1.0f);

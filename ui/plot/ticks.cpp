@@ -23,6 +23,7 @@ std::vector<double> round_ticks(double low, double high, int most) {
 std::vector<double> ticks_every(double step, double low, double high) {
   std::vector<double> ticks;
   if (!(high > low) || !std::isfinite(high - low)) return ticks;
+  if ((high - low) / step > 1000.0) return ticks;  // no axis has room for so many
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
   for (double k = first; k <= last; k += 1.0) ticks.push_back(k * step);
   return ticks;
