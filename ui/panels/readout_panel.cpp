@@ -133,9 +133,8 @@ Actions welcome_card(Welcome& welcome, const Theme& theme) {
       "Calibrate, above: squares both ways tell why.",
   };
   for (int i = 0; i < 3; ++i) {
-    const float x = ImGui::GetCursorPosX();
     ImGui::Text("%d", i + 1);
-    ImGui::SameLine(x + theme.px(18));
+    ImGui::SameLine(0, theme.px(10));
     ImGui::TextUnformatted(kTries[i]);
   }
   ImGui::PopTextWrapPos();

@@ -304,6 +304,7 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   }
   if (result.hovered && any && !selecting && !ImGui::IsMouseDown(0)) {
     draw.AddLine({mouse.x, result.low.y}, {mouse.x, result.high.y}, faded(theme.muted, 0.5f), 1.0f);
+    if (what.equal_scale) draw.AddLine({result.low.x, mouse.y}, {result.high.x, mouse.y}, faded(theme.muted, 0.5f), 1.0f);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(read_out(what, frame, mouse).c_str());
     ImGui::EndTooltip();
