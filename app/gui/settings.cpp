@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <locale>
 #include <sstream>
 
@@ -30,7 +29,8 @@ std::string settings_path() {
 
 Settings read_settings(const std::string& path) {
   Settings s;
-  std::ifstream file(path);
+  const Result<std::string> text = read_whole_file(path);
+  std::istringstream file(text ? *text : "");
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
     words.imbue(std::locale::classic());
