@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "app/cli/run/outputs.h"
 #include "app/cli/terminal.h"
 #include "core/io/picture/scatter_picture.h"
@@ -16,9 +18,10 @@ const char* name_of(std::size_t stage) {
 
 void add_calibration(RunOutputs& out, const UmbmarkCalibration& c, const DifferentialDrive& nominal) {
   out.sentences.push_back(text_of(
-      "Type A: %.3f degrees too little in each corner; type B: %.3f degrees on each side. Ed = D_R / D_L = %.5f +- %.5f, "
-      "Eb = %.5f +- %.5f.",
-      degrees(c.exact.alpha_rad), degrees(c.exact.beta_rad), c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, c.wheelbase_ratio,
+      "Type A: it turns %.3f degrees too %s in each corner. Type B: it curves %.3f degrees to the %s on each side. "
+      "Ed = D_R / D_L = %.5f +- %.5f, Eb = b_actual / b_nominal = %.5f +- %.5f.",
+      degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far", degrees(std::abs(c.exact.beta_rad)),
+      c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, c.wheelbase_ratio,
       c.wheelbase_ratio_stderr));
   out.sentences.push_back(text_of("Correct the wheelbase from %.2f to %.2f mm, the left wheel's diameter from %.3f to %.3f mm, the right one's from %.3f to %.3f mm.",
                                   1e3 * nominal.wheelbase_m, 1e3 * c.corrected.wheelbase_m, 2e3 * nominal.wheel_radius_left_m,
