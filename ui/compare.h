@@ -25,7 +25,7 @@ struct ReplayFigures {
 
 struct Compare {
   bool loaded = false;
-  std::vector<std::string> example_files;  // scenarios that replay a real recording
+  std::vector<std::string> example_files;  // scenarios that replay a recording
   std::string name;
   std::string provenance;
   std::string inputs;          // "wheel rotation", "commands"

@@ -256,7 +256,7 @@ ui::Compare compare_of(const Session& session, const ScreenState& state) {
   }
   view.loaded = c.loaded();
   for (const std::string& path : state.example_files)
-    if (path.find("/real") != std::string::npos) view.example_files.push_back(path);
+    if (path.find("/real_") != std::string::npos || path.find("/recorded_") != std::string::npos) view.example_files.push_back(path);
   if (!c.loaded()) return view;
   view.name = c.recording().name;
   view.provenance = c.recording().provenance;

@@ -154,7 +154,7 @@ struct Session::Executor {
       *made = simulation.recording();
       made->name = scenario.name + ", simulated";
     }, [session, scenario, made](bool cancelled) {
-      if (!cancelled) session->compare(made, scenario.vehicle);
+      if (!cancelled) session->compare(made, replay_scenario(scenario.vehicle, *made));
     });
   }
   void operator()(const ui::OpenFile& a) const { s.open(a.path); }
@@ -281,7 +281,7 @@ bool Session::open_scenario(const std::string& path) {
     }
     const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
     load(*scenario, recording, path);
-    compare(recording, scenario->vehicle);
+    compare(recording, *scenario);
     return true;
   }
   load(*scenario, nullptr, path);
@@ -307,7 +307,10 @@ bool Session::open_vehicle(const std::string& path) {
     scenario.actual.wheelbase_m = drawn.wheelbase_m;
   }
   execute(ui::EditScenario{scenario});
-  if (comparison_.loaded() && !jobs_.running()) compare(std::make_shared<const Recording>(comparison_.recording()), *vehicle);
+  if (comparison_.loaded() && !jobs_.running()) {
+    const auto recording = std::make_shared<const Recording>(comparison_.recording());
+    compare(recording, replay_scenario(*vehicle, *recording));
+  }
   return true;
 }
 
@@ -319,15 +322,16 @@ bool Session::open_recording(const std::string& path) {
     return false;
   }
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
-  compare(std::make_shared<const Recording>(std::move(imported->recording)), opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle);
+  const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
+  compare(recording, replay_scenario(opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle, *recording));
   return true;
 }
 
-void Session::compare(std::shared_ptr<const Recording> recording, const Vehicle& vehicle) {
+void Session::compare(std::shared_ptr<const Recording> recording, const Scenario& scenario) {
   mode_ = ui::Mode::compare;
   playing_ = false;
   ++loads_;
-  comparison_.open(std::move(recording), vehicle, jobs_, [this](const std::string& words) { say(words, true); });
+  comparison_.open(std::move(recording), scenario, jobs_, [this](const std::string& words) { say(words, true); });
 }
 
 }  // namespace odolab
