@@ -40,7 +40,9 @@ class Comparison {
   const LeastSquaresCalibration* calibration() const { return calibration_ ? &*calibration_ : nullptr; }
   ui::ReplayVehicle chosen() const { return chosen_; }
   // The chosen replay; null until it is done.
-  const ComparedReplay* shown() const { return chosen_ == ui::ReplayVehicle::calibrated && calibrated_ ? calibrated() : nominal(); }
+  const ComparedReplay* shown() const {
+    return chosen_ == ui::ReplayVehicle::calibrated && calibrated_ ? calibrated() : nominal();
+  }
   bool has_wheels() const;
 
   // Playback, in seconds since the truth's first sample.
