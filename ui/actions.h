@@ -53,8 +53,8 @@ struct StartBenchmark {
   int runs_each_way = 5;
   bool keep_things = false;  // cables and patches stay on the floor; else only its friction, tilt and roughness count
 };
-struct ApplyCalibration {};   // the corrected vehicle is driven through the same benchmark
-struct AdoptCalibration {};   // the corrected vehicle becomes the one that Drive drives
+struct ApplyCalibration {};  // the corrected vehicle is driven through the same benchmark
+struct AdoptCalibration {};  // the corrected vehicle becomes the one that Drive drives
 struct ClearBenchmark {};
 struct CancelJob {};
 
@@ -86,10 +86,11 @@ struct DismissMessage {
 struct SavePicture {};
 struct Quit {};
 
-using Action = std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
-                            DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration, ClearBenchmark,
-                            CancelJob, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile, SaveScenario,
-                            SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+using Action =
+    std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
+                 DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration,
+                 ClearBenchmark, CancelJob, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile,
+                 SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
 
 using Actions = std::vector<Action>;
 

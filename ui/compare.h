@@ -25,10 +25,10 @@ struct ReplayFigures {
 
 struct Compare {
   bool loaded = false;
-  std::vector<std::string> example_files;  // scenarios that replay a real recording
+  std::vector<std::string> example_files;  // scenarios that replay a recording
   std::string name;
   std::string provenance;
-  std::string inputs;          // "wheel rotation", "commands"
+  std::string inputs;  // "wheel rotation", "commands"
   double duration_s = 0.0;
   double travelled_m = 0.0;
   std::size_t truth_samples = 0;
@@ -38,7 +38,7 @@ struct Compare {
   const LeastSquaresCalibration* calibration = nullptr;
   bool can_calibrate = true;
   std::string why_not;
-  std::string job;             // what runs now; empty where nothing does
+  std::string job;  // what runs now; empty where nothing does
   double share_done = 0.0;
 };
 

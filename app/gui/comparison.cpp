@@ -7,7 +7,8 @@ namespace odolab {
 
 namespace {
 
-void errors_along(const Track& estimate, const Track& truth, std::vector<double>& metres, std::vector<double>& radians) {
+void errors_along(const Track& estimate, const Track& truth, std::vector<double>& metres,
+                  std::vector<double>& radians) {
   for (const TimedPose& t : truth) {
     const std::optional<Pose> e = pose_at(estimate, t.time_s);
     metres.push_back(e ? length(e->position() - t.pose.position()) : std::numeric_limits<double>::quiet_NaN());
@@ -15,11 +16,12 @@ void errors_along(const Track& estimate, const Track& truth, std::vector<double>
   }
 }
 
-Result<ComparedReplay> compared(const Vehicle& vehicle, const std::shared_ptr<const Recording>& recording, const Progress& progress) {
-  Result<Replay> result = replay(replay_scenario(vehicle, *recording), recording, progress);
+Result<ComparedReplay> compared(const Scenario& scenario, const std::shared_ptr<const Recording>& recording,
+                                const Progress& progress) {
+  Result<Replay> result = replay(scenario, recording, progress);
   if (!result) return result.error();
   ComparedReplay c;
-  c.vehicle = vehicle;
+  c.vehicle = scenario.vehicle;
   c.replay = std::move(*result);
   const Track& truth = c.replay.truth;
   for (const TimedPose& t : truth) c.time_s.push_back(t.time_s - truth.front().time_s);
@@ -28,59 +30,76 @@ Result<ComparedReplay> compared(const Vehicle& vehicle, const std::shared_ptr<co
   return c;
 }
 
+// The same machine on the same floor, with other lengths, believed and true.
+Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
+  scenario.vehicle = vehicle;
+  const ActualDrive drawn = as_drawn(std::get<DifferentialDrive>(vehicle.kind));
+  scenario.actual.wheel_radius_left_m = drawn.wheel_radius_left_m;
+  scenario.actual.wheel_radius_right_m = drawn.wheel_radius_right_m;
+  scenario.actual.wheelbase_m = drawn.wheelbase_m;
+  return scenario;
+}
+
 }  // namespace
 
-void Comparison::open(std::shared_ptr<const Recording> recording, const Vehicle& vehicle, Jobs& jobs, OnError on_error) {
+void Comparison::open(std::shared_ptr<const Recording> recording, const Scenario& scenario, Jobs& jobs,
+                      OnError on_error) {
   if (jobs.running()) return;
   recording_ = std::move(recording);
-  vehicle_ = vehicle;
+  scenario_ = scenario;
   nominal_.reset();
   calibrated_.reset();
   calibration_.reset();
   chosen_ = ui::ReplayVehicle::nominal;
   time_s = 0.0;
   const std::shared_ptr<const Recording> driven = recording_;
-  jobs.start("driving the recording in the simulation", [this, driven, vehicle, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
-    const auto result = std::make_shared<Result<ComparedReplay>>(compared(vehicle, driven, progress));
-    deliver([this, result, on_error] {
-      if (*result) {
-        nominal_ = std::move(**result);
-        time_s = duration_s();  // the whole of it in sight
-      } else if (on_error) {
-        on_error(result->error().message());
-      }
-    });
-  });
+  jobs.start("driving the recording in the simulation",
+             [this, driven, scenario, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
+               const auto result = std::make_shared<Result<ComparedReplay>>(compared(scenario, driven, progress));
+               deliver([this, result, on_error] {
+                 if (*result) {
+                   nominal_ = std::move(**result);
+                   time_s = duration_s();  // the whole of it in sight
+                 } else if (on_error) {
+                   on_error(result->error().message());
+                 }
+               });
+             });
 }
 
 void Comparison::calibrate(Jobs& jobs, OnError on_error) {
   if (!recording_ || jobs.running()) return;
   const std::shared_ptr<const Recording> recording = recording_;
-  const Vehicle nominal = vehicle_;
-  jobs.start("calibrating from the recording", [this, recording, nominal, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
-    const Progress first = [&](double share) { return goes_on(progress, 0.7 * share); };
-    const Progress second = [&](double share) { return goes_on(progress, 0.7 + 0.3 * share); };
-    const auto found = std::make_shared<Result<LeastSquaresCalibration>>(calibrate_least_squares({*recording}, nominal, {}, first));
-    if (!*found) {
-      deliver([found, on_error] {
-        if (on_error) on_error(found->error().message());
-      });
-      return;
-    }
-    const auto result = std::make_shared<Result<ComparedReplay>>(compared((*found)->vehicle, recording, second));
-    deliver([this, found, result, on_error] {
-      if (!*result) {
-        if (on_error) on_error(result->error().message());
-        return;
-      }
-      calibration_ = std::move(**found);
-      calibrated_ = std::move(**result);
-      chosen_ = ui::ReplayVehicle::calibrated;
-    });
-  });
+  const Scenario scenario = scenario_;
+  jobs.start("calibrating from the recording",
+             [this, recording, scenario, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
+               const Progress first = [&](double share) { return goes_on(progress, 0.7 * share); };
+               const Progress second = [&](double share) { return goes_on(progress, 0.7 + 0.3 * share); };
+               const auto found = std::make_shared<Result<LeastSquaresCalibration>>(
+                   calibrate_least_squares({*recording}, scenario.vehicle, {}, first));
+               if (!*found) {
+                 deliver([found, on_error] {
+                   if (on_error) on_error(found->error().message());
+                 });
+                 return;
+               }
+               const auto result = std::make_shared<Result<ComparedReplay>>(
+                   compared(with_vehicle(scenario, (*found)->vehicle), recording, second));
+               deliver([this, found, result, on_error] {
+                 if (!*result) {
+                   if (on_error) on_error(result->error().message());
+                   return;
+                 }
+                 calibration_ = std::move(**found);
+                 calibrated_ = std::move(**result);
+                 chosen_ = ui::ReplayVehicle::calibrated;
+               });
+             });
 }
 
-bool Comparison::has_wheels() const { return recording_ && !wheel_samples(*recording_, std::get<DifferentialDrive>(vehicle_.kind)).empty(); }
+bool Comparison::has_wheels() const {
+  return recording_ && !wheel_samples(*recording_, std::get<DifferentialDrive>(scenario_.vehicle.kind)).empty();
+}
 
 double Comparison::start_s() const {
   if (const ComparedReplay* c = shown())

@@ -27,19 +27,22 @@ class Comparison {
   using OnError = std::function<void(const std::string&)>;
 
   // Replays in a job; what goes wrong is reported in words.
-  void open(std::shared_ptr<const Recording> recording, const Vehicle& vehicle, Jobs& jobs, OnError on_error);
+  // `scenario` replays it; its vehicle is the nominal one.
+  void open(std::shared_ptr<const Recording> recording, const Scenario& scenario, Jobs& jobs, OnError on_error);
   void calibrate(Jobs& jobs, OnError on_error);
   void choose(ui::ReplayVehicle vehicle) { chosen_ = vehicle; }
 
   bool loaded() const { return recording_ != nullptr; }
   const Recording& recording() const { return *recording_; }
-  const Vehicle& vehicle() const { return vehicle_; }
+  const Vehicle& vehicle() const { return scenario_.vehicle; }
   const ComparedReplay* nominal() const { return nominal_ ? &*nominal_ : nullptr; }
   const ComparedReplay* calibrated() const { return calibrated_ ? &*calibrated_ : nullptr; }
   const LeastSquaresCalibration* calibration() const { return calibration_ ? &*calibration_ : nullptr; }
   ui::ReplayVehicle chosen() const { return chosen_; }
   // The chosen replay; null until it is done.
-  const ComparedReplay* shown() const { return chosen_ == ui::ReplayVehicle::calibrated && calibrated_ ? calibrated() : nominal(); }
+  const ComparedReplay* shown() const {
+    return chosen_ == ui::ReplayVehicle::calibrated && calibrated_ ? calibrated() : nominal();
+  }
   bool has_wheels() const;
 
   // Playback, in seconds since the truth's first sample.
@@ -49,7 +52,7 @@ class Comparison {
 
  private:
   std::shared_ptr<const Recording> recording_;
-  Vehicle vehicle_;
+  Scenario scenario_;
   std::optional<ComparedReplay> nominal_, calibrated_;
   std::optional<LeastSquaresCalibration> calibration_;
   ui::ReplayVehicle chosen_ = ui::ReplayVehicle::nominal;

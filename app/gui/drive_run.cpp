@@ -7,8 +7,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kPicture = 0.020;       // s
-constexpr double kSameEvent = 0.4;       // s: both wheels over one cable are one event
+constexpr double kPicture = 0.020;  // s
+constexpr double kSameEvent = 0.4;  // s: both wheels over one cable are one event
 constexpr std::size_t kMostEvents = 200;
 
 double mixed_value(double a, double b, double u) { return a + u * (b - a); }
@@ -57,8 +57,10 @@ void DriveRun::note_events(const SimulationState& before, const SimulationState&
   };
   if (now.left.on_bump && !before.left.on_bump) note(RunEvent::Kind::bump, "left wheel on a cable");
   if (now.right.on_bump && !before.right.on_bump) note(RunEvent::Kind::bump, "right wheel on a cable");
-  if (now.left.in_slip_zone && !before.left.in_slip_zone) note(RunEvent::Kind::slip_zone, "left wheel on a slippery patch");
-  if (now.right.in_slip_zone && !before.right.in_slip_zone) note(RunEvent::Kind::slip_zone, "right wheel on a slippery patch");
+  if (now.left.in_slip_zone && !before.left.in_slip_zone)
+    note(RunEvent::Kind::slip_zone, "left wheel on a slippery patch");
+  if (now.right.in_slip_zone && !before.right.in_slip_zone)
+    note(RunEvent::Kind::slip_zone, "right wheel on a slippery patch");
 }
 
 void DriveRun::simulate_picture() {
@@ -96,11 +98,14 @@ void DriveRun::set_floor(const Floor& floor) {
   simulation_.set_floor(floor);
   const double now = latest_s();
   if (now <= 0.0) return;
-  if (!events_.empty() && events_.back().kind == RunEvent::Kind::floor_changed && now - events_.back().time_s < 1.0) return;
+  if (!events_.empty() && events_.back().kind == RunEvent::Kind::floor_changed && now - events_.back().time_s < 1.0)
+    return;
   if (events_.size() < kMostEvents) events_.push_back({RunEvent::Kind::floor_changed, now, "floor changed"});
 }
 
-void DriveRun::drive_by_hand(double speed_mps, double yaw_rate_radps) { simulation_.drive_by_hand(speed_mps, yaw_rate_radps); }
+void DriveRun::drive_by_hand(double speed_mps, double yaw_rate_radps) {
+  simulation_.drive_by_hand(speed_mps, yaw_rate_radps);
+}
 
 void DriveRun::push(Vec2 impulse_ns) {
   if (finished()) return;
@@ -118,7 +123,8 @@ double DriveRun::total_s() const {
 }
 
 SimulationState DriveRun::shown() const {
-  const std::size_t after = std::size_t(std::lower_bound(times_.begin(), times_.end(), shown_s_ - 1e-12) - times_.begin());
+  const std::size_t after =
+      std::size_t(std::lower_bound(times_.begin(), times_.end(), shown_s_ - 1e-12) - times_.begin());
   if (after == 0) return history_.front();
   if (after >= history_.size()) return history_.back();
   const SimulationState &a = history_[after - 1], &b = history_[after];

@@ -5,7 +5,9 @@ namespace odolab {
 Scenario first_scenario() {
   Scenario s;
   s.name = "LabMate on its square";
-  s.about = "A cable lies across the way of one wheel; the wheels and the wheelbase are not quite what the odometry believes.";
+  s.about =
+      "A cable lies across the way of one wheel; the wheels and the wheelbase are not quite what the odometry "
+      "believes.";
   s.actual.wheel_radius_left_m = 0.07494;
   s.actual.wheel_radius_right_m = 0.07506;
   s.actual.wheelbase_m = 0.3425;

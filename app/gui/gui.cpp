@@ -17,9 +17,9 @@ namespace odolab {
 
 namespace {
 
-constexpr double kPictureStep = 1.0 / 60.0;      // s for the widgets, where no clock is read
-constexpr double kSimulatedPerPicture = 0.75;    // s simulated for each picture of a screenshot
-constexpr double kTimeForSimulation = 0.012;     // s of a picture's time that the simulation may take
+constexpr double kPictureStep = 1.0 / 60.0;    // s for the widgets, where no clock is read
+constexpr double kSimulatedPerPicture = 0.75;  // s simulated for each picture of a screenshot
+constexpr double kTimeForSimulation = 0.012;   // s of a picture's time that the simulation may take
 
 int fail(const Error& error) {
   std::fprintf(stderr, "odolab: %s\n", error.message().c_str());
@@ -68,7 +68,8 @@ Settings settings_of(const ScreenState& state, const Window& window, double scal
 void remember_files(const Session& session, std::size_t& known, ScreenState& state) {
   for (; known < session.opened_files().size(); ++known) {
     std::error_code ignored;
-    const std::string path = std::filesystem::absolute(session.opened_files()[known], ignored).lexically_normal().string();
+    const std::string path =
+        std::filesystem::absolute(session.opened_files()[known], ignored).lexically_normal().string();
     std::vector<std::string>& recent = state.recent_files;
     recent.erase(std::remove(recent.begin(), recent.end(), path), recent.end());
     recent.insert(recent.begin(), path);
@@ -96,10 +97,12 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   state.example_files = example_files();
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
   if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
-    session.execute(ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
+    session.execute(
+        ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
     session.execute(ui::ApplyCalibration{});
   }
-  if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty()) session.execute(ui::RecordSimulatedRun{});
+  if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
+    session.execute(ui::RecordSimulatedRun{});
   session.advance(0.0, [] { return false; });  // takes in what opening the files has begun
   if (session.comparison().nominal() && session.comparison().has_wheels()) {
     session.execute(ui::CalibrateFromRecording{});
@@ -147,7 +150,8 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     if (session.take_picture_wish()) {
       const std::string path = picture_name();
       const Result<Done> saved = window.save_picture(path);
-      session.say(saved ? "Picture saved as " + std::filesystem::absolute(path).string() : saved.error().message(), !saved.ok());
+      session.say(saved ? "Picture saved as " + std::filesystem::absolute(path).string() : saved.error().message(),
+                  !saved.ok());
     }
     window.show_picture();
     remember_files(session, known_files, state);
@@ -161,7 +165,8 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
 int run_gui(const GuiOptions& options) {
   const bool for_picture = !options.screenshot_path.empty();
   const std::optional<ui::Mode> mode = mode_named(options.mode);
-  if (!options.mode.empty() && !mode) return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate or compare"});
+  if (!options.mode.empty() && !mode)
+    return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate or compare"});
   Session session(!for_picture);
   for (const std::string& file : options.files)
     if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal
@@ -178,7 +183,8 @@ int run_gui(const GuiOptions& options) {
   how.height = for_picture ? options.height : settings.height;
   Result<std::unique_ptr<Window>> window = Window::open(how);
   if (!window) return fail(window.error());
-  return for_picture ? run_for_picture(options, session, **window) : run_for_person(options, session, **window, settings);
+  return for_picture ? run_for_picture(options, session, **window)
+                     : run_for_person(options, session, **window, settings);
 }
 
 }  // namespace odolab

@@ -25,8 +25,10 @@ bool Jobs::start(std::string name, Work work, std::function<void(bool)> finished
       if (finished) finished(cancelled_);
     });
   };
-  if (threaded_) thread_ = std::thread(all);
-  else all();
+  if (threaded_)
+    thread_ = std::thread(all);
+  else
+    all();
   return true;
 }
 

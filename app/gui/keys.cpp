@@ -23,31 +23,58 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
   const bool by_hand = session.mode() == Mode::drive && std::holds_alternative<HandPath>(session.run().scenario().path);
   if (press.ctrl) {
     switch (press.key) {
-      case Key::o: choices.show_open = true; return {};
-      case Key::s: choices.show_save_recording = true; return {};
-      case Key::q: return {Quit{}};
-      case Key::y: return {Redo{}};
-      case Key::z: return press.shift ? Actions{Redo{}} : Actions{Undo{}};
-      default: return {};
+      case Key::o:
+        choices.show_open = true;
+        return {};
+      case Key::s:
+        choices.show_save_recording = true;
+        return {};
+      case Key::q:
+        return {Quit{}};
+      case Key::y:
+        return {Redo{}};
+      case Key::z:
+        return press.shift ? Actions{Redo{}} : Actions{Undo{}};
+      default:
+        return {};
     }
   }
   switch (press.key) {
-    case Key::space: return session.playing() ? Actions{Pause{}} : Actions{Play{}};
-    case Key::right: return by_hand ? Actions{} : Actions{StepForward{}};
-    case Key::left: return by_hand ? Actions{} : Actions{StepBack{}};
-    case Key::home: return {ToStart{}};
-    case Key::end: return {ToEnd{}};
-    case Key::r: return {Restart{}};
-    case Key::plus: return {SetSpeed{next_speed(session.speed(), 1)}};
-    case Key::minus: return {SetSpeed{next_speed(session.speed(), -1)}};
-    case Key::zero: return {SetSpeed{1.0}};
-    case Key::one: return {SetMode{Mode::drive}};
-    case Key::two: return {SetMode{Mode::calibrate}};
-    case Key::three: return {SetMode{Mode::compare}};
-    case Key::f: choices.fit_view = true; return {};
-    case Key::h: choices.hide_interface = !choices.hide_interface; return {};
-    case Key::f1: choices.show_keys = !choices.show_keys; return {};
-    case Key::f12: return {SavePicture{}};
+    case Key::space:
+      return session.playing() ? Actions{Pause{}} : Actions{Play{}};
+    case Key::right:
+      return by_hand ? Actions{} : Actions{StepForward{}};
+    case Key::left:
+      return by_hand ? Actions{} : Actions{StepBack{}};
+    case Key::home:
+      return {ToStart{}};
+    case Key::end:
+      return {ToEnd{}};
+    case Key::r:
+      return {Restart{}};
+    case Key::plus:
+      return {SetSpeed{next_speed(session.speed(), 1)}};
+    case Key::minus:
+      return {SetSpeed{next_speed(session.speed(), -1)}};
+    case Key::zero:
+      return {SetSpeed{1.0}};
+    case Key::one:
+      return {SetMode{Mode::drive}};
+    case Key::two:
+      return {SetMode{Mode::calibrate}};
+    case Key::three:
+      return {SetMode{Mode::compare}};
+    case Key::f:
+      choices.fit_view = true;
+      return {};
+    case Key::h:
+      choices.hide_interface = !choices.hide_interface;
+      return {};
+    case Key::f1:
+      choices.show_keys = !choices.show_keys;
+      return {};
+    case Key::f12:
+      return {SavePicture{}};
     case Key::escape:
       choices.show_keys = choices.show_open = choices.show_save_recording = choices.show_save_scenario = false;
       choices.hide_interface = false;
@@ -56,12 +83,14 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
       return {};
     case Key::erase: {
       const Floor& floor = session.run().scenario().floor;
-      if (session.mode() != Mode::drive || !state.drive_floor.selected || !exists(floor, *state.drive_floor.selected)) return {};
+      if (session.mode() != Mode::drive || !state.drive_floor.selected || !exists(floor, *state.drive_floor.selected))
+        return {};
       Actions actions{SetFloor{removed(floor, *state.drive_floor.selected), true}};
       state.drive_floor.selected.reset();
       return actions;
     }
-    default: return {};
+    default:
+      return {};
   }
 }
 

@@ -36,7 +36,8 @@ struct Line {
 std::vector<Vec2> planned_path(const Scenario& scenario) {
   std::vector<Vec2> line = std::visit(Line{}, scenario.path);
   const bool on_the_floor = std::holds_alternative<WaypointPath>(scenario.path);
-  if (on_the_floor) line.front() = scenario.start.position();
+  if (on_the_floor)
+    line.front() = scenario.start.position();
   else
     for (Vec2& p : line) p = scenario.start * p;
   return line;

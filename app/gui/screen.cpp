@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/gui/planned_path.h"
+#include "app/gui/views.h"
 #include "ui/look/widgets.h"
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/compare_panel.h"
@@ -20,12 +20,14 @@ using ui::Actions;
 using ui::append;
 using ui::Theme;
 
-constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus;
+constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                   ImGuiWindowFlags_NoNavFocus;
 
 // Where the panes are, in pixels.
 struct Layout {
-  ImVec2 top_low, top_size, message_low, message_size, left_low, left_size, centre_low, centre_size, right_low, right_size, bottom_low, bottom_size;
+  ImVec2 top_low, top_size, message_low, message_size, left_low, left_size, centre_low, centre_size, right_low,
+      right_size, bottom_low, bottom_size;
   bool has_bottom = true;
 };
 
@@ -33,9 +35,12 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, float message_height, bo
   Layout l;
   l.has_bottom = has_bottom;
   const float top = state.choices.hide_interface ? 0.0f : theme.px(40);
-  const float bottom = has_bottom && !state.choices.hide_interface ? std::min(theme.px(float(state.bottom_height)), 0.6f * screen.y) : 0.0f;
+  const float bottom = has_bottom && !state.choices.hide_interface
+                           ? std::min(theme.px(float(state.bottom_height)), 0.6f * screen.y)
+                           : 0.0f;
   const float left = state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.left_width)), 0.4f * screen.x);
-  const float right = state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.right_width)), 0.4f * screen.x);
+  const float right =
+      state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.right_width)), 0.4f * screen.x);
   const float begin = top + message_height, height = std::max(40.0f, screen.y - begin - bottom);
   l.top_size = {screen.x, top};
   l.message_low = {0, top};
@@ -66,7 +71,8 @@ void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scr
 }
 
 // An edge between panes that is dragged; `size` is at scale 1 and grows with `grows_with` times the mouse's way.
-void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& value, double grows_with, double least, double most, const Theme& theme) {
+void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& value, double grows_with, double least,
+              double most, const Theme& theme) {
   const float grab = theme.px(6);
   const ImVec2 at = vertical ? ImVec2(low.x - 0.5f * grab, low.y) : ImVec2(low.x, low.y - 0.5f * grab);
   const ImVec2 extent = vertical ? ImVec2(grab, size.y) : ImVec2(size.x, grab);
@@ -74,7 +80,9 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   ImGui::SetNextWindowSize(extent);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGui::Begin(id, nullptr, (kPane & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::Begin(id, nullptr,
+               (kPane & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::PopStyleVar(2);
   ImGui::InvisibleButton("##grip", extent);
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
@@ -85,224 +93,13 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float line = lit ? theme.px(3) : 1.0f;
-  if (vertical) draw.AddRectFilled({std::round(low.x - 0.5f * line), low.y}, {std::round(low.x - 0.5f * line) + line, low.y + size.y}, lit ? theme.muted : theme.line);
-  else draw.AddRectFilled({low.x, std::round(low.y - 0.5f * line)}, {low.x + size.x, std::round(low.y - 0.5f * line) + line}, lit ? theme.muted : theme.line);
+  if (vertical)
+    draw.AddRectFilled({std::round(low.x - 0.5f * line), low.y},
+                       {std::round(low.x - 0.5f * line) + line, low.y + size.y}, lit ? theme.muted : theme.line);
+  else
+    draw.AddRectFilled({low.x, std::round(low.y - 0.5f * line)},
+                       {low.x + size.x, std::round(low.y - 0.5f * line) + line}, lit ? theme.muted : theme.line);
   ImGui::End();
-}
-
-ui::FloorScene drive_scene(const Session& session, const SimulationState& shown, const std::vector<Vec2>& planned, const Theme& theme) {
-  const DriveRun& run = session.run();
-  const Scenario& scenario = run.scenario();
-  ui::FloorScene scene;
-  scene.floor = &scenario.floor;
-  scene.editable = true;
-  scene.planned = planned;
-  const Track &true_track = run.simulation().true_track(), &estimated = run.simulation().estimated_track();
-  ui::TrackLine truth;
-  truth.label = "true";
-  truth.track = &true_track;
-  truth.until_s = shown.time_s;
-  truth.end = shown.true_pose;
-  truth.colour = theme.truth;
-  ui::TrackLine estimate;
-  estimate.label = "estimated";
-  estimate.track = &estimated;
-  estimate.reference = &true_track;
-  estimate.until_s = shown.time_s;
-  estimate.end = shown.estimated_pose;
-  estimate.colour = theme.orange;
-  estimate.dash = ui::Dash::dashes;
-  scene.tracks = {truth, estimate};
-  ui::VehicleGlyph vehicle;
-  vehicle.pose = shown.true_pose;
-  vehicle.wheelbase_m = scenario.actual.wheelbase_m;
-  vehicle.wheel_radius_left_m = scenario.actual.wheel_radius_left_m;
-  vehicle.wheel_radius_right_m = scenario.actual.wheel_radius_right_m;
-  vehicle.left_rotation_rad = shown.left.rotation_rad;
-  vehicle.right_rotation_rad = shown.right.rotation_rad;
-  vehicle.colour = theme.truth;
-  ui::VehicleGlyph believed = vehicle;
-  believed.pose = shown.estimated_pose;
-  believed.outline = true;
-  believed.colour = theme.orange;
-  scene.vehicles = {vehicle, believed};
-  scene.reference = shown.true_pose;
-  scene.deviating = shown.estimated_pose;
-  return scene;
-}
-
-// At a time, or at the end of the track that is nearest to it: encoders and truth do not begin and end together.
-std::optional<Pose> pose_nearest(const Track& track, double time_s) {
-  return track.empty() ? std::nullopt : pose_at(track, std::clamp(time_s, track.front().time_s, track.back().time_s));
-}
-
-ui::FloorScene compare_scene(const Session& session, const Theme& theme) {
-  ui::FloorScene scene;
-  scene.reference_name = "recorded";
-  scene.deviating_name = "simulated";
-  scene.empty_text = session.comparison().loaded() ? "The recording is being driven in the simulation…" : "Open a recording, or drop one here";
-  const ComparedReplay* shown = session.comparison().shown();
-  if (!shown) return scene;
-  const Replay& replay = shown->replay;
-  const double now = session.comparison().start_s() + session.comparison().time_s;
-  ui::TrackLine truth, simulated, reckoned;
-  truth.label = "recorded truth";
-  truth.track = &replay.truth;
-  truth.colour = theme.truth;
-  simulated.label = "simulated";
-  simulated.track = &replay.simulated;
-  simulated.reference = &replay.truth;
-  simulated.colour = theme.orange;
-  simulated.dash = ui::Dash::dashes;
-  reckoned.label = "dead reckoning";
-  reckoned.track = &replay.dead_reckoned;
-  reckoned.reference = &replay.truth;
-  reckoned.colour = theme.blue;
-  reckoned.dash = ui::Dash::dots;
-  truth.until_s = simulated.until_s = reckoned.until_s = now;
-  scene.tracks = {truth, simulated, reckoned};
-  const DifferentialDrive& drive = std::get<DifferentialDrive>(shown->vehicle.kind);
-  const auto glyph = [&](const std::optional<Pose>& pose, bool outline, ImU32 colour) {
-    if (!pose) return;
-    ui::VehicleGlyph v;
-    v.pose = *pose;
-    v.wheelbase_m = drive.wheelbase_m;
-    v.wheel_radius_left_m = drive.wheel_radius_left_m;
-    v.wheel_radius_right_m = drive.wheel_radius_right_m;
-    v.outline = outline;
-    v.colour = colour;
-    scene.vehicles.push_back(v);
-  };
-  scene.reference = pose_nearest(replay.truth, now);
-  scene.deviating = pose_nearest(replay.simulated, now);
-  glyph(scene.reference, false, theme.truth);
-  glyph(scene.deviating, true, theme.orange);
-  return scene;
-}
-
-ui::Transport drive_transport(const Session& session, const Theme& theme) {
-  const DriveRun& run = session.run();
-  ui::Transport t;
-  t.playing = session.playing();
-  t.finished = run.finished();
-  t.time_s = run.shown_s();
-  t.latest_s = run.latest_s();
-  t.total_s = run.total_s();
-  t.can_step_back = run.shown_s() > 0.0;
-  t.speed = session.speed();
-  t.reached_speed = session.reached_speed();
-  t.quantity = "gap";
-  t.position_curves = {{"position gap", &run.time_s(), &run.gap_m(), theme.orange, false}};
-  t.heading_curves = {{"heading gap", &run.time_s(), &run.gap_heading_rad(), theme.orange, false}};
-  for (const RunEvent& e : run.events()) {
-    const ImU32 colour = e.kind == RunEvent::Kind::bump ? theme.bump_edge : e.kind == RunEvent::Kind::slip_zone ? theme.zone : theme.muted;
-    t.events.push_back({e.time_s, e.words, colour});
-  }
-  return t;
-}
-
-ui::Transport compare_transport(const Session& session, const Theme& theme) {
-  const Comparison& c = session.comparison();
-  ui::Transport t;
-  const ComparedReplay* shown = c.shown();
-  t.enabled = shown != nullptr;
-  t.why_disabled = c.loaded() ? "The replay is not done yet." : "Open a recording first.";
-  t.playing = session.playing();
-  t.time_s = c.time_s;
-  t.latest_s = t.total_s = c.duration_s();
-  t.can_step_back = c.time_s > 0.0;
-  t.speed = session.speed();
-  t.reached_speed = session.reached_speed();
-  t.quantity = "error";
-  if (shown) {
-    t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, false}, {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, true}};
-    t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, false}, {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, true}};
-  }
-  return t;
-}
-
-ui::Bench bench_of(const Session& session) {
-  const UmbmarkBench& bench = session.bench();
-  const Scenario& scenario = bench.experiments().empty() ? session.run().scenario() : bench.scenario();
-  ui::Bench b;
-  b.experiments = &bench.experiments();
-  b.running = bench.running();
-  b.share_done = session.jobs().share_done();
-  b.can_run = !session.jobs().running();
-  b.why_not = "Busy " + session.jobs().name() + ".";
-  if (const SquarePath* square = std::get_if<SquarePath>(&scenario.path)) b.side_m = square->side_m;
-  const Floor& floor = session.run().scenario().floor;
-  b.has_things = !floor.bumps.empty() || !floor.slip_zones.empty();
-  b.rough = scenario.floor.roughness.largest_height_m > 0.0;
-  b.vehicle_name = scenario.vehicle.name;
-  b.actual = scenario.actual;
-  return b;
-}
-
-std::optional<ui::ReplayFigures> figures_of(const ComparedReplay* c) {
-  if (!c) return std::nullopt;
-  ui::ReplayFigures f;
-  f.simulated = {&c->replay.simulated, c->replay.simulated_error};
-  f.dead_reckoning = {&c->replay.dead_reckoned, c->replay.dead_reckoned_error};
-  return f;
-}
-
-ui::Compare compare_of(const Session& session, const ScreenState& state) {
-  const Comparison& c = session.comparison();
-  ui::Compare view;
-  if (session.jobs().running()) {
-    view.job = session.jobs().name();
-    view.share_done = session.jobs().share_done();
-  }
-  view.loaded = c.loaded();
-  for (const std::string& path : state.example_files)
-    if (path.find("/real") != std::string::npos) view.example_files.push_back(path);
-  if (!c.loaded()) return view;
-  view.name = c.recording().name;
-  view.provenance = c.recording().provenance;
-  view.inputs = c.has_wheels() ? "wheel rotation" : "commands";
-  view.duration_s = c.recording().duration_s();
-  view.vehicle_name = c.vehicle().name;
-  view.vehicle = c.chosen();
-  view.nominal = figures_of(c.nominal());
-  view.calibrated = figures_of(c.calibrated());
-  view.calibration = c.calibration();
-  if (c.nominal()) {
-    view.travelled_m = travelled_m(c.nominal()->replay.truth);
-    view.truth_samples = c.nominal()->replay.truth.size();
-  }
-  view.can_calibrate = c.has_wheels() && view.truth_samples > 1;
-  view.why_not = c.has_wheels() ? "Calibration needs an outside truth with headings." : "Calibration needs wheel rotation; this recording holds commands alone.";
-  return view;
-}
-
-ui::Readout readout_of(const Session& session, const SimulationState& shown) {
-  ui::Readout r;
-  r.state = shown;
-  const Pose gap = between(shown.true_pose, shown.estimated_pose);
-  r.gap_m = length(gap.position());
-  r.gap_heading_rad = wrapped(gap.heading_rad);
-  r.gap_along_m = gap.x_m;
-  r.gap_across_m = gap.y_m;
-  r.by_hand = std::holds_alternative<HandPath>(session.run().scenario().path);
-  r.wheel_radius_left_m = session.run().scenario().actual.wheel_radius_left_m;
-  r.wheel_radius_right_m = session.run().scenario().actual.wheel_radius_right_m;
-  return r;
-}
-
-ui::ErrorNow error_now(const Session& session) {
-  ui::ErrorNow now;
-  const ComparedReplay* shown = session.comparison().shown();
-  if (!shown) return now;
-  const double t = session.comparison().start_s() + session.comparison().time_s;
-  now.truth = pose_nearest(shown->replay.truth, t);
-  now.simulated = pose_nearest(shown->replay.simulated, t);
-  now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, t);
-  if (now.truth && now.simulated) {
-    now.simulated_gap_m = length(now.simulated->position() - now.truth->position());
-    now.simulated_gap_heading_rad = wrapped(now.simulated->heading_rad - now.truth->heading_rad);
-  }
-  return now;
 }
 
 Actions left_pane(const Session& session, ScreenState& state, const Theme& theme) {
@@ -311,12 +108,17 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
     case ui::Mode::drive: {
       append(actions, ui::vehicle_panel(state.draft, state.editing, theme));
       const Vec2 place = state.drive_floor.camera.centre;
-      append(actions, ui::floor_panel(session.run().scenario().floor, state.drive_floor.selected, state.floor_panel, place, theme));
+      append(actions, ui::floor_panel(session.run().scenario().floor, state.drive_floor.selected, state.floor_panel,
+                                      place, theme));
       append(actions, ui::path_panel(state.draft, state.editing, theme));
       break;
     }
-    case ui::Mode::calibrate: append(actions, ui::calibrate_panel(bench_of(session), state.calibrate, theme)); break;
-    case ui::Mode::compare: append(actions, ui::compare_panel(compare_of(session, state), state.choices.show_open, theme)); break;
+    case ui::Mode::calibrate:
+      append(actions, ui::calibrate_panel(bench_of(session), state.calibrate, theme));
+      break;
+    case ui::Mode::compare:
+      append(actions, ui::compare_panel(compare_of(session, state.example_files), state.choices.show_open, theme));
+      break;
   }
   return actions;
 }
@@ -328,17 +130,25 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
       append(actions, ui::welcome_card(state.welcome, theme));
       append(actions, ui::readout_panel(readout_of(session, shown), theme));
       break;
-    case ui::Mode::calibrate: ui::calibration_result_panel(bench_of(session), theme); break;
-    case ui::Mode::compare: ui::error_panel(compare_of(session, state), error_now(session), theme); break;
+    case ui::Mode::calibrate:
+      ui::calibration_result_panel(bench_of(session), theme);
+      break;
+    case ui::Mode::compare:
+      ui::error_panel(compare_of(session, state.example_files), error_now(session), theme);
+      break;
   }
   return actions;
 }
 
 Actions centre_pane(const Session& session, ScreenState& state, const SimulationState& shown, const Theme& theme) {
   switch (session.mode()) {
-    case ui::Mode::drive: return ui::floor_view(drive_scene(session, shown, planned_path(session.run().scenario()), theme), state.drive_floor, theme);
-    case ui::Mode::calibrate: ui::cluster_panel(bench_of(session), state.clusters, theme); return {};
-    case ui::Mode::compare: return ui::floor_view(compare_scene(session, theme), state.compare_floor, theme);
+    case ui::Mode::drive:
+      return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
+    case ui::Mode::calibrate:
+      ui::cluster_panel(bench_of(session), state.clusters, theme);
+      return {};
+    case ui::Mode::compare:
+      return ui::floor_view(compare_scene(session, theme), state.compare_floor, theme);
   }
   return {};
 }
@@ -347,13 +157,16 @@ Actions dialogs(const Session& session, ScreenState& state, const Theme& theme) 
   Actions actions;
   ui::WindowChoices& choices = state.choices;
   ui::keys_panel(choices.show_keys, theme);
-  const std::string opened = ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open, state.open_dialog, state.recent_files, theme);
+  const std::string opened = ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open,
+                                             state.open_dialog, state.recent_files, theme);
   if (!opened.empty()) actions.push_back(ui::OpenFile{opened});
-  const std::string scenario = ui::path_dialog("Save the scenario", "Save", choices.show_save_scenario, state.save_scenario_dialog, {"scenario.toml"}, theme);
+  const std::string scenario = ui::path_dialog("Save the scenario", "Save", choices.show_save_scenario,
+                                               state.save_scenario_dialog, {"scenario.toml"}, theme);
   if (!scenario.empty()) actions.push_back(ui::SaveScenario{scenario});
   const bool compare = session.mode() == ui::Mode::compare;
-  const std::string recording = ui::path_dialog(compare ? "Save the recording as CSV" : "Save what the run has recorded so far as CSV", "Save", choices.show_save_recording,
-                                                state.save_recording_dialog, {"recording.csv"}, theme);
+  const std::string recording =
+      ui::path_dialog(compare ? "Save the recording as CSV" : "Save what the run has recorded so far as CSV", "Save",
+                      choices.show_save_recording, state.save_recording_dialog, {"recording.csv"}, theme);
   if (!recording.empty()) actions.push_back(ui::SaveRecording{recording});
   return actions;
 }
@@ -384,7 +197,8 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   const float message_height = ui::message_bar_height(session.messages(), screen.x, theme);
   const Layout l = lay_out(state, screen, message_height, has_bottom, theme);
 
-  begin_pane("centre", l.centre_low, l.centre_size, false, false, session.mode() == ui::Mode::calibrate ? theme.panel : theme.panel);
+  begin_pane("centre", l.centre_low, l.centre_size, false, false,
+             session.mode() == ui::Mode::calibrate ? theme.panel : theme.panel);
   append(actions, centre_pane(session, state, shown, theme));
   ImGui::End();
 
@@ -397,7 +211,9 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     begin_pane("top", {0, 0}, l.top_size, false, false, theme.panel);
     ui::TopBar bar;
     bar.mode = session.mode();
-    bar.title = session.mode() == ui::Mode::compare ? (session.comparison().loaded() ? session.comparison().recording().name : "no recording yet") : session.title();
+    bar.title = session.mode() == ui::Mode::compare
+                    ? (session.comparison().loaded() ? session.comparison().recording().name : "no recording yet")
+                    : session.title();
     bar.playing = session.playing();
     bar.can_undo = session.can_undo();
     bar.can_redo = session.can_redo();
@@ -419,12 +235,15 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
 
     if (has_bottom) {
       begin_pane("bottom", l.bottom_low, l.bottom_size, true, false, theme.panel);
-      if (session.mode() == ui::Mode::drive) append(actions, ui::transport_bar(drive_transport(session, theme), state.drive_transport, theme));
-      else append(actions, ui::transport_bar(compare_transport(session, theme), state.compare_transport, theme));
+      if (session.mode() == ui::Mode::drive)
+        append(actions, ui::transport_bar(drive_transport(session, theme), state.drive_transport, theme));
+      else
+        append(actions, ui::transport_bar(compare_transport(session, theme), state.compare_transport, theme));
       ImGui::End();
       splitter("split bottom", l.bottom_low, l.bottom_size, false, state.bottom_height, -1.0, 110.0, 600.0, theme);
     }
-    splitter("split left", {l.left_size.x, l.left_low.y}, l.left_size, true, state.left_width, 1.0, 200.0, 600.0, theme);
+    splitter("split left", {l.left_size.x, l.left_low.y}, l.left_size, true, state.left_width, 1.0, 200.0, 600.0,
+             theme);
     splitter("split right", l.right_low, l.right_size, true, state.right_width, -1.0, 200.0, 600.0, theme);
   }
   append(actions, dialogs(session, state, theme));

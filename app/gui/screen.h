@@ -26,7 +26,7 @@ struct ScreenState {
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;
   ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
-  Scenario draft;          // of the parameters that a person is editing
+  Scenario draft;  // of the parameters that a person is editing
   bool editing = false;
   int loads_seen = 0;
   std::vector<std::string> recent_files, example_files;

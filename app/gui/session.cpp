@@ -37,32 +37,44 @@ struct Session::Executor {
   void operator()(const ui::Pause&) const { s.playing_ = false; }
   void operator()(const ui::StepForward&) const {
     s.playing_ = false;
-    if (comparing()) s.comparison_.time_s = std::min(s.comparison_.duration_s(), s.comparison_.time_s + 0.02);
-    else s.run_->step_forward();
+    if (comparing())
+      s.comparison_.time_s = std::min(s.comparison_.duration_s(), s.comparison_.time_s + 0.02);
+    else
+      s.run_->step_forward();
   }
   void operator()(const ui::StepBack&) const {
     s.playing_ = false;
-    if (comparing()) s.comparison_.time_s = std::max(0.0, s.comparison_.time_s - 0.02);
-    else s.run_->step_back();
+    if (comparing())
+      s.comparison_.time_s = std::max(0.0, s.comparison_.time_s - 0.02);
+    else
+      s.run_->step_back();
   }
   void operator()(const ui::ToStart&) const {
-    if (comparing()) s.comparison_.time_s = 0.0;
-    else s.run_->show(0.0);
+    if (comparing())
+      s.comparison_.time_s = 0.0;
+    else
+      s.run_->show(0.0);
   }
   void operator()(const ui::ToEnd&) const {
-    if (comparing()) s.comparison_.time_s = s.comparison_.duration_s();
-    else s.run_->show(s.run_->latest_s());
+    if (comparing())
+      s.comparison_.time_s = s.comparison_.duration_s();
+    else
+      s.run_->show(s.run_->latest_s());
   }
   void operator()(const ui::Restart&) const {
-    if (comparing()) s.comparison_.time_s = 0.0;
-    else s.run_->restart();
+    if (comparing())
+      s.comparison_.time_s = 0.0;
+    else
+      s.run_->restart();
     s.playing_ = !comparing() || s.comparison_.shown() != nullptr;
   }
   void operator()(const ui::SetSpeed& a) const { s.speed_ = a.factor; }
   void operator()(const ui::ScrubTo& a) const {
     s.playing_ = false;
-    if (comparing()) s.comparison_.time_s = std::clamp(a.time_s, 0.0, s.comparison_.duration_s());
-    else s.run_->show(a.time_s);
+    if (comparing())
+      s.comparison_.time_s = std::clamp(a.time_s, 0.0, s.comparison_.duration_s());
+    else
+      s.run_->show(a.time_s);
   }
   void operator()(const ui::EditScenario& a) const {
     const std::vector<std::string> problems = problems_in(a.scenario);
@@ -111,8 +123,10 @@ struct Session::Executor {
     const Step step = from.back();
     from.pop_back();
     to.push_back({s.run_->scenario(), step.floor_only});
-    if (step.floor_only) s.run_->set_floor(step.scenario.floor);
-    else s.change(step.scenario);
+    if (step.floor_only)
+      s.run_->set_floor(step.scenario.floor);
+    else
+      s.change(step.scenario);
   }
   void operator()(const ui::StartBenchmark& a) const {
     if (!s.refuse_while_busy("UMBmark")) s.bench_.start(s.run_->scenario(), a.runs_each_way, a.keep_things, s.jobs_);
@@ -136,7 +150,9 @@ struct Session::Executor {
   void operator()(const ui::CancelJob&) const { s.jobs_.cancel(); }
   void operator()(const ui::ReplayWith& a) const { s.comparison_.choose(a.vehicle); }
   void operator()(const ui::CalibrateFromRecording&) const {
-    if (!s.refuse_while_busy("the calibration")) s.comparison_.calibrate(s.jobs_, [this_session = &s](const std::string& words) { this_session->say(words, true); });
+    if (!s.refuse_while_busy("the calibration"))
+      s.comparison_.calibrate(s.jobs_,
+                              [this_session = &s](const std::string& words) { this_session->say(words, true); });
   }
   void operator()(const ui::RecordSimulatedRun&) const {
     if (s.refuse_while_busy("a simulated run")) return;
@@ -144,32 +160,40 @@ struct Session::Executor {
     const std::shared_ptr<const Recording> replayed = s.replayed_;
     Session* session = &s;
     const auto made = std::make_shared<Recording>();
-    s.jobs_.start("driving the scenario to its end", [scenario, replayed, made](const Progress& progress, const Jobs::Deliver&) {
-      Simulation simulation(scenario, scenario.seed, replayed);
-      const double expected_s = std::max(1.0, simulation.expected_duration_s());
-      for (long k = 0; !simulation.state().finished; ++k) {
-        simulation.step();
-        if (k % 1000 == 0 && !goes_on(progress, simulation.state().time_s / expected_s)) return;
-      }
-      *made = simulation.recording();
-      made->name = scenario.name + ", simulated";
-    }, [session, scenario, made](bool cancelled) {
-      if (!cancelled) session->compare(made, scenario.vehicle);
-    });
+    s.jobs_.start(
+        "driving the scenario to its end",
+        [scenario, replayed, made](const Progress& progress, const Jobs::Deliver&) {
+          Simulation simulation(scenario, scenario.seed, replayed);
+          const double expected_s = std::max(1.0, simulation.expected_duration_s());
+          for (long k = 0; !simulation.state().finished; ++k) {
+            simulation.step();
+            if (k % 1000 == 0 && !goes_on(progress, simulation.state().time_s / expected_s)) return;
+          }
+          *made = simulation.recording();
+          made->name = scenario.name + ", simulated";
+        },
+        [session, scenario, made](bool cancelled) {
+          if (!cancelled) session->compare(made, replay_scenario(scenario.vehicle, *made));
+        });
   }
   void operator()(const ui::OpenFile& a) const { s.open(a.path); }
   void operator()(const ui::SaveScenario& a) const {
     Scenario scenario = s.run_->scenario();
     scenario.vehicle_file.clear();
     const Result<Done> done = write_scenario(a.path, scenario);
-    if (done) s.say("Scenario saved as " + a.path, false);
-    else s.say(done.error().message(), true);
+    if (done)
+      s.say("Scenario saved as " + a.path, false);
+    else
+      s.say(done.error().message(), true);
   }
   void operator()(const ui::SaveRecording& a) const {
     const bool recorded = comparing() && s.comparison_.loaded();
-    const Result<Done> done = write_recording_csv(a.path, recorded ? s.comparison_.recording() : s.run_->simulation().recording());
-    if (done) s.say("Recording saved as " + a.path, false);
-    else s.say(done.error().message(), true);
+    const Result<Done> done =
+        write_recording_csv(a.path, recorded ? s.comparison_.recording() : s.run_->simulation().recording());
+    if (done)
+      s.say("Recording saved as " + a.path, false);
+    else
+      s.say(done.error().message(), true);
   }
   void operator()(const ui::LoadFirstScenario&) const {
     s.load(first_scenario(), nullptr, "");
@@ -256,9 +280,14 @@ void Session::change(const Scenario& scenario) {
 bool Session::open(const std::string& path) {
   bool opened = false;
   switch (file_kind(path)) {
-    case FileKind::scenario: opened = open_scenario(path); break;
-    case FileKind::vehicle: opened = open_vehicle(path); break;
-    default: opened = open_recording(path);  // says itself what it is missing in a file of no known kind
+    case FileKind::scenario:
+      opened = open_scenario(path);
+      break;
+    case FileKind::vehicle:
+      opened = open_vehicle(path);
+      break;
+    default:
+      opened = open_recording(path);  // says itself what it is missing in a file of no known kind
   }
   if (opened) {
     opened_files_.erase(std::remove(opened_files_.begin(), opened_files_.end(), path), opened_files_.end());
@@ -281,7 +310,7 @@ bool Session::open_scenario(const std::string& path) {
     }
     const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
     load(*scenario, recording, path);
-    compare(recording, scenario->vehicle);
+    compare(recording, *scenario);
     return true;
   }
   load(*scenario, nullptr, path);
@@ -307,7 +336,10 @@ bool Session::open_vehicle(const std::string& path) {
     scenario.actual.wheelbase_m = drawn.wheelbase_m;
   }
   execute(ui::EditScenario{scenario});
-  if (comparison_.loaded() && !jobs_.running()) compare(std::make_shared<const Recording>(comparison_.recording()), *vehicle);
+  if (comparison_.loaded() && !jobs_.running()) {
+    const auto recording = std::make_shared<const Recording>(comparison_.recording());
+    compare(recording, replay_scenario(*vehicle, *recording));
+  }
   return true;
 }
 
@@ -319,15 +351,16 @@ bool Session::open_recording(const std::string& path) {
     return false;
   }
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
-  compare(std::make_shared<const Recording>(std::move(imported->recording)), opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle);
+  const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
+  compare(recording, replay_scenario(opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle, *recording));
   return true;
 }
 
-void Session::compare(std::shared_ptr<const Recording> recording, const Vehicle& vehicle) {
+void Session::compare(std::shared_ptr<const Recording> recording, const Scenario& scenario) {
   mode_ = ui::Mode::compare;
   playing_ = false;
   ++loads_;
-  comparison_.open(std::move(recording), vehicle, jobs_, [this](const std::string& words) { say(words, true); });
+  comparison_.open(std::move(recording), scenario, jobs_, [this](const std::string& words) { say(words, true); });
 }
 
 }  // namespace odolab

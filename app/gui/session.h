@@ -62,7 +62,7 @@ class Session {
   bool open_scenario(const std::string& path);
   bool open_vehicle(const std::string& path);
   bool open_recording(const std::string& path);
-  void compare(std::shared_ptr<const Recording> recording, const Vehicle& vehicle);
+  void compare(std::shared_ptr<const Recording> recording, const Scenario& scenario);
   bool refuse_while_busy(const std::string& what);
 
   ui::Mode mode_ = ui::Mode::drive;

@@ -8,7 +8,7 @@ namespace odolab {
 
 struct Settings {
   bool dark = false;
-  double scale = 0.0;          // 0: as the monitor says
+  double scale = 0.0;  // 0: as the monitor says
   int width = 1280, height = 720;
   double left_width = 316.0, right_width = 292.0, bottom_height = 186.0;  // panes, at scale 1
   bool welcome_seen = false;

@@ -21,10 +21,13 @@ void UmbmarkBench::start(const Scenario& scenario, int runs_each_way, bool keep_
 void UmbmarkBench::apply(Jobs& jobs) {
   if (experiments_.empty() || !experiments_.back().calibration || jobs.running()) return;
   const DifferentialDrive corrected = experiments_.back().calibration->corrected;
-  drive(experiments_.size() == 1 ? "after calibration" : "after calibration " + std::to_string(experiments_.size()), corrected, jobs);
+  drive(experiments_.size() == 1 ? "after calibration" : "after calibration " + std::to_string(experiments_.size()),
+        corrected, jobs);
 }
 
-const DifferentialDrive* UmbmarkBench::kept_vehicle() const { return experiments_.empty() ? nullptr : &experiments_.back().vehicle; }
+const DifferentialDrive* UmbmarkBench::kept_vehicle() const {
+  return experiments_.empty() ? nullptr : &experiments_.back().vehicle;
+}
 
 void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehicle, Jobs& jobs) {
   ui::BenchExperiment experiment;
@@ -38,13 +41,16 @@ void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehic
   const std::uint64_t seed = scenario_.seed + experiments_.size() - 1;  // every experiment on floors of its own
 
   const auto work = [this, scenario, seed](const Progress& progress, const Jobs::Deliver& deliver) {
-    run_umbmark(scenario, seed, [this, &deliver](const BenchmarkRun& run) {
-      deliver([this, run] {
-        ui::BenchExperiment& e = experiments_.back();
-        (run.clockwise ? e.runs.clockwise : e.runs.counter_clockwise).push_back(run.error);
-        e.measure = measure_umbmark(e.runs);
-      });
-    }, progress);
+    run_umbmark(
+        scenario, seed,
+        [this, &deliver](const BenchmarkRun& run) {
+          deliver([this, run] {
+            ui::BenchExperiment& e = experiments_.back();
+            (run.clockwise ? e.runs.clockwise : e.runs.counter_clockwise).push_back(run.error);
+            e.measure = measure_umbmark(e.runs);
+          });
+        },
+        progress);
   };
   const auto finished = [this](bool cancelled) {
     running_ = false;

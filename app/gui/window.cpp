@@ -31,13 +31,37 @@ struct NamedKey {
   Key key;
 };
 
-constexpr NamedKey kKeys[] = {
-    {GLFW_KEY_SPACE, Key::space}, {GLFW_KEY_LEFT, Key::left}, {GLFW_KEY_RIGHT, Key::right}, {GLFW_KEY_UP, Key::up}, {GLFW_KEY_DOWN, Key::down},
-    {GLFW_KEY_HOME, Key::home}, {GLFW_KEY_END, Key::end}, {GLFW_KEY_EQUAL, Key::plus}, {GLFW_KEY_KP_ADD, Key::plus}, {GLFW_KEY_MINUS, Key::minus},
-    {GLFW_KEY_KP_SUBTRACT, Key::minus}, {GLFW_KEY_0, Key::zero}, {GLFW_KEY_1, Key::one}, {GLFW_KEY_2, Key::two}, {GLFW_KEY_3, Key::three},
-    {GLFW_KEY_DELETE, Key::erase}, {GLFW_KEY_BACKSPACE, Key::erase}, {GLFW_KEY_F1, Key::f1}, {GLFW_KEY_F12, Key::f12}, {GLFW_KEY_ESCAPE, Key::escape},
-    {GLFW_KEY_A, Key::a}, {GLFW_KEY_D, Key::d}, {GLFW_KEY_F, Key::f}, {GLFW_KEY_H, Key::h}, {GLFW_KEY_O, Key::o}, {GLFW_KEY_Q, Key::q},
-    {GLFW_KEY_R, Key::r}, {GLFW_KEY_S, Key::s}, {GLFW_KEY_W, Key::w}, {GLFW_KEY_Y, Key::y}, {GLFW_KEY_Z, Key::z}};
+constexpr NamedKey kKeys[] = {{GLFW_KEY_SPACE, Key::space},
+                              {GLFW_KEY_LEFT, Key::left},
+                              {GLFW_KEY_RIGHT, Key::right},
+                              {GLFW_KEY_UP, Key::up},
+                              {GLFW_KEY_DOWN, Key::down},
+                              {GLFW_KEY_HOME, Key::home},
+                              {GLFW_KEY_END, Key::end},
+                              {GLFW_KEY_EQUAL, Key::plus},
+                              {GLFW_KEY_KP_ADD, Key::plus},
+                              {GLFW_KEY_MINUS, Key::minus},
+                              {GLFW_KEY_KP_SUBTRACT, Key::minus},
+                              {GLFW_KEY_0, Key::zero},
+                              {GLFW_KEY_1, Key::one},
+                              {GLFW_KEY_2, Key::two},
+                              {GLFW_KEY_3, Key::three},
+                              {GLFW_KEY_DELETE, Key::erase},
+                              {GLFW_KEY_BACKSPACE, Key::erase},
+                              {GLFW_KEY_F1, Key::f1},
+                              {GLFW_KEY_F12, Key::f12},
+                              {GLFW_KEY_ESCAPE, Key::escape},
+                              {GLFW_KEY_A, Key::a},
+                              {GLFW_KEY_D, Key::d},
+                              {GLFW_KEY_F, Key::f},
+                              {GLFW_KEY_H, Key::h},
+                              {GLFW_KEY_O, Key::o},
+                              {GLFW_KEY_Q, Key::q},
+                              {GLFW_KEY_R, Key::r},
+                              {GLFW_KEY_S, Key::s},
+                              {GLFW_KEY_W, Key::w},
+                              {GLFW_KEY_Y, Key::y},
+                              {GLFW_KEY_Z, Key::z}};
 
 // Letters go by what is written on the keyboard, wherever it stands.
 Key named(int glfw_key, int scancode) {
@@ -54,7 +78,8 @@ Key named(int glfw_key, int scancode) {
 }
 
 std::string font_file(const char* name) {
-  static const char* kFolders[] = {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu/", "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/"};
+  static const char* kFolders[] = {"/usr/share/fonts/truetype/dejavu/", "/usr/share/fonts/dejavu/",
+                                   "/usr/share/fonts/dejavu-sans-fonts/", "/usr/share/fonts/TTF/"};
   for (const char* folder : kFolders) {
     const std::string path = std::string(folder) + name;
     if (std::FILE* file = std::fopen(path.c_str(), "rb")) {
@@ -67,7 +92,8 @@ std::string font_file(const char* name) {
 
 ImFont* add_font(const std::string& path, float pixels) {
   // Latin, Greek, punctuation, sub- and superscripts, arrows, mathematics, shapes.
-  static const ImWchar kRanges[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2010, 0x2044, 0x2070, 0x209C, 0x2190, 0x21FF, 0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
+  static const ImWchar kRanges[] = {0x20,   0xFF,   0x370,  0x3FF,  0x2010, 0x2044, 0x2070, 0x209C,
+                                    0x2190, 0x21FF, 0x2200, 0x22FF, 0x25A0, 0x25FF, 0};
   if (path.empty()) return nullptr;
   return ImGui::GetIO().Fonts->AddFontFromFileTTF(path.c_str(), std::round(pixels), nullptr, kRanges);
 }
@@ -211,8 +237,10 @@ Result<Done> Window::save_picture(const std::string& path) {
   glReadPixels(0, 0, w, h, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
   std::vector<unsigned char> upright(pixels.size());
   const std::size_t row = std::size_t(w) * 3;
-  for (int y = 0; y < h; ++y) std::copy_n(pixels.begin() + long(row * std::size_t(h - 1 - y)), row, upright.begin() + long(row * std::size_t(y)));
-  if (!stbi_write_png(path.c_str(), w, h, 3, upright.data(), w * 3)) return Error{path, "a place that cannot be written to", "a file that can be written"};
+  for (int y = 0; y < h; ++y)
+    std::copy_n(pixels.begin() + long(row * std::size_t(h - 1 - y)), row, upright.begin() + long(row * std::size_t(y)));
+  if (!stbi_write_png(path.c_str(), w, h, 3, upright.data(), w * 3))
+    return Error{path, "a place that cannot be written to", "a file that can be written"};
   return Done{};
 }
 

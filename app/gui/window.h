@@ -11,8 +11,35 @@
 namespace odolab {
 
 enum class Key {
-  space, left, right, up, down, home, end, plus, minus, zero, one, two, three, erase, f1, f12, escape,
-  a, d, f, h, o, q, r, s, w, y, z, other,
+  space,
+  left,
+  right,
+  up,
+  down,
+  home,
+  end,
+  plus,
+  minus,
+  zero,
+  one,
+  two,
+  three,
+  erase,
+  f1,
+  f12,
+  escape,
+  a,
+  d,
+  f,
+  h,
+  o,
+  q,
+  r,
+  s,
+  w,
+  y,
+  z,
+  other,
 };
 
 struct KeyPress {
@@ -53,7 +80,7 @@ class Window {
   bool is_down(Key key) const;
   double seconds() const;  // of a steady clock
   int width() const;
-  int height() const;      // at scale 1 and in the window system's units
+  int height() const;  // at scale 1 and in the window system's units
 
  private:
   struct Parts;

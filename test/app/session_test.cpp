@@ -192,7 +192,8 @@ TEST(Session, UmbmarkInTheWindowFindsTheErrorsAndDrivesAtLeastTenTimesBetterAfte
   const ui::BenchExperiment& after = session.bench().experiments().back();
   ASSERT_TRUE(after.measure.has_value());
   // The bar of the report's own results; the rest is the rough floor's chance.
-  EXPECT_LT(after.measure->largest_systematic_error_m, 0.1 * session.bench().experiments().front().measure->largest_systematic_error_m);
+  EXPECT_LT(after.measure->largest_systematic_error_m,
+            0.1 * session.bench().experiments().front().measure->largest_systematic_error_m);
   session.execute(ui::AdoptCalibration{});
   EXPECT_EQ(session.mode(), ui::Mode::drive);
   EXPECT_NE(std::get<DifferentialDrive>(session.run().scenario().vehicle.kind).wheelbase_m, 0.340);

@@ -28,10 +28,13 @@ TEST(Jobs, DeliverOnlyWhenPolledAndOneRunsAtATime) {
   std::atomic<bool> go{false};
   int delivered = 0;
   bool finished = false;
-  ASSERT_TRUE(jobs.start("waiting", [&](const Progress& progress, const Jobs::Deliver& deliver) {
-    deliver([&] { ++delivered; });
-    while (!go && progress(0.5)) std::this_thread::yield();
-  }, [&](bool cancelled) { finished = !cancelled; }));
+  ASSERT_TRUE(jobs.start(
+      "waiting",
+      [&](const Progress& progress, const Jobs::Deliver& deliver) {
+        deliver([&] { ++delivered; });
+        while (!go && progress(0.5)) std::this_thread::yield();
+      },
+      [&](bool cancelled) { finished = !cancelled; }));
   EXPECT_FALSE(jobs.start("another", [](const Progress&, const Jobs::Deliver&) {}));
   EXPECT_TRUE(jobs.running());
   go = true;
@@ -43,9 +46,12 @@ TEST(Jobs, DeliverOnlyWhenPolledAndOneRunsAtATime) {
 TEST(Jobs, StopWhereTheyAreCancelled) {
   Jobs jobs(true);
   bool was_cancelled = false;
-  jobs.start("endless", [](const Progress& progress, const Jobs::Deliver&) {
-    while (progress(0.1)) std::this_thread::yield();
-  }, [&](bool cancelled) { was_cancelled = cancelled; });
+  jobs.start(
+      "endless",
+      [](const Progress& progress, const Jobs::Deliver&) {
+        while (progress(0.1)) std::this_thread::yield();
+      },
+      [&](bool cancelled) { was_cancelled = cancelled; });
   jobs.cancel();
   while (jobs.running()) jobs.poll();
   EXPECT_TRUE(was_cancelled);
@@ -108,8 +114,10 @@ TEST(Gui, TwoPicturesOfTheSameRunAreTheSameToTheByte) {
     ASSERT_EQ(run_gui(options), 0);
     const std::string picture = content_of(options.screenshot_path);
     EXPECT_GT(picture.size(), 20000u);  // an empty window compresses to a few thousand bytes
-    if (first.empty()) first = picture;
-    else EXPECT_TRUE(picture == first);
+    if (first.empty())
+      first = picture;
+    else
+      EXPECT_TRUE(picture == first);
   }
   std::filesystem::remove(temporary("odolab_window_test.png"));
 }

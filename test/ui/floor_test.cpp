@@ -126,8 +126,8 @@ TEST_F(FloorViewTest, DraggingACableMovesItByTheMousesWay) {
   const double pixel_m = 1.0 / state.camera.px_per_m;
   EXPECT_NEAR(floor.bumps[0].centre.x_m, 2.5, pixel_m);
   EXPECT_NEAR(floor.bumps[0].centre.y_m, 0.5, pixel_m);
-  EXPECT_GT(edits, 3);       // it moves while it is dragged
-  EXPECT_EQ(gestures, 1);    // and is one step for undo
+  EXPECT_GT(edits, 3);     // it moves while it is dragged
+  EXPECT_EQ(gestures, 1);  // and is one step for undo
 }
 
 TEST_F(FloorViewTest, DraggingTheFloorMovesTheViewAndNothingElse) {
@@ -170,7 +170,8 @@ TEST_F(FloorViewTest, TheWheelZoomsAboutTheMouse) {
 
 TEST_F(FloorViewTest, DrawsALongTrackWithoutMorePointsThanTheScreenCanShow) {
   Track track;
-  for (int i = 0; i < 200000; ++i) track.push_back({0.001 * i, {2.0 + std::cos(1e-4 * i), 2.0 + std::sin(1e-4 * i), 0.0}});
+  for (int i = 0; i < 200000; ++i)
+    track.push_back({0.001 * i, {2.0 + std::cos(1e-4 * i), 2.0 + std::sin(1e-4 * i), 0.0}});
   TrackLine line;
   line.label = "true";
   line.track = &track;

@@ -1,9 +1,9 @@
 // A Dear ImGui context without a display, with a mouse that tests move.
 #pragma once
 
-#include <functional>
-
 #include <imgui.h>
+
+#include <functional>
 
 #include "ui/look/theme.h"
 
@@ -34,7 +34,8 @@ class HeadlessScreen {
     ImGui::NewFrame();
     ImGui::SetNextWindowPos(low);
     ImGui::SetNextWindowSize(size.x > 0 ? size : io.DisplaySize);
-    ImGui::Begin("test", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::Begin("test", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     content();
     ImGui::End();
     ImGui::Render();

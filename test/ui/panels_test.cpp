@@ -128,7 +128,8 @@ TEST(MessageBar, GivesALongMessageTheLinesItNeeds) {
   HeadlessScreen screen;
   screen.picture([&] {
     const float one = message_bar_height({{"short", true}}, 600.0f, screen.theme);
-    const float many = message_bar_height({{std::string(400, 'x') + " " + std::string(400, 'y'), true}}, 600.0f, screen.theme);
+    const float many =
+        message_bar_height({{std::string(400, 'x') + " " + std::string(400, 'y'), true}}, 600.0f, screen.theme);
     EXPECT_GT(many, 2.0f * one);
   });
 }
@@ -136,7 +137,9 @@ TEST(MessageBar, GivesALongMessageTheLinesItNeeds) {
 TEST(TopBar, AModeIsChosenByAClick) {
   HeadlessScreen screen;
   TopBar bar;
-  bar.title = "a scenario with a very long name that does not fit between the menu and the modes whatever the window's width may be today";
+  bar.title =
+      "a scenario with a very long name that does not fit between the menu and the modes whatever the window's width "
+      "may be today";
   WindowChoices choices;
   Actions asked;
   const auto content = [&] { append(asked, top_bar(bar, choices, screen.theme)); };
@@ -176,7 +179,7 @@ TEST(VehiclePanel, ADiameterThatIsDraggedChangesTheRadiusByHalfOfItAndIsHandedOv
   ASSERT_EQ(count_of<EditScenario>(asked), 1);
   const Scenario& edited = std::get<EditScenario>(asked.back()).scenario;
   const double grown_mm = 2000.0 * (edited.actual.wheel_radius_left_m - 0.075);
-  EXPECT_GT(grown_mm, 0.2);   // 0.02 mm a pixel over 30 pixels, less the drag's threshold
+  EXPECT_GT(grown_mm, 0.2);  // 0.02 mm a pixel over 30 pixels, less the drag's threshold
   EXPECT_LE(grown_mm, 0.61);
   EXPECT_DOUBLE_EQ(edited.actual.wheel_radius_right_m, 0.075);
   EXPECT_DOUBLE_EQ(std::get<DifferentialDrive>(edited.vehicle.kind).wheel_radius_left_m, 0.075);
@@ -191,7 +194,8 @@ TEST(CalibratePanel, StartsWithTheNumberOfRunsThatIsShown) {
   state.runs_each_way = 7;
   Actions asked;
   const auto content = [&] { append(asked, calibrate_panel(bench, state, screen.theme)); };
-  for (float y = 100.0f; y < 500.0f && count_of<StartBenchmark>(asked) == 0; y += 8.0f) screen.click({60.0f, y}, content, {0, 0}, {316, 600});
+  for (float y = 100.0f; y < 500.0f && count_of<StartBenchmark>(asked) == 0; y += 8.0f)
+    screen.click({60.0f, y}, content, {0, 0}, {316, 600});
   ASSERT_EQ(count_of<StartBenchmark>(asked), 1);
   EXPECT_EQ(std::get<StartBenchmark>(asked.back()).runs_each_way, 7);
 }
@@ -251,14 +255,17 @@ TEST(Panels, DrawInEveryState) {
     screen.picture([&] { cluster_panel(bench, clusters, screen.theme); });
 
     LeastSquaresCalibration calibration;
-    calibration.parameters = {{"wheelbase_m", "m", 0.34, 0.342, 0.0001, true}, {"truth_mounting.x_m", "m", 0.0, 0.0, 0.0, false}, {"something_new", "m", 0.0, 1.0, 0.1, true}};
+    calibration.parameters = {{"wheelbase_m", "m", 0.34, 0.342, 0.0001, true},
+                              {"truth_mounting.x_m", "m", 0.0, 0.0, 0.0, false},
+                              {"something_new", "m", 0.0, 1.0, 0.1, true}};
     compare.loaded = true;
     compare.name = "a recording with a long name that certainly does not fit into the narrow pane.csv";
     compare.calibration = &calibration;
     compare.nominal = ReplayFigures{};
     compare.calibrated = ReplayFigures{};
     compare.job = "driving";
-    for (const Path& path : {Path{StraightPath{}}, Path{FigureEightPath{}}, Path{WaypointPath{{{1, 1}, {2, 2}}}}, Path{WheelSpeedPath{{{1, 1, 1}}, 0.1}}, Path{HandPath{}}, Path{ReplayPath{}}}) {
+    for (const Path& path : {Path{StraightPath{}}, Path{FigureEightPath{}}, Path{WaypointPath{{{1, 1}, {2, 2}}}},
+                             Path{WheelSpeedPath{{{1, 1, 1}}, 0.1}}, Path{HandPath{}}, Path{ReplayPath{}}}) {
       draft.path = path;
       screen.picture(all);
     }

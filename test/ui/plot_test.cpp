@@ -99,7 +99,8 @@ class PlotTest : public ::testing::Test {
     screen.picture(draw);
   }
   ImVec2 at(double share_x, double share_y) const {
-    return {result.low.x + float(share_x) * (result.high.x - result.low.x), result.low.y + float(share_y) * (result.high.y - result.low.y)};
+    return {result.low.x + float(share_x) * (result.high.x - result.low.x),
+            result.low.y + float(share_y) * (result.high.y - result.low.y)};
   }
 
   HeadlessScreen screen;

@@ -8,15 +8,17 @@
 namespace odolab::ui {
 
 struct Camera {
-  Vec2 centre;                  // the floor's point in the middle of the canvas
+  Vec2 centre;  // the floor's point in the middle of the canvas
   double px_per_m = 100.0;
-  ImVec2 low, high;             // the canvas on the screen
+  ImVec2 low, high;  // the canvas on the screen
 
   ImVec2 screen(Vec2 p) const {
-    return {0.5f * (low.x + high.x) + float((p.x_m - centre.x_m) * px_per_m), 0.5f * (low.y + high.y) - float((p.y_m - centre.y_m) * px_per_m)};
+    return {0.5f * (low.x + high.x) + float((p.x_m - centre.x_m) * px_per_m),
+            0.5f * (low.y + high.y) - float((p.y_m - centre.y_m) * px_per_m)};
   }
   Vec2 floor(ImVec2 at) const {
-    return {centre.x_m + (at.x - 0.5 * (low.x + high.x)) / px_per_m, centre.y_m - (at.y - 0.5 * (low.y + high.y)) / px_per_m};
+    return {centre.x_m + (at.x - 0.5 * (low.x + high.x)) / px_per_m,
+            centre.y_m - (at.y - 0.5 * (low.y + high.y)) / px_per_m};
   }
   double width_m() const { return (high.x - low.x) / px_per_m; }
   double height_m() const { return (high.y - low.y) / px_per_m; }

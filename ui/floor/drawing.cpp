@@ -19,7 +19,8 @@ std::vector<ImVec2> outline_of(const Camera& camera, const Shape& shape) {
       outline.push_back(camera.screen(disc->centre + rotated({disc->radius_m, 0.0}, 2.0 * kPi * i / n)));
   } else if (const Rectangle* r = std::get_if<Rectangle>(&shape)) {
     for (const Vec2 corner : {Vec2{-0.5, -0.5}, Vec2{0.5, -0.5}, Vec2{0.5, 0.5}, Vec2{-0.5, 0.5}})
-      outline.push_back(camera.screen(r->centre + rotated({corner.x_m * r->width_m, corner.y_m * r->height_m}, r->direction_rad)));
+      outline.push_back(
+          camera.screen(r->centre + rotated({corner.x_m * r->width_m, corner.y_m * r->height_m}, r->direction_rad)));
   } else {
     for (const Vec2 corner : std::get<Polygon>(shape).corners) outline.push_back(camera.screen(corner));
   }
@@ -55,16 +56,18 @@ void arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 colour, float width, 
   const ImVec2 d{(to.x - from.x) / length, (to.y - from.y) / length};
   const ImVec2 base{to.x - d.x * head, to.y - d.y * head};
   draw.AddLine(from, base, colour, width);
-  draw.AddTriangleFilled(to, {base.x - d.y * head * 0.5f, base.y + d.x * head * 0.5f}, {base.x + d.y * head * 0.5f, base.y - d.x * head * 0.5f}, colour);
+  draw.AddTriangleFilled(to, {base.x - d.y * head * 0.5f, base.y + d.x * head * 0.5f},
+                         {base.x + d.y * head * 0.5f, base.y - d.x * head * 0.5f}, colour);
 }
 
 // Corners of a rectangle in a pose's frame.
 std::vector<ImVec2> box(const Camera& camera, const Pose& pose, double x0, double y0, double x1, double y1) {
-  return {camera.screen(pose * Vec2{x0, y0}), camera.screen(pose * Vec2{x1, y0}), camera.screen(pose * Vec2{x1, y1}), camera.screen(pose * Vec2{x0, y1})};
+  return {camera.screen(pose * Vec2{x0, y0}), camera.screen(pose * Vec2{x1, y0}), camera.screen(pose * Vec2{x1, y1}),
+          camera.screen(pose * Vec2{x0, y1})};
 }
 
-void draw_wheel(ImDrawList& draw, const Camera& camera, const Pose& pose, double y_m, double radius_m, double width_m, double rotation_rad,
-                const Theme& theme) {
+void draw_wheel(ImDrawList& draw, const Camera& camera, const Pose& pose, double y_m, double radius_m, double width_m,
+                double rotation_rad, const Theme& theme) {
   const std::vector<ImVec2> tyre = box(camera, pose, -radius_m, y_m - 0.5 * width_m, radius_m, y_m + 0.5 * width_m);
   draw.AddConvexPolyFilled(tyre.data(), 4, theme.ink);
   if (radius_m * camera.px_per_m < theme.px(9)) return;
@@ -74,7 +77,8 @@ void draw_wheel(ImDrawList& draw, const Camera& camera, const Pose& pose, double
     const double angle = std::remainder(rotation_rad + 2.0 * kPi * i / kTreads, 2.0 * kPi);
     if (std::abs(angle) > 0.5 * kPi) continue;
     const double x = radius_m * std::sin(angle);
-    draw.AddLine(camera.screen(pose * Vec2{x, y_m - 0.5 * width_m}), camera.screen(pose * Vec2{x, y_m + 0.5 * width_m}), faded(theme.paper, 0.75f), theme.px(1));
+    draw.AddLine(camera.screen(pose * Vec2{x, y_m - 0.5 * width_m}), camera.screen(pose * Vec2{x, y_m + 0.5 * width_m}),
+                 faded(theme.paper, 0.75f), theme.px(1));
   }
 }
 
@@ -86,7 +90,8 @@ std::pair<Vec2, Vec2> ends_of(const Bump& bump) {
 }
 
 Pose exaggerated(const Pose& reference, const Pose& deviating, double factor) {
-  return {reference.x_m + factor * (deviating.x_m - reference.x_m), reference.y_m + factor * (deviating.y_m - reference.y_m),
+  return {reference.x_m + factor * (deviating.x_m - reference.x_m),
+          reference.y_m + factor * (deviating.y_m - reference.y_m),
           reference.heading_rad + factor * (deviating.heading_rad - reference.heading_rad)};
 }
 
@@ -109,7 +114,8 @@ void draw_grid(ImDrawList& draw, const Camera& camera, const Theme& theme) {
   }
   // Rulers along the left and the bottom edge; the metres stand at the last number.
   const float height = ImGui::GetTextLineHeight();
-  for (const double v : round_ticks(low.x_m, high.x_m, std::max(2, int((camera.high.x - camera.low.x) / theme.px(64))))) {
+  for (const double v :
+       round_ticks(low.x_m, high.x_m, std::max(2, int((camera.high.x - camera.low.x) / theme.px(64))))) {
     const float x = camera.screen({v, 0.0}).x;
     const std::string text = tick_text(v, step) + " m";
     const float w = ImGui::CalcTextSize(text.c_str()).x;
@@ -119,7 +125,8 @@ void draw_grid(ImDrawList& draw, const Camera& camera, const Theme& theme) {
   for (double k = std::ceil(low.y_m / step); k * step <= high.y_m; k += 1.0) {
     const float y = camera.screen({0.0, k * step}).y;
     if (y > camera.high.y - 2.2f * height || y < camera.low.y + 2.4f * height) continue;
-    draw.AddText({camera.low.x + theme.px(6), std::round(y - height / 2)}, theme.muted, (tick_text(k * step, step) + " m").c_str());
+    draw.AddText({camera.low.x + theme.px(6), std::round(y - height / 2)}, theme.muted,
+                 (tick_text(k * step, step) + " m").c_str());
   }
   // The origin with its axes.
   const ImVec2 o = camera.screen({0.0, 0.0});
@@ -136,11 +143,14 @@ void draw_scale_bar(ImDrawList& draw, const Camera& camera, const Theme& theme) 
   const float height = ImGui::GetTextLineHeight();
   const ImVec2 right{camera.high.x - theme.px(14), camera.high.y - height - theme.px(14)};
   const ImVec2 left{right.x - length, right.y};
-  const std::string text = metres < 0.0995 ? shown(metres, kMillimetres, metres < 0.00095 ? 1 : 0) : tick_text(metres, metres) + " m";
+  const std::string text =
+      metres < 0.0995 ? shown(metres, kMillimetres, metres < 0.00095 ? 1 : 0) : tick_text(metres, metres) + " m";
   const float w = ImGui::CalcTextSize(text.c_str()).x;
-  draw.AddRectFilled({left.x - theme.px(6), right.y - height - theme.px(8)}, {right.x + theme.px(6), right.y + theme.px(6)}, faded(theme.paper, 0.85f), theme.px(3));
+  draw.AddRectFilled({left.x - theme.px(6), right.y - height - theme.px(8)},
+                     {right.x + theme.px(6), right.y + theme.px(6)}, faded(theme.paper, 0.85f), theme.px(3));
   draw.AddLine(left, right, theme.ink, theme.px(2));
-  for (const ImVec2 end : {left, right}) draw.AddLine({end.x, end.y - theme.px(4)}, {end.x, end.y + theme.px(4)}, theme.ink, theme.px(2));
+  for (const ImVec2 end : {left, right})
+    draw.AddLine({end.x, end.y - theme.px(4)}, {end.x, end.y + theme.px(4)}, theme.ink, theme.px(2));
   draw.AddText({std::round(0.5f * (left.x + right.x - w)), right.y - height - theme.px(5)}, theme.ink, text.c_str());
 }
 
@@ -161,14 +171,17 @@ void draw_bump(ImDrawList& draw, const Camera& camera, const Bump& bump, bool se
 void draw_slip_zone(ImDrawList& draw, const Camera& camera, const SlipZone& zone, bool selected, const Theme& theme) {
   const std::vector<ImVec2> outline = outline_of(camera, zone.shape);
   if (outline.size() < 3) return;
-  if (!std::holds_alternative<Polygon>(zone.shape)) draw.AddConvexPolyFilled(outline.data(), int(outline.size()), faded(theme.zone, 0.10f));
+  if (!std::holds_alternative<Polygon>(zone.shape))
+    draw.AddConvexPolyFilled(outline.data(), int(outline.size()), faded(theme.zone, 0.10f));
   hatch(draw, outline, theme.px(9), faded(theme.zone, 0.65f), theme.px(1));
-  draw.AddPolyline(outline.data(), int(outline.size()), selected ? theme.ink : theme.zone, ImDrawFlags_Closed, theme.px(selected ? 2.0f : 1.5f));
+  draw.AddPolyline(outline.data(), int(outline.size()), selected ? theme.ink : theme.zone, ImDrawFlags_Closed,
+                   theme.px(selected ? 2.0f : 1.5f));
   if (!selected) return;
   const Disc* disc = std::get_if<Disc>(&zone.shape);
   const Rectangle* r = std::get_if<Rectangle>(&zone.shape);
   if (!disc && !r) return;
-  const Vec2 handle = disc ? disc->centre + Vec2{disc->radius_m, 0.0} : r->centre + rotated({0.5 * r->width_m, 0.5 * r->height_m}, r->direction_rad);
+  const Vec2 handle = disc ? disc->centre + Vec2{disc->radius_m, 0.0}
+                           : r->centre + rotated({0.5 * r->width_m, 0.5 * r->height_m}, r->direction_rad);
   draw.AddCircleFilled(camera.screen(handle), theme.px(6), theme.paper);
   draw.AddCircle(camera.screen(handle), theme.px(6), theme.ink, 0, theme.px(1.5f));
 }
@@ -183,7 +196,8 @@ void draw_tilt(ImDrawList& draw, const Camera& camera, const Floor& floor, const
   arrow(draw, {at.x - d.x * l, at.y - d.y * l}, {at.x + d.x * l, at.y + d.y * l}, theme.ink, theme.px(3), theme.px(13));
   const std::string text = "downhill " + shown(std::abs(floor.tilt_rad), kDegrees, 1);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  draw.AddText({std::round(std::min(at.x - size.x / 2, camera.high.x - size.x - theme.px(6))), at.y + l + theme.px(9)}, theme.ink, text.c_str());
+  draw.AddText({std::round(std::min(at.x - size.x / 2, camera.high.x - size.x - theme.px(6))), at.y + l + theme.px(9)},
+               theme.ink, text.c_str());
 }
 
 void draw_planned(ImDrawList& draw, const Camera& camera, const std::vector<Vec2>& path, const Theme& theme) {
@@ -194,13 +208,20 @@ void draw_planned(ImDrawList& draw, const Camera& camera, const std::vector<Vec2
 
 void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, Dash dash, const Theme& theme) {
   switch (dash) {
-    case Dash::solid: solid_line(draw, points, colour, theme.px(2.0f)); break;
-    case Dash::dashes: dashed_line(draw, points, colour, theme.px(2.2f), theme.px(8), theme.px(5)); break;
-    case Dash::dots: dashed_line(draw, points, colour, theme.px(2.6f), theme.px(2.6f), theme.px(5.4f)); break;
+    case Dash::solid:
+      solid_line(draw, points, colour, theme.px(2.0f));
+      break;
+    case Dash::dashes:
+      dashed_line(draw, points, colour, theme.px(2.2f), theme.px(8), theme.px(5));
+      break;
+    case Dash::dots:
+      dashed_line(draw, points, colour, theme.px(2.6f), theme.px(2.6f), theme.px(5.4f));
+      break;
   }
 }
 
-void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration, const Theme& theme) {
+void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration,
+                const Theme& theme) {
   if (!line.track) return;
   std::vector<ImVec2> points;
   ImVec2 last{-1e9f, -1e9f};
@@ -229,7 +250,8 @@ void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v,
   const double w = v.wheelbase_m, tyre = 0.16 * w;
   const double back = -0.85 * w, front = 0.85 * w, side = 0.5 * w + tyre;
   // The body's corners are cut, so that its front is told from its back at any size.
-  const Vec2 shape[] = {{back, -side}, {0.55 * front, -side}, {front, -0.55 * side}, {front, 0.55 * side}, {0.55 * front, side}, {back, side}};
+  const Vec2 shape[] = {{back, -side},        {0.55 * front, -side}, {front, -0.55 * side},
+                        {front, 0.55 * side}, {0.55 * front, side},  {back, side}};
   std::vector<ImVec2> body;
   for (const Vec2 p : shape) body.push_back(camera.screen(v.pose * p));
   if (v.outline) {
@@ -240,7 +262,8 @@ void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v,
     draw.AddConvexPolyFilled(body.data(), int(body.size()), faded(theme.panel, 0.92f));
     draw.AddPolyline(body.data(), int(body.size()), v.colour, ImDrawFlags_Closed, theme.px(1.8f));
     for (const double x : {back + 0.12 * w, front - 0.22 * w})
-      draw.AddCircle(camera.screen(v.pose * Vec2{x, 0.0}), std::max(1.5f, float(0.06 * w * camera.px_per_m)), theme.muted, 0, theme.px(1.2f));
+      draw.AddCircle(camera.screen(v.pose * Vec2{x, 0.0}), std::max(1.5f, float(0.06 * w * camera.px_per_m)),
+                     theme.muted, 0, theme.px(1.2f));
     draw_wheel(draw, camera, v.pose, 0.5 * w, v.wheel_radius_left_m, tyre, v.left_rotation_rad, theme);
     draw_wheel(draw, camera, v.pose, -0.5 * w, v.wheel_radius_right_m, tyre, v.right_rotation_rad, theme);
   }
@@ -250,7 +273,10 @@ void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v,
   const ImVec2 ahead = camera.screen(v.pose * Vec2{0.5 * front, 0.0});
   const float length = std::hypot(ahead.x - centre.x, ahead.y - centre.y);
   const float reach = std::max(length, theme.px(10));
-  if (length > 0.0f) arrow(draw, centre, {centre.x + (ahead.x - centre.x) / length * reach, centre.y + (ahead.y - centre.y) / length * reach}, v.colour, theme.px(1.8f), theme.px(6));
+  if (length > 0.0f)
+    arrow(draw, centre,
+          {centre.x + (ahead.x - centre.x) / length * reach, centre.y + (ahead.y - centre.y) / length * reach},
+          v.colour, theme.px(1.8f), theme.px(6));
 }
 
 }  // namespace odolab::ui

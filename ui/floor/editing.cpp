@@ -31,7 +31,8 @@ bool exists(const Floor& floor, const FloorThing& thing) {
   return thing.index < (thing.kind == ThingKind::bump ? floor.bumps.size() : floor.slip_zones.size());
 }
 
-std::optional<Grasp> grasp_at(const Floor& floor, const Camera& camera, ImVec2 at, float reach_px, const std::optional<FloorThing>& selected) {
+std::optional<Grasp> grasp_at(const Floor& floor, const Camera& camera, ImVec2 at, float reach_px,
+                              const std::optional<FloorThing>& selected) {
   if (selected && exists(floor, *selected)) {
     if (selected->kind == ThingKind::bump) {
       const auto [a, b] = ends_of(floor.bumps[selected->index]);
@@ -41,13 +42,15 @@ std::optional<Grasp> grasp_at(const Floor& floor, const Camera& camera, ImVec2 a
       const Shape& shape = floor.slip_zones[selected->index].shape;
       std::optional<Vec2> handle;
       if (const Disc* disc = std::get_if<Disc>(&shape)) handle = disc->centre + Vec2{disc->radius_m, 0.0};
-      if (const Rectangle* r = std::get_if<Rectangle>(&shape)) handle = r->centre + rotated({0.5 * r->width_m, 0.5 * r->height_m}, r->direction_rad);
+      if (const Rectangle* r = std::get_if<Rectangle>(&shape))
+        handle = r->centre + rotated({0.5 * r->width_m, 0.5 * r->height_m}, r->direction_rad);
       if (handle && distance(at, camera.screen(*handle)) <= reach_px) return Grasp{*selected, Grip::size};
     }
   }
   for (std::size_t i = floor.bumps.size(); i-- > 0;) {
     const auto [a, b] = ends_of(floor.bumps[i]);
-    if (distance_to_segment(at, camera.screen(a), camera.screen(b)) <= reach_px) return Grasp{{ThingKind::bump, i}, Grip::body};
+    if (distance_to_segment(at, camera.screen(a), camera.screen(b)) <= reach_px)
+      return Grasp{{ThingKind::bump, i}, Grip::body};
   }
   for (std::size_t i = floor.slip_zones.size(); i-- > 0;)
     if (contains(floor.slip_zones[i].shape, camera.floor(at))) return Grasp{{ThingKind::slip_zone, i}, Grip::body};
@@ -61,9 +64,12 @@ Floor dragged(const Floor& floor, const Grasp& grasp, Vec2 from, Vec2 to) {
   if (grasp.thing.kind == ThingKind::bump) {
     Bump& bump = result.bumps[grasp.thing.index];
     const auto [a, b] = ends_of(bump);
-    if (grasp.grip == Grip::first_end) set_ends(bump, a + by, b);
-    else if (grasp.grip == Grip::second_end) set_ends(bump, a, b + by);
-    else bump.centre = bump.centre + by;
+    if (grasp.grip == Grip::first_end)
+      set_ends(bump, a + by, b);
+    else if (grasp.grip == Grip::second_end)
+      set_ends(bump, a, b + by);
+    else
+      bump.centre = bump.centre + by;
     return result;
   }
   SlipZone& zone = result.slip_zones[grasp.thing.index];
@@ -84,8 +90,10 @@ Floor dragged(const Floor& floor, const Grasp& grasp, Vec2 from, Vec2 to) {
 Floor removed(const Floor& floor, const FloorThing& thing) {
   Floor result = floor;
   if (!exists(floor, thing)) return result;
-  if (thing.kind == ThingKind::bump) result.bumps.erase(result.bumps.begin() + long(thing.index));
-  else result.slip_zones.erase(result.slip_zones.begin() + long(thing.index));
+  if (thing.kind == ThingKind::bump)
+    result.bumps.erase(result.bumps.begin() + long(thing.index));
+  else
+    result.slip_zones.erase(result.slip_zones.begin() + long(thing.index));
   return result;
 }
 

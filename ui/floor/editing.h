@@ -29,7 +29,8 @@ bool exists(const Floor& floor, const FloorThing& thing);
 
 // What a press at a place on the screen takes hold of; handles belong to the selected thing alone. `reach_px` is how
 // near counts.
-std::optional<Grasp> grasp_at(const Floor& floor, const Camera& camera, ImVec2 at, float reach_px, const std::optional<FloorThing>& selected);
+std::optional<Grasp> grasp_at(const Floor& floor, const Camera& camera, ImVec2 at, float reach_px,
+                              const std::optional<FloorThing>& selected);
 
 // The floor after the grasped thing was pulled from one place to another.
 Floor dragged(const Floor& floor, const Grasp& grasp, Vec2 from, Vec2 to);

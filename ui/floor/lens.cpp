@@ -12,12 +12,15 @@ namespace odolab::ui {
 
 namespace {
 
-void pose_mark(ImDrawList& draw, const Camera& camera, const Pose& pose, ImU32 colour, bool dashed, const Theme& theme) {
+void pose_mark(ImDrawList& draw, const Camera& camera, const Pose& pose, ImU32 colour, bool dashed,
+               const Theme& theme) {
   const ImVec2 at = camera.screen(pose.position());
   const float l = theme.px(34);
   const ImVec2 tip{at.x + l * float(std::cos(pose.heading_rad)), at.y - l * float(std::sin(pose.heading_rad))};
-  if (dashed) dashed_line(draw, {at, tip}, colour, theme.px(2), theme.px(6), theme.px(4));
-  else draw.AddLine(at, tip, colour, theme.px(2));
+  if (dashed)
+    dashed_line(draw, {at, tip}, colour, theme.px(2), theme.px(6), theme.px(4));
+  else
+    draw.AddLine(at, tip, colour, theme.px(2));
   draw.AddCircleFilled(at, theme.px(5), colour);
   draw.AddCircle(at, theme.px(5), theme.paper, 0, theme.px(1.2f));
 }
@@ -29,11 +32,13 @@ double lens_magnification(double gap_m, double px_per_m, double lens_radius_px) 
   double magnification = 2.0;
   for (double decade = 1.0; decade <= 1000.0; decade *= 10.0)
     for (const double factor : {1.0, 2.0, 5.0})
-      if (decade * factor <= wanted && decade * factor <= 1000.0) magnification = std::max(magnification, decade * factor);
+      if (decade * factor <= wanted && decade * factor <= 1000.0)
+        magnification = std::max(magnification, decade * factor);
   return magnification;
 }
 
-void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scene, double px_per_m, const Theme& theme) {
+void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scene, double px_per_m,
+               const Theme& theme) {
   if (!scene.reference || !scene.deviating) return;
   const Pose& reference = *scene.reference;
   const Pose& deviating = *scene.deviating;
@@ -43,11 +48,13 @@ void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scen
   Camera camera;
   camera.low = {low.x, low.y + head};
   camera.high = {high.x, high.y};
-  const double magnification = lens_magnification(gap_m, px_per_m, 0.5 * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+  const double magnification =
+      lens_magnification(gap_m, px_per_m, 0.5 * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
   camera.px_per_m = px_per_m * magnification;
   camera.centre = 0.5 * (reference.position() + deviating.position());
 
-  draw.AddRectFilled({low.x + theme.px(2), low.y + theme.px(3)}, {high.x + theme.px(2), high.y + theme.px(4)}, IM_COL32(0, 0, 0, 28), theme.px(5));
+  draw.AddRectFilled({low.x + theme.px(2), low.y + theme.px(3)}, {high.x + theme.px(2), high.y + theme.px(4)},
+                     IM_COL32(0, 0, 0, 28), theme.px(5));
   draw.AddRectFilled(low, high, theme.paper, theme.px(4));
   draw.PushClipRect(camera.low, camera.high, true);
   const double step = round_step(camera.width_m(), 6);
@@ -71,18 +78,22 @@ void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scen
   // The distance between two grid lines, as the lens' own scale bar.
   const float bar = float(step * camera.px_per_m);
   const ImVec2 right{camera.high.x - theme.px(8), camera.high.y - theme.px(8)};
-  const std::string text = step < 0.9995 ? shown(step, kMillimetres, step < 0.00095 ? (step < 0.000095 ? 2 : 1) : 0) : shown(step, kMetres, 0);
+  const std::string text = step < 0.9995 ? shown(step, kMillimetres, step < 0.00095 ? (step < 0.000095 ? 2 : 1) : 0)
+                                         : shown(step, kMetres, 0);
   const float w = ImGui::CalcTextSize(text.c_str()).x;
-  draw.AddRectFilled({right.x - std::max(bar, w) - theme.px(4), right.y - line - theme.px(5)}, camera.high, faded(theme.paper, 0.8f));
+  draw.AddRectFilled({right.x - std::max(bar, w) - theme.px(4), right.y - line - theme.px(5)}, camera.high,
+                     faded(theme.paper, 0.8f));
   draw.AddLine({right.x - bar, right.y}, right, theme.ink, theme.px(2));
-  draw.AddText({std::round(right.x - std::max(0.5f * (bar + w), w)), right.y - line - theme.px(3)}, theme.ink, text.c_str());
+  draw.AddText({std::round(right.x - std::max(0.5f * (bar + w), w)), right.y - line - theme.px(3)}, theme.ink,
+               text.c_str());
   draw.PopClipRect();
   draw.AddRect(low, high, theme.ink, theme.px(4), 0, theme.px(1.2f));
   draw.AddLine({low.x, camera.low.y}, {high.x, camera.low.y}, theme.line);
   const std::string title = "lens " + times(magnification);
   draw.AddText({low.x + theme.px(8), low.y + theme.px(4)}, theme.ink, title.c_str());
   const std::string gap = shown_length(gap_m);
-  draw.AddText({high.x - theme.px(8) - ImGui::CalcTextSize(gap.c_str()).x, low.y + theme.px(4)}, theme.orange, gap.c_str());
+  draw.AddText({high.x - theme.px(8) - ImGui::CalcTextSize(gap.c_str()).x, low.y + theme.px(4)}, theme.orange,
+               gap.c_str());
 }
 
 }  // namespace odolab::ui

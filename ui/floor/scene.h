@@ -37,14 +37,14 @@ struct VehicleGlyph {
 };
 
 struct FloorScene {
-  const Floor* floor = nullptr;      // null: nothing on it
+  const Floor* floor = nullptr;  // null: nothing on it
   bool editable = false;
-  std::vector<Vec2> planned;         // the path the driver means to follow
+  std::vector<Vec2> planned;  // the path the driver means to follow
   std::vector<TrackLine> tracks;
   std::vector<VehicleGlyph> vehicles;
   // The two poses whose gap matters, for the gap line and the lens; the second deviates from the first.
   std::optional<Pose> reference, deviating;
-  std::string empty_text;            // said in the middle while there is nothing else to see
+  std::string empty_text;  // said in the middle while there is nothing else to see
   std::string reference_name = "true", deviating_name = "estimated";
 };
 

@@ -6,8 +6,23 @@
 namespace odolab::ui {
 
 enum class Icon {
-  play, pause, step_forward, step_back, to_start, to_end, restart,
-  pointer, cable, disc, rectangle, fit, follow, lens, exaggerate, layers, close,
+  play,
+  pause,
+  step_forward,
+  step_back,
+  to_start,
+  to_end,
+  restart,
+  pointer,
+  cable,
+  disc,
+  rectangle,
+  fit,
+  follow,
+  lens,
+  exaggerate,
+  layers,
+  close,
 };
 
 // Drawn inside a square of side `size` about `centre`.

@@ -11,7 +11,8 @@ void solid_line(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colou
     draw.AddPolyline(points.data() + i, int(std::min(kMost + 1, points.size() - i)), colour, 0, width);
 }
 
-void dashed_line(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, float width, float dash, float gap) {
+void dashed_line(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, float width, float dash,
+                 float gap) {
   const ImVec2 low = draw.GetClipRectMin(), high = draw.GetClipRectMax();
   const float period = dash + gap;
   float along = 0.0f;
@@ -23,7 +24,8 @@ void dashed_line(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colo
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const ImVec2 a = points[i], b = points[i + 1];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
-    const bool outside = std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x || std::max(a.y, b.y) < low.y || std::min(a.y, b.y) > high.y;
+    const bool outside = std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x || std::max(a.y, b.y) < low.y ||
+                         std::min(a.y, b.y) > high.y;
     if (length <= 0.0f) continue;
     if (outside || length > 1e5f) {
       finish();

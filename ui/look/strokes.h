@@ -1,9 +1,9 @@
 // Lines longer than ImGui draws well, and dashed ones, which it lacks.
 #pragma once
 
-#include <vector>
-
 #include <imgui.h>
+
+#include <vector>
 
 namespace odolab::ui {
 

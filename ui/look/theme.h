@@ -15,16 +15,16 @@ struct Theme {
   ImFont* large = nullptr;
 
   // Surfaces and writing.
-  ImU32 paper = 0;     // the floor, the plots
-  ImU32 panel = 0;     // behind the parameters
-  ImU32 raised = 0;    // fields and buttons
+  ImU32 paper = 0;   // the floor, the plots
+  ImU32 panel = 0;   // behind the parameters
+  ImU32 raised = 0;  // fields and buttons
   ImU32 hovered = 0;
   ImU32 pressed = 0;
-  ImU32 line = 0;      // borders, major grid
-  ImU32 faint = 0;     // minor grid
-  ImU32 ink = 0;       // words, and the truth
-  ImU32 muted = 0;     // units, explanations
-  ImU32 on_ink = 0;    // words on a surface of ink
+  ImU32 line = 0;    // borders, major grid
+  ImU32 faint = 0;   // minor grid
+  ImU32 ink = 0;     // words, and the truth
+  ImU32 muted = 0;   // units, explanations
+  ImU32 on_ink = 0;  // words on a surface of ink
   ImU32 error = 0;
   ImU32 error_paper = 0;
   ImU32 note_paper = 0;

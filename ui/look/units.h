@@ -6,10 +6,10 @@
 namespace odolab::ui {
 
 struct Unit {
-  const char* name;   // "mm"
-  double per_si;      // shown = SI value * per_si
+  const char* name;  // "mm"
+  double per_si;     // shown = SI value * per_si
   int decimals;
-  double drag;        // shown units for each pixel of a drag
+  double drag;  // shown units for each pixel of a drag
 };
 
 inline constexpr Unit kMillimetres{"mm", 1e3, 1, 0.1};

@@ -43,7 +43,8 @@ bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook
   if (look.enabled && !filled && ImGui::IsItemHovered()) back = ImGui::IsItemActive() ? theme.pressed : theme.hovered;
   if (back) draw.AddRectFilled(low, high, faded(back, look.enabled ? 1.0f : 0.4f), theme.px(4));
   const ImU32 front = filled ? theme.on_ink : theme.ink;
-  draw_icon(draw, icon, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}, side * 0.62f, look.enabled ? front : faded(front, 0.35f));
+  draw_icon(draw, icon, {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)}, side * 0.62f,
+            look.enabled ? front : faded(front, 0.35f));
   tooltip(look.enabled || look.why_disabled.empty() ? look.tip : look.why_disabled, theme);
   return clicked && look.enabled;
 }
@@ -64,7 +65,8 @@ bool text_button(const char* label, const Theme& theme, const ButtonLook& look, 
   return clicked && look.enabled;
 }
 
-std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme, float width, int available) {
+std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,
+                             float width, int available) {
   std::optional<int> choice;
   ImGui::PushID(id);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -86,10 +88,18 @@ std::optional<int> segmented(const char* id, const std::vector<std::string>& lab
     ImGui::PopID();
     const bool on = int(i) == chosen;
     const float inset = theme.px(2);
-    if (on) draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.ink, theme.px(4));
-    else if (there && ImGui::IsItemHovered()) draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.pressed, theme.px(4));
+    if (on)
+      draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.ink,
+                         theme.px(4));
+    else if (there && ImGui::IsItemHovered())
+      draw.AddRectFilled({x + inset, at.y + inset}, {x + widths[i] - inset, at.y + height - inset}, theme.pressed,
+                         theme.px(4));
     const ImVec2 text = ImGui::CalcTextSize(labels[i].c_str());
-    draw.AddText({std::round(x + 0.5f * (widths[i] - text.x)), std::round(at.y + 0.5f * (height - text.y))}, on ? theme.on_ink : there ? theme.ink : faded(theme.muted, 0.6f), labels[i].c_str());
+    draw.AddText({std::round(x + 0.5f * (widths[i] - text.x)), std::round(at.y + 0.5f * (height - text.y))},
+                 on      ? theme.on_ink
+                 : there ? theme.ink
+                         : faded(theme.muted, 0.6f),
+                 labels[i].c_str());
     x += widths[i];
   }
   ImGui::SetCursorScreenPos(at);
@@ -111,8 +121,10 @@ bool section(const char* title, const Theme& theme, bool open_at_first) {
   const float pad = ImGui::GetStyle().WindowPadding.x;
   draw.AddRectFilled({at.x - pad, at.y}, {at.x + width + pad, at.y + height}, hovered ? theme.pressed : theme.hovered);
   const float s = theme.px(4), x = at.x + width - theme.px(8), y = at.y + 0.5f * height;
-  if (open) draw.AddTriangleFilled({x - s, y - 0.6f * s}, {x + s, y - 0.6f * s}, {x, y + 0.8f * s}, theme.muted);
-  else draw.AddTriangleFilled({x + 0.7f * s, y - s}, {x + 0.7f * s, y + s}, {x - 0.7f * s, y}, theme.muted);
+  if (open)
+    draw.AddTriangleFilled({x - s, y - 0.6f * s}, {x + s, y - 0.6f * s}, {x, y + 0.8f * s}, theme.muted);
+  else
+    draw.AddTriangleFilled({x + 0.7f * s, y - s}, {x + 0.7f * s, y + s}, {x - 0.7f * s, y}, theme.muted);
   WithFont strong(theme.strong);
   draw.AddText({at.x, std::round(at.y + 0.5f * (height - ImGui::GetTextLineHeight()))}, theme.ink, title);
   return open;
@@ -139,16 +151,20 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
   char format[32];
   const std::string unit = field.unit.name;
   const char* gap = unit.empty() || unit == "°" ? "" : " ";
-  if (unit == "×") std::snprintf(format, sizeof format, "×%%.%df", field.unit.decimals);
-  else std::snprintf(format, sizeof format, "%%.%df%s%s", field.unit.decimals, gap, unit == "%" ? "%%" : unit.c_str());
+  if (unit == "×")
+    std::snprintf(format, sizeof format, "×%%.%df", field.unit.decimals);
+  else
+    std::snprintf(format, sizeof format, "%%.%df%s%s", field.unit.decimals, gap, unit == "%" ? "%%" : unit.c_str());
   ImGui::SetNextItemWidth(width);
   ImGui::BeginDisabled(!field.enabled);
-  const bool changed = ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag), bounded ? &least : nullptr,
-                                         bounded ? &most : nullptr, format, bounded ? ImGuiSliderFlags_AlwaysClamp : 0);
+  const bool changed =
+      ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag), bounded ? &least : nullptr,
+                        bounded ? &most : nullptr, format, bounded ? ImGuiSliderFlags_AlwaysClamp : 0);
   const Edited result = edited(changed);
   ImGui::EndDisabled();
   if (changed) value_si = value / field.unit.per_si;
-  if (!ImGui::IsItemActive()) tooltip(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
+  if (!ImGui::IsItemActive())
+    tooltip(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
   return result;
 }
 
@@ -162,7 +178,8 @@ Edited number_row(const char* label, const NumberField& field, double& value_si,
   return number_field(field, value_si, width - left, theme);
 }
 
-Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip, const Theme& theme) {
+Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip,
+                 const Theme& theme) {
   double number = value;
   const Edited result = number_row(label, {id, {"", 1.0, 0, 0.1}, double(least), double(most), tip}, number, theme);
   value = int(std::lround(number));

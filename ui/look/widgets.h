@@ -18,9 +18,9 @@ void tooltip(const std::string& text, const Theme& theme);
 struct ButtonLook {
   bool enabled = true;
   bool toggled = false;
-  bool primary = false;        // the one button that a person looks for
-  std::string tip;             // what it does, with its key
-  std::string why_disabled;    // shown instead while disabled
+  bool primary = false;      // the one button that a person looks for
+  std::string tip;           // what it does, with its key
+  std::string why_disabled;  // shown instead while disabled
 };
 bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook& look);
 bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width = 0.0f);
@@ -52,7 +52,8 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
 // The same behind a label on the left.
 Edited number_row(const char* label, const NumberField& field, double& value_si, const Theme& theme);
 // A whole number behind a label.
-Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip, const Theme& theme);
+Edited count_row(const char* label, const char* id, int& value, int least, int most, const std::string& tip,
+                 const Theme& theme);
 
 // Which of two edits says more.
 inline Edited more(Edited a, Edited b) { return a > b ? a : b; }

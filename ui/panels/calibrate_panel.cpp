@@ -16,11 +16,14 @@ void step_heading(int number, const char* words, bool done, bool now, const Them
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 centre{at.x + 0.5f * side, at.y + 0.5f * side};
-  if (now || done) draw.AddCircleFilled(centre, 0.5f * side, done && !now ? theme.muted : theme.ink);
-  else draw.AddCircle(centre, 0.5f * side - 1, theme.line, 0, theme.px(1.5f));
+  if (now || done)
+    draw.AddCircleFilled(centre, 0.5f * side, done && !now ? theme.muted : theme.ink);
+  else
+    draw.AddCircle(centre, 0.5f * side - 1, theme.line, 0, theme.px(1.5f));
   const std::string text = std::to_string(number);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  draw.AddText({std::round(centre.x - 0.5f * size.x), std::round(centre.y - 0.5f * size.y)}, now || done ? theme.on_ink : theme.muted, text.c_str());
+  draw.AddText({std::round(centre.x - 0.5f * size.x), std::round(centre.y - 0.5f * size.y)},
+               now || done ? theme.on_ink : theme.muted, text.c_str());
   ImGui::Dummy({side, side});
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (side - ImGui::GetTextLineHeight()));
@@ -33,12 +36,15 @@ void step_heading(int number, const char* words, bool done, bool now, const Them
 void run_table(const BenchExperiment& experiment, const Theme& theme) {
   const Unit mm{"", 1e3, 1, 0.0}, deg{"°", kDegrees.per_si, 2, 0.0};
   if (!ImGui::BeginTable("runs", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.7f, 1.0f, 1.0f, 1.0f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  for (const float weight : {0.7f, 1.0f, 1.0f, 1.0f})
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow();
   for (const char* title : {"run", "x mm", "y mm", "heading"}) {
     ImGui::TableNextColumn();
-    if (title[0] == 'r') ImGui::TextDisabled("%s", title);
-    else text_right(title, theme.muted);
+    if (title[0] == 'r')
+      ImGui::TextDisabled("%s", title);
+    else
+      text_right(title, theme.muted);
   }
   tooltip("Return errors: absolute minus calculated pose at the end of a run, Eq. 3.1.", theme);
   const auto rows = [&](const std::vector<ReturnError>& errors, const char* way, ImU32 colour) {
@@ -72,17 +78,22 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   const float width = ImGui::GetContentRegionAvail().x;
 
   heading("UMBmark", theme);
-  note("Squares driven both ways show the systematic errors of " + bench.vehicle_name + "; one way alone hides them.", theme);
+  note("Squares driven both ways show the systematic errors of " + bench.vehicle_name + "; one way alone hides them.",
+       theme);
 
   step_heading(1, "Drive squares both ways", measured, !measured, theme);
   if (!measured || n == 1) {
     char words[160];
-    std::snprintf(words, sizeof words, "%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
+    std::snprintf(words, sizeof words,
+                  "%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
     if (!measured) note(words, theme);
-    if (!bench.running && !measured) count_row("Runs each way", "##runs", state.runs_each_way, 1, 50, "The report drives five in each direction (section 3.2).", theme);
+    if (!bench.running && !measured)
+      count_row("Runs each way", "##runs", state.runs_each_way, 1, 50,
+                "The report drives five in each direction (section 3.2).", theme);
     if (!bench.running && !measured && bench.has_things) {
       ImGui::Checkbox("Keep cables and patches", &state.keep_things);
-      tooltip("UMBmark asks for a smooth floor: cables and patches are taken away for its runs unless this is ticked.", theme);
+      tooltip("UMBmark asks for a smooth floor: cables and patches are taken away for its runs unless this is ticked.",
+              theme);
     }
   }
   if (n == 0) {
@@ -91,7 +102,8 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
     start.enabled = bench.can_run;
     start.tip = "Drive the benchmark in the simulation, faster than real time.";
     start.why_disabled = bench.why_not;
-    if (text_button("Start", theme, start, width)) actions.push_back(StartBenchmark{state.runs_each_way, state.keep_things});
+    if (text_button("Start", theme, start, width))
+      actions.push_back(StartBenchmark{state.runs_each_way, state.keep_things});
   }
 
   step_heading(2, "Calibrate and drive again", verified, measured && !verified, theme);
@@ -106,7 +118,8 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   if (verified && !bench.running) {
     const bool again = experiments.back().measure && experiments.back().measure->worth_compensating;
     note(again ? "A rest is still above 3 standard errors: a second calibration is likely to help (section 6.3)."
-               : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).", theme);
+               : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).",
+         theme);
     ButtonLook second;
     second.primary = again;
     second.enabled = again;

@@ -9,7 +9,8 @@ namespace odolab::ui {
 
 namespace {
 
-void figure_row(const char* label, const std::string& value, const std::string& tip, const Theme& theme, ImU32 colour = 0) {
+void figure_row(const char* label, const std::string& value, const std::string& tip, const Theme& theme,
+                ImU32 colour = 0) {
   ImGui::TextUnformatted(label);
   tooltip(tip, theme);
   ImGui::SameLine();
@@ -19,17 +20,27 @@ void figure_row(const char* label, const std::string& value, const std::string& 
 void measure_block(const BenchExperiment& e, const Theme& theme) {
   if (!e.measure) return;
   const UmbmarkMeasure& m = *e.measure;
-  figure_row("Emax,syst", shown(m.largest_systematic_error_m, kMillimetres), "The measure of dead-reckoning accuracy: the larger of the two centres' distances from the origin (Eq. 3.4).", theme);
-  figure_row("centre cw", shown_with_error(m.clockwise.distance_m, m.standard_error_m, kMillimetres, 1), "Distance of the clockwise runs' centre of gravity from the origin (Eq. 3.3), ± its standard error.", theme, theme.orange);
-  figure_row("centre ccw", shown_with_error(m.counter_clockwise.distance_m, m.standard_error_m, kMillimetres, 1), "Distance of the counter-clockwise runs' centre of gravity from the origin (Eq. 3.3), ± its standard error.", theme, theme.blue);
-  figure_row("spread of runs", shown(m.spread_m, kMillimetres), "Standard deviation of single runs about their centre: the non-systematic errors.", theme);
+  figure_row(
+      "Emax,syst", shown(m.largest_systematic_error_m, kMillimetres),
+      "The measure of dead-reckoning accuracy: the larger of the two centres' distances from the origin (Eq. 3.4).",
+      theme);
+  figure_row("centre cw", shown_with_error(m.clockwise.distance_m, m.standard_error_m, kMillimetres, 1),
+             "Distance of the clockwise runs' centre of gravity from the origin (Eq. 3.3), ± its standard error.",
+             theme, theme.orange);
+  figure_row(
+      "centre ccw", shown_with_error(m.counter_clockwise.distance_m, m.standard_error_m, kMillimetres, 1),
+      "Distance of the counter-clockwise runs' centre of gravity from the origin (Eq. 3.3), ± its standard error.",
+      theme, theme.blue);
+  figure_row("spread of runs", shown(m.spread_m, kMillimetres),
+             "Standard deviation of single runs about their centre: the non-systematic errors.", theme);
 }
 
 void change_table(const BenchExperiment& e, const ActualDrive& actual, const Theme& theme) {
   const UmbmarkCalibration& c = *e.calibration;
   const Unit mm{"", 1e3, 3, 0.0}, base{"", 1e3, 2, 0.0};
   if (!ImGui::BeginTable("change", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.86f, 1.0f, 1.0f, 1.0f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  for (const float weight : {0.86f, 1.0f, 1.0f, 1.0f})
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextDisabled("mm");
@@ -37,7 +48,10 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
     ImGui::TableNextColumn();
     text_right(title, theme.muted);
   }
-  tooltip("Known here because the machine is simulated; a real one would not tell. The mean diameter stays as it was (Eq. 6.30): squares cannot see a common scale.", theme);
+  tooltip(
+      "Known here because the machine is simulated; a real one would not tell. The mean diameter stays as it was (Eq. "
+      "6.30): squares cannot see a common scale.",
+      theme);
   const auto row = [&](const char* label, double before, double after, double truth, const Unit& unit) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -49,8 +63,10 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
     ImGui::TableNextColumn();
     text_right(shown(truth, unit), theme.muted);
   };
-  row("Ø left", 2 * e.vehicle.wheel_radius_left_m, 2 * c.corrected.wheel_radius_left_m, 2 * actual.wheel_radius_left_m, mm);
-  row("Ø right", 2 * e.vehicle.wheel_radius_right_m, 2 * c.corrected.wheel_radius_right_m, 2 * actual.wheel_radius_right_m, mm);
+  row("Ø left", 2 * e.vehicle.wheel_radius_left_m, 2 * c.corrected.wheel_radius_left_m, 2 * actual.wheel_radius_left_m,
+      mm);
+  row("Ø right", 2 * e.vehicle.wheel_radius_right_m, 2 * c.corrected.wheel_radius_right_m,
+      2 * actual.wheel_radius_right_m, mm);
   row("base", e.vehicle.wheelbase_m, c.corrected.wheelbase_m, actual.wheelbase_m, base);
   ImGui::EndTable();
 }
@@ -59,11 +75,15 @@ void one_direction_block(const BenchExperiment& e, const Theme& theme) {
   if (!e.only_clockwise && !e.only_counter_clockwise) return;
   heading("One direction alone", theme);
   // The direction that deceives more is the lesson.
-  const bool cw = e.only_clockwise && (!e.only_counter_clockwise || e.only_clockwise->predicted_error_other_way_m >= e.only_counter_clockwise->predicted_error_other_way_m);
+  const bool cw =
+      e.only_clockwise && (!e.only_counter_clockwise || e.only_clockwise->predicted_error_other_way_m >=
+                                                            e.only_counter_clockwise->predicted_error_other_way_m);
   const OneDirectionCalibration& o = cw ? *e.only_clockwise : *e.only_counter_clockwise;
-  note(std::string(cw ? "Clockwise" : "Counter-clockwise") + " squares alone would take the wheelbase " + shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) +
-           " times the nominal one, promise " + shown(o.predicted_error_this_way_m, kMillimetres) + " that way, and leave " +
-           shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.", theme);
+  note(std::string(cw ? "Clockwise" : "Counter-clockwise") + " squares alone would take the wheelbase " +
+           shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) + " times the nominal one, promise " +
+           shown(o.predicted_error_this_way_m, kMillimetres) + " that way, and leave " +
+           shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.",
+       theme);
 }
 
 }  // namespace
@@ -79,8 +99,11 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
     ImGui::Bullet();
     ImGui::TextUnformatted("Type B: unequal wheels. Straight sides become arcs.");
     ImGui::PopTextWrapPos();
-    note("Driven one way they can cancel each other at the corner where the square ends, and a wrong correction looks perfect. Driven the other way they add up. "
-         "From both centres of gravity both errors follow (J. Borenstein, L. Feng, UMBmark, 1994).", theme);
+    note(
+        "Driven one way they can cancel each other at the corner where the square ends, and a wrong correction looks "
+        "perfect. Driven the other way they add up. "
+        "From both centres of gravity both errors follow (J. Borenstein, L. Feng, UMBmark, 1994).",
+        theme);
     return;
   }
   const BenchExperiment& first = experiments.front();
@@ -92,7 +115,9 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
       WithFont large(theme.large);
       ImGui::TextUnformatted((shown(before, kMillimetres) + " → " + shown(after, kMillimetres)).c_str());
     }
-    if (after > 0.0) note("Emax,syst, " + shown(before / after, {"", 1.0, before / after < 10 ? 1 : 0, 0.0}) + " times smaller", theme);
+    if (after > 0.0)
+      note("Emax,syst, " + shown(before / after, {"", 1.0, before / after < 10 ? 1 : 0, 0.0}) + " times smaller",
+           theme);
     measure_block(last, theme);
   } else {
     heading("Accuracy", theme);
@@ -108,13 +133,21 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
   const UmbmarkCalibration& c = *shown_one->calibration;
   heading(shown_one == &first ? "What is wrong with the vehicle" : "What the second calibration found", theme);
   const Unit ratio{"", 1.0, 5, 0.0}, deg{"°", kDegrees.per_si, 3, 0.0};
-  figure_row("α each corner", shown_with_error(c.exact.alpha_rad, shown_one->alpha_stderr_rad, deg, 3), "Type A: heading error of each turn on the spot, above zero where it turns too little (Eq. 6.22, exact path).", theme);
-  figure_row("β each side", shown_with_error(c.exact.beta_rad, shown_one->beta_stderr_rad, deg, 3), "Type B: heading error gathered on each straight side (Eq. 6.26, exact path).", theme);
-  figure_row("Eb", shown_with_error(c.wheelbase_ratio, c.wheelbase_ratio_stderr, ratio, 5), "Wheelbase, actual over nominal (Eq. 6.29).", theme);
-  figure_row("Ed", shown_with_error(c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, ratio, 5), "Wheel diameters, right over left (Eq. 6.24).", theme);
+  figure_row(
+      "α each corner", shown_with_error(c.exact.alpha_rad, shown_one->alpha_stderr_rad, deg, 3),
+      "Type A: heading error of each turn on the spot, above zero where it turns too little (Eq. 6.22, exact path).",
+      theme);
+  figure_row("β each side", shown_with_error(c.exact.beta_rad, shown_one->beta_stderr_rad, deg, 3),
+             "Type B: heading error gathered on each straight side (Eq. 6.26, exact path).", theme);
+  figure_row("Eb", shown_with_error(c.wheelbase_ratio, c.wheelbase_ratio_stderr, ratio, 5),
+             "Wheelbase, actual over nominal (Eq. 6.29).", theme);
+  figure_row("Ed", shown_with_error(c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, ratio, 5),
+             "Wheel diameters, right over left (Eq. 6.24).", theme);
   ImGui::Dummy({1, theme.px(2)});
   change_table(*shown_one, bench.actual, theme);
-  if (bench.rough) note("Squares cannot see a common scale: what a rough floor adds to both wheels goes into the base (Eq. 6.30).", theme);
+  if (bench.rough)
+    note("Squares cannot see a common scale: what a rough floor adds to both wheels goes into the base (Eq. 6.30).",
+         theme);
   one_direction_block(*shown_one, theme);
 }
 

@@ -1,4 +1,5 @@
-// The return errors of both directions in millimetres, as in Fig. 3.4 of the UMBmark report; before and after in one plot.
+// The return errors of both directions in millimetres, as in Fig. 3.4 of the UMBmark report; before and after in one
+// plot.
 #pragma once
 
 #include "ui/actions.h"

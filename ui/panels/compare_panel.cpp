@@ -25,15 +25,19 @@ struct ParameterName {
 };
 
 constexpr ParameterName kNames[] = {
-    {"wheel_radius_left_m", "radius L", "mm", 1e3, 3}, {"wheel_radius_right_m", "radius R", "mm", 1e3, 3},
-    {"wheelbase_m", "wheelbase", "mm", 1e3, 2},           {"truth_mounting.x_m", "mounted x", "mm", 1e3, 1},
-    {"truth_mounting.y_m", "mounted y", "mm", 1e3, 1},    {"truth_mounting.heading_rad", "turned", "°", kDegrees.per_si, 2},
+    {"wheel_radius_left_m", "radius L", "mm", 1e3, 3},
+    {"wheel_radius_right_m", "radius R", "mm", 1e3, 3},
+    {"wheelbase_m", "wheelbase", "mm", 1e3, 2},
+    {"truth_mounting.x_m", "mounted x", "mm", 1e3, 1},
+    {"truth_mounting.y_m", "mounted y", "mm", 1e3, 1},
+    {"truth_mounting.heading_rad", "turned", "°", kDegrees.per_si, 2},
     {"truth_mounting.time_offset_s", "truth late", "ms", 1e3, 1},
 };
 
 void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
   if (!ImGui::BeginTable("parameters", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.88f, 0.28f, 0.62f, 1.3f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  for (const float weight : {0.88f, 0.28f, 0.62f, 1.3f})
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TableNextColumn();
@@ -55,7 +59,8 @@ void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
     ImGui::TableNextColumn();
     text_right(shown(p.nominal, bare), theme.muted);
     ImGui::TableNextColumn();
-    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown", p.determined ? theme.ink : theme.muted);
+    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown",
+               p.determined ? theme.ink : theme.muted);
     if (!p.determined) tooltip("The recording holds no information on it; the nominal value stays.", theme);
   }
   ImGui::EndTable();
@@ -71,7 +76,10 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
   const std::string busy_words = busy ? "Busy: " + c.job + "." : "";
   heading("Recording", theme);
   if (!c.loaded) {
-    note("A recorded run is driven once more in the simulation by its own wheel rotation or commands. Where the two tracks part, the model of the vehicle is wrong.", theme);
+    note(
+        "A recorded run is driven once more in the simulation by its own wheel rotation or commands. Where the two "
+        "tracks part, the model of the vehicle is wrong.",
+        theme);
   } else {
     ImGui::TextUnformatted(fitted(c.name, width).c_str());
     tooltip(c.name + "\n" + c.provenance, theme);
@@ -84,34 +92,44 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
   ImGui::Dummy({1, theme.px(2)});
   ButtonLook open;
   open.primary = !c.loaded;
-  open.tip = "Open a recording: a CSV file with the columns that the documentation lists, or one of another format (Ctrl+O)";
+  open.tip =
+      "Open a recording: a CSV file with the columns that the documentation lists, or one of another format (Ctrl+O)";
   if (text_button(c.loaded ? "Open…" : "Open a recording…", theme, open, c.loaded ? half : width)) ask_for_file = true;
   if (c.loaded) ImGui::SameLine();
   ButtonLook record;
   record.enabled = !busy;
   record.why_disabled = busy_words;
-  record.tip = "Drive the scenario of Drive to its end and take what its encoders and the outside measurement recorded.";
-  if (text_button(c.loaded ? "Simulate one" : "Record a simulated run", theme, record, c.loaded ? half : width)) actions.push_back(RecordSimulatedRun{});
+  record.tip =
+      "Drive the scenario of Drive to its end and take what its encoders and the outside measurement recorded.";
+  if (text_button(c.loaded ? "Simulate one" : "Record a simulated run", theme, record, c.loaded ? half : width))
+    actions.push_back(RecordSimulatedRun{});
 
   if (!c.loaded)
     for (const std::string& path : c.example_files) {
       ButtonLook example;
       example.tip = path;
-      if (text_button(("Example: " + words_of_file(path)).c_str(), theme, example, width)) actions.push_back(OpenFile{path});
+      if (text_button(("Example: " + words_of_file(path)).c_str(), theme, example, width))
+        actions.push_back(OpenFile{path});
     }
 
   if (c.loaded) {
     heading("Replay with the vehicle", theme);
-    if (const auto choice = segmented("vehicle", {"nominal", "calibrated"}, int(c.vehicle), theme, width, c.calibrated ? 2 : 1)) {
+    if (const auto choice =
+            segmented("vehicle", {"nominal", "calibrated"}, int(c.vehicle), theme, width, c.calibrated ? 2 : 1)) {
       actions.push_back(ReplayWith{ReplayVehicle(*choice)});
     }
-    tooltip(c.calibrated ? "Which vehicle file the replay drives." : "Calibrate first: there is no calibrated vehicle yet.", theme);
+    tooltip(
+        c.calibrated ? "Which vehicle file the replay drives." : "Calibrate first: there is no calibrated vehicle yet.",
+        theme);
     ButtonLook calibrate;
     calibrate.primary = !c.calibrated && c.can_calibrate && !busy;
     calibrate.enabled = c.can_calibrate && !busy;
-    calibrate.tip = "Least squares over the whole recording: wheel radii, wheelbase and where the truth is mounted, each with its uncertainty.";
+    calibrate.tip =
+        "Least squares over the whole recording: wheel radii, wheelbase and where the truth is mounted, each with its "
+        "uncertainty.";
     calibrate.why_disabled = busy ? busy_words : c.why_not;
-    if (text_button("Calibrate from this recording", theme, calibrate, width)) actions.push_back(CalibrateFromRecording{});
+    if (text_button("Calibrate from this recording", theme, calibrate, width))
+      actions.push_back(CalibrateFromRecording{});
   }
   if (busy) {
     ImGui::Dummy({1, theme.px(4)});

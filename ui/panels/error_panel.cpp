@@ -8,7 +8,8 @@ namespace odolab::ui {
 
 namespace {
 
-void figure_table(const char* id, const Compare& c, const char* title, const ComparedTrack ReplayFigures::*which, ImU32 colour, const std::string& tip, const Theme& theme) {
+void figure_table(const char* id, const Compare& c, const char* title, const ComparedTrack ReplayFigures::*which,
+                  ImU32 colour, const std::string& tip, const Theme& theme) {
   ImGui::Dummy({1, theme.px(2)});
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   {
@@ -18,7 +19,8 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
   ImGui::PopStyleColor();
   tooltip(tip, theme);
   if (!ImGui::BeginTable(id, 3)) return;
-  for (const float weight : {1.05f, 1.0f, 1.0f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  for (const float weight : {1.05f, 1.0f, 1.0f})
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
   const auto column = [&](const std::optional<ReplayFigures>& f, auto text) -> std::string {
     if (!f || !((*f).*which).error) return "–";
     return text(*((*f).*which).error);
@@ -39,11 +41,16 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
   text_right("nominal", theme.muted);
   ImGui::TableNextColumn();
   text_right("calibrated", theme.muted);
-  row("over 1 m", "Position error gathered over one metre or one radian, from a true start: root mean square.", [](const TrackError& e) { return shown_length(e.position_rms_m); });
-  row("", "Heading error gathered over one metre or one radian, from a true start: root mean square.", [](const TrackError& e) { return shown(e.heading_rms_rad, kDegrees); });
-  row("at the end", "Position error at the end of the run.", [](const TrackError& e) { return shown_length(e.end_position_m); });
-  row("", "Heading error at the end of the run.", [](const TrackError& e) { return shown(e.end_heading_rad, kDegrees); });
-  row("largest", "Largest position error on the way.", [](const TrackError& e) { return shown_length(e.largest_position_m); });
+  row("over 1 m", "Position error gathered over one metre or one radian, from a true start: root mean square.",
+      [](const TrackError& e) { return shown_length(e.position_rms_m); });
+  row("", "Heading error gathered over one metre or one radian, from a true start: root mean square.",
+      [](const TrackError& e) { return shown(e.heading_rms_rad, kDegrees); });
+  row("at the end", "Position error at the end of the run.",
+      [](const TrackError& e) { return shown_length(e.end_position_m); });
+  row("", "Heading error at the end of the run.",
+      [](const TrackError& e) { return shown(e.end_heading_rad, kDegrees); });
+  row("largest", "Largest position error on the way.",
+      [](const TrackError& e) { return shown_length(e.largest_position_m); });
   ImGui::EndTable();
 }
 
@@ -52,7 +59,10 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
 void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
   if (!c.loaded) {
     heading("What you will see", theme);
-    note("The recorded truth in ink, the simulated track in orange dashes, dead reckoning in blue; their errors over time below, and two figures: the error gathered over one metre, and the one at the end.", theme);
+    note(
+        "The recorded truth in ink, the simulated track in orange dashes, dead reckoning in blue; their errors over "
+        "time below, and two figures: the error gathered over one metre, and the one at the end.",
+        theme);
     return;
   }
   heading("Gap of the simulation, now", theme);
@@ -60,15 +70,18 @@ void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
     {
       WithFont large(theme.large);
       ImGui::PushStyleColor(ImGuiCol_Text, theme.orange);
-      ImGui::TextUnformatted((shown_length(now.simulated_gap_m) + "   " + shown(now.simulated_gap_heading_rad, kDegrees)).c_str());
+      ImGui::TextUnformatted(
+          (shown_length(now.simulated_gap_m) + "   " + shown(now.simulated_gap_heading_rad, kDegrees)).c_str());
       ImGui::PopStyleColor();
     }
   } else {
     note("No truth at this time.", theme);
   }
   heading("Error against the recorded truth", theme);
-  figure_table("simulated", c, "simulation", &ReplayFigures::simulated, theme.orange, "The planar physics, its wheels driven as recorded.", theme);
-  figure_table("dead", c, "dead reckoning", &ReplayFigures::dead_reckoning, theme.blue, "The odometry formula on the same inputs (UMBmark report, Eqs. 2.1 to 2.6).", theme);
+  figure_table("simulated", c, "simulation", &ReplayFigures::simulated, theme.orange,
+               "The planar physics, its wheels driven as recorded.", theme);
+  figure_table("dead", c, "dead reckoning", &ReplayFigures::dead_reckoning, theme.blue,
+               "The odometry formula on the same inputs (UMBmark report, Eqs. 2.1 to 2.6).", theme);
   if (!c.calibrated && c.can_calibrate) {
     ImGui::Dummy({1, theme.px(4)});
     note("Calibrate from this recording, on the left, to see what part of the error is a wrong parameter.", theme);

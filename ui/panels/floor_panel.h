@@ -14,6 +14,7 @@ struct FloorPanelState {
 };
 
 // `place` is where a new thing is put down, e.g. the middle of the view.
-Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, FloorPanelState& state, Vec2 place, const Theme& theme);
+Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, FloorPanelState& state, Vec2 place,
+                    const Theme& theme);
 
 }  // namespace odolab::ui

@@ -20,8 +20,10 @@ void tool_buttons(FloorViewState& state, bool editable, const Theme& theme) {
     const char* tip;
   };
   static const Tool kTools[] = {
-      {FloorTool::pointer, Icon::pointer, "pointer", "Move things and the view. Drag a thing to move it, the floor to pan; the wheel zooms."},
-      {FloorTool::bump, Icon::cable, "cable", "Put a cable on the floor: click where it shall lie. A wheel that climbs it turns further than it travels."},
+      {FloorTool::pointer, Icon::pointer, "pointer",
+       "Move things and the view. Drag a thing to move it, the floor to pan; the wheel zooms."},
+      {FloorTool::bump, Icon::cable, "cable",
+       "Put a cable on the floor: click where it shall lie. A wheel that climbs it turns further than it travels."},
       {FloorTool::slip_disc, Icon::disc, "disc", "Put down a round slippery patch: click where."},
       {FloorTool::slip_rectangle, Icon::rectangle, "rectangle", "Put down a rectangular slippery patch: click where."},
   };
@@ -72,7 +74,8 @@ void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme)
   ImGui::SameLine(0, theme.px(14));
   ButtonLook exaggerate;
   exaggerate.toggled = state.exaggerate;
-  exaggerate.tip = "Draw the deviation of the " + scene.deviating_name + " track from the " + scene.reference_name + " one larger than it is, by the factor beside this button";
+  exaggerate.tip = "Draw the deviation of the " + scene.deviating_name + " track from the " + scene.reference_name +
+                   " one larger than it is, by the factor beside this button";
   if (icon_button("exaggerate", Icon::exaggerate, theme, exaggerate)) state.exaggerate = !state.exaggerate;
   ImGui::SameLine(0, theme.px(6));
   NumberField factor{"##factor", {"×", 1.0, 0, 0.2}, 2.0, 200.0, "How many times larger the deviation is drawn."};
@@ -120,7 +123,8 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
     if (!t.label.empty()) total += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
   if (planned) total += swatch + theme.px(6) + ImGui::CalcTextSize(planned_label).x + gap;
   if (total == 0.0f) return;
-  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total - gap + theme.px(6), y + line + theme.px(4)}, faded(theme.paper, 0.85f), theme.px(4));
+  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total - gap + theme.px(6), y + line + theme.px(4)},
+                     faded(theme.paper, 0.85f), theme.px(4));
   const float middle = y + 0.5f * line;
   for (const TrackLine& t : scene.tracks) {
     if (t.label.empty()) continue;
@@ -129,14 +133,16 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
     x += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
   }
   if (planned) {
-    dashed_line(draw, {{x, middle}, {x + swatch, middle}}, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2), theme.px(4));
+    dashed_line(draw, {{x, middle}, {x + swatch, middle}}, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2),
+                theme.px(4));
     draw.AddText({x + swatch + theme.px(6), y}, theme.muted, planned_label);
   }
   if (state.exaggerate) {
     const std::string text = "deviation drawn " + times(state.exaggeration);
     const float w = ImGui::CalcTextSize(text.c_str()).x;
     const ImVec2 at{camera.low.x + theme.px(12), y + line + theme.px(10)};
-    draw.AddRectFilled({at.x - theme.px(6), at.y - theme.px(3)}, {at.x + w + theme.px(6), at.y + line + theme.px(3)}, theme.orange, theme.px(4));
+    draw.AddRectFilled({at.x - theme.px(6), at.y - theme.px(3)}, {at.x + w + theme.px(6), at.y + line + theme.px(3)},
+                       theme.orange, theme.px(4));
     draw.AddText(at, theme.dark ? theme.on_ink : theme.paper, text.c_str());
   }
 }
@@ -144,11 +150,14 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
 void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
   const Camera& camera = state.camera;
   const double factor = state.exaggerate ? state.exaggeration : 1.0;
-  if (state.show_grid) draw_grid(draw, camera, theme);
-  else draw.AddRectFilled(camera.low, camera.high, theme.paper);
+  if (state.show_grid)
+    draw_grid(draw, camera, theme);
+  else
+    draw.AddRectFilled(camera.low, camera.high, theme.paper);
   if (scene.floor && state.show_things) {
     for (std::size_t i = 0; i < scene.floor->slip_zones.size(); ++i)
-      draw_slip_zone(draw, camera, scene.floor->slip_zones[i], state.selected == FloorThing{ThingKind::slip_zone, i}, theme);
+      draw_slip_zone(draw, camera, scene.floor->slip_zones[i], state.selected == FloorThing{ThingKind::slip_zone, i},
+                     theme);
     for (std::size_t i = 0; i < scene.floor->bumps.size(); ++i)
       draw_bump(draw, camera, scene.floor->bumps[i], state.selected == FloorThing{ThingKind::bump, i}, theme);
   }
@@ -171,8 +180,10 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
   if (scene.tracks.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
     const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());
-    const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)), std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
-    draw.AddRectFilled({at.x - theme.px(10), at.y - theme.px(6)}, {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
+    const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)),
+                    std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
+    draw.AddRectFilled({at.x - theme.px(10), at.y - theme.px(6)},
+                       {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
     draw.AddText(at, theme.muted, scene.empty_text.c_str());
   }
   legend(draw, scene, state, theme);
@@ -180,7 +191,8 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   if (state.show_lens) {
     const float side = lens_side(camera, theme);
     const float margin = theme.px(14), below = margin + 2.0f * ImGui::GetTextLineHeight() + theme.px(16);
-    draw_lens(draw, {camera.high.x - margin - side, camera.high.y - below - side}, {camera.high.x - margin, camera.high.y - below}, scene, camera.px_per_m, theme);
+    draw_lens(draw, {camera.high.x - margin - side, camera.high.y - below - side},
+              {camera.high.x - margin, camera.high.y - below}, scene, camera.px_per_m, theme);
   }
 }
 
@@ -206,8 +218,10 @@ Actions context_menu(const FloorScene& scene, FloorViewState& state) {
       state.selected.reset();
     }
     if (ImGui::MenuItem("Put a cable here")) append(actions, put_down(scene, state, FloorTool::bump, state.menu_at));
-    if (ImGui::MenuItem("Put a slippery disc here")) append(actions, put_down(scene, state, FloorTool::slip_disc, state.menu_at));
-    if (ImGui::MenuItem("Put a slippery rectangle here")) append(actions, put_down(scene, state, FloorTool::slip_rectangle, state.menu_at));
+    if (ImGui::MenuItem("Put a slippery disc here"))
+      append(actions, put_down(scene, state, FloorTool::slip_disc, state.menu_at));
+    if (ImGui::MenuItem("Put a slippery rectangle here"))
+      append(actions, put_down(scene, state, FloorTool::slip_rectangle, state.menu_at));
     ImGui::Separator();
     if (!scene.vehicles.empty() && ImGui::MenuItem("Push the vehicle toward here")) {
       const Vec2 way = state.menu_at - scene.vehicles.front().pose.position();
@@ -235,7 +249,8 @@ Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme
   }
   if (hovered && ImGui::IsMouseClicked(1)) {
     if (editable)
-      if (const auto grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected)) state.selected = grasp->thing;
+      if (const auto grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected))
+        state.selected = grasp->thing;
     state.menu_at = camera.floor(mouse);
     ImGui::OpenPopup("floor menu");
   }
@@ -266,7 +281,8 @@ Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme
     state.grasp.reset();
     state.panning = false;
   }
-  if (hovered && state.tool == FloorTool::pointer && ImGui::IsMouseDoubleClicked(0) && !state.grasp) state.fit_next = true;
+  if (hovered && state.tool == FloorTool::pointer && ImGui::IsMouseDoubleClicked(0) && !state.grasp)
+    state.fit_next = true;
   if (hovered && editable && state.tool == FloorTool::pointer && !state.panning) {
     if (const auto grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected))
       ImGui::SetMouseCursor(grasp->grip == Grip::body ? ImGuiMouseCursor_Hand : ImGuiMouseCursor_ResizeAll);

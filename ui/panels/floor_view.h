@@ -12,8 +12,8 @@ enum class FloorTool { pointer, bump, slip_disc, slip_rectangle };
 
 struct FloorViewState {
   Camera camera;
-  bool fit_next = true;        // fits everything into sight at the next chance
-  bool touched = false;        // a person has panned or zoomed: the view stays as it is
+  bool fit_next = true;  // fits everything into sight at the next chance
+  bool touched = false;  // a person has panned or zoomed: the view stays as it is
   bool follow = false;
   bool show_lens = true;
   bool show_grid = true;
@@ -25,7 +25,7 @@ struct FloorViewState {
   FloorTool tool = FloorTool::pointer;
   std::optional<FloorThing> selected;
   std::optional<Grasp> grasp;
-  Vec2 grasp_from;             // where on the floor the drag was last
+  Vec2 grasp_from;  // where on the floor the drag was last
   bool gesture_began = false;
   bool panning = false;
   Vec2 menu_at;

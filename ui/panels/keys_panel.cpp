@@ -32,7 +32,9 @@ void keys_panel(bool& open, const Theme& theme) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(22), theme.px(18)));
-  ImGui::Begin("Keys", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
+  ImGui::Begin("Keys", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoMove);
   {
     WithFont strong(theme.strong);
     ImGui::TextUnformatted("Keys");
@@ -46,7 +48,8 @@ void keys_panel(bool& open, const Theme& theme) {
     ImGui::TextUnformatted(k.does);
   }
   ImGui::Dummy({1, theme.px(2)});
-  note("Drop a scenario or a recording on the window to open it. In plots: wheel and drag zoom, double click fits.", theme);
+  note("Drop a scenario or a recording on the window to open it. In plots: wheel and drag zoom, double click fits.",
+       theme);
   if (text_button("Close", theme, {true, false, true, "", ""})) open = false;
   if (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) open = false;
   ImGui::End();

@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::size_t kMost = 4;  // the newest; older ones come up as these are dismissed
 
-float text_width(float width, const Theme& theme) { return width - theme.px(24) - ImGui::GetFrameHeight() * 1.15f - theme.px(28); }
+float text_width(float width, const Theme& theme) {
+  return width - theme.px(24) - ImGui::GetFrameHeight() * 1.15f - theme.px(28);
+}
 
 float row_height(const Message& message, float width, const Theme& theme) {
   const float text = ImGui::CalcTextSize(message.text.c_str(), nullptr, false, text_width(width, theme)).y;
@@ -21,7 +23,8 @@ float row_height(const Message& message, float width, const Theme& theme) {
 
 float message_bar_height(const std::vector<Message>& messages, float width, const Theme& theme) {
   float height = 0.0f;
-  for (std::size_t i = messages.size() - std::min(kMost, messages.size()); i < messages.size(); ++i) height += row_height(messages[i], width, theme);
+  for (std::size_t i = messages.size() - std::min(kMost, messages.size()); i < messages.size(); ++i)
+    height += row_height(messages[i], width, theme);
   return height;
 }
 
@@ -39,8 +42,10 @@ Actions message_bar(const std::vector<Message>& messages, const Theme& theme) {
     draw.AddRectFilled({at.x, y}, {at.x + theme.px(4), y + height}, front);
     draw.AddLine({at.x, y + height - 1}, {at.x + width, y + height - 1}, theme.line);
     const float text = ImGui::CalcTextSize(m.text.c_str(), nullptr, false, text_width(width, theme)).y;
-    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + theme.px(16), y + 0.5f * (height - text)}, front, m.text.c_str(), nullptr, text_width(width, theme));
-    ImGui::SetCursorScreenPos({at.x + width - ImGui::GetFrameHeight() * 1.15f - theme.px(10), y + 0.5f * (height - ImGui::GetFrameHeight())});
+    draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + theme.px(16), y + 0.5f * (height - text)}, front,
+                 m.text.c_str(), nullptr, text_width(width, theme));
+    ImGui::SetCursorScreenPos(
+        {at.x + width - ImGui::GetFrameHeight() * 1.15f - theme.px(10), y + 0.5f * (height - ImGui::GetFrameHeight())});
     ImGui::PushID(int(i));
     ButtonLook look;
     look.tip = "Dismiss";

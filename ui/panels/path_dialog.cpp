@@ -6,7 +6,8 @@
 
 namespace odolab::ui {
 
-std::string path_dialog(const char* title, const char* button, bool& open, PathDialog& state, const std::vector<std::string>& proposals, const Theme& theme) {
+std::string path_dialog(const char* title, const char* button, bool& open, PathDialog& state,
+                        const std::vector<std::string>& proposals, const Theme& theme) {
   std::string chosen;
   if (!open) {
     state.was_open = false;
@@ -18,7 +19,9 @@ std::string path_dialog(const char* title, const char* button, bool& open, PathD
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(18), theme.px(16)));
-  ImGui::Begin(title, nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
+  ImGui::Begin(title, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoMove);
   {
     WithFont strong(theme.strong);
     ImGui::TextUnformatted(title);
@@ -26,7 +29,8 @@ std::string path_dialog(const char* title, const char* button, bool& open, PathD
   if (!state.was_open) ImGui::SetKeyboardFocusHere();
   state.was_open = true;
   ImGui::SetNextItemWidth(-1.0f);
-  bool confirmed = ImGui::InputTextWithHint("##path", "path of the file", state.path, sizeof state.path, ImGuiInputTextFlags_EnterReturnsTrue);
+  bool confirmed = ImGui::InputTextWithHint("##path", "path of the file", state.path, sizeof state.path,
+                                            ImGuiInputTextFlags_EnterReturnsTrue);
   for (const std::string& p : proposals)
     if (ImGui::Selectable(fitted(p, ImGui::GetContentRegionAvail().x).c_str())) {
       std::snprintf(state.path, sizeof state.path, "%s", p.c_str());

@@ -14,6 +14,7 @@ struct PathDialog {
 };
 
 // Returns the path once a person has confirmed it, and closes. `proposals` are offered below the field.
-std::string path_dialog(const char* title, const char* button, bool& open, PathDialog& state, const std::vector<std::string>& proposals, const Theme& theme);
+std::string path_dialog(const char* title, const char* button, bool& open, PathDialog& state,
+                        const std::vector<std::string>& proposals, const Theme& theme);
 
 }  // namespace odolab::ui

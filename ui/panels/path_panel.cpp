@@ -8,12 +8,18 @@ namespace {
 
 Path default_path(int kind) {
   switch (kind) {
-    case 0: return SquarePath{};
-    case 1: return StraightPath{};
-    case 2: return FigureEightPath{};
-    case 3: return WaypointPath{{{2.0, 0.0}, {2.0, 2.0}, {0.0, 1.0}, {0.0, 0.0}}};
-    case 4: return WheelSpeedPath{{{5.0, 2.0, 3.0}, {5.0, 3.0, 2.0}}, 0.5};
-    default: return HandPath{};
+    case 0:
+      return SquarePath{};
+    case 1:
+      return StraightPath{};
+    case 2:
+      return FigureEightPath{};
+    case 3:
+      return WaypointPath{{{2.0, 0.0}, {2.0, 2.0}, {0.0, 1.0}, {0.0, 0.0}}};
+    case 4:
+      return WheelSpeedPath{{{5.0, 2.0, 3.0}, {5.0, 3.0, 2.0}}, 0.5};
+    default:
+      return HandPath{};
   }
 }
 
@@ -22,9 +28,13 @@ struct PathFields {
   const Theme& theme;
 
   Edited operator()(SquarePath& p) const {
-    Edited result = number_row("Side", {"##side", kMetres, 0.1, 1000.0, "Length of a side; the UMBmark square has 4 m (section 3 of the report)."}, p.side_m, theme);
+    Edited result = number_row(
+        "Side",
+        {"##side", kMetres, 0.1, 1000.0, "Length of a side; the UMBmark square has 4 m (section 3 of the report)."},
+        p.side_m, theme);
     const int way = p.clockwise ? 1 : 0;
-    if (const auto choice = segmented("way", {"counter-clockwise", "clockwise"}, way, theme, ImGui::GetContentRegionAvail().x)) {
+    if (const auto choice =
+            segmented("way", {"counter-clockwise", "clockwise"}, way, theme, ImGui::GetContentRegionAvail().x)) {
       p.clockwise = *choice == 1;
       result = Edited::done;
     }
@@ -37,7 +47,8 @@ struct PathFields {
     return result;
   }
   Edited operator()(FigureEightPath& p) const {
-    Edited result = number_row("Radius", {"##radius", kMetres, 0.1, 100.0, "Radius of each circle of the eight."}, p.radius_m, theme);
+    Edited result = number_row("Radius", {"##radius", kMetres, 0.1, 100.0, "Radius of each circle of the eight."},
+                               p.radius_m, theme);
     return more(result, count_row("Loops", "##loops", p.loops, 1, 1000, "How often the eight is driven.", theme));
   }
   Edited operator()(WaypointPath& p) const {
@@ -47,9 +58,11 @@ struct PathFields {
       ImGui::PushID(int(i));
       const float width = ImGui::GetContentRegionAvail().x, gap = ImGui::GetStyle().ItemSpacing.x;
       const float field = 0.5f * (width - ImGui::GetFrameHeight() * 1.15f - 2.0f * gap);
-      result = more(result, number_field({"##x", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "x of this point"}, p.points[i].x_m, field, theme));
+      result = more(result, number_field({"##x", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "x of this point"}, p.points[i].x_m,
+                                         field, theme));
       ImGui::SameLine();
-      result = more(result, number_field({"##y", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "y of this point"}, p.points[i].y_m, field, theme));
+      result = more(result, number_field({"##y", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "y of this point"}, p.points[i].y_m,
+                                         field, theme));
       ImGui::SameLine();
       ButtonLook look;
       look.enabled = p.points.size() > 1;
@@ -70,22 +83,27 @@ struct PathFields {
     return result;
   }
   Edited operator()(WheelSpeedPath& p) const {
-    Edited result = number_row("Ramp", {"##ramp", kSeconds, 0.0, 60.0, "Time over which each new speed is reached."}, p.ramp_s, theme);
+    Edited result = number_row("Ramp", {"##ramp", kSeconds, 0.0, 60.0, "Time over which each new speed is reached."},
+                               p.ramp_s, theme);
     for (std::size_t i = 0; i < p.phases.size(); ++i) {
       ImGui::PushID(int(i));
       const float third = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
-      result = more(result, number_field({"##t", {"s", 1.0, 1, 0.05}, 0.05, 1e5, "How long these speeds are held."}, p.phases[i].duration_s, third, theme));
+      result = more(result, number_field({"##t", {"s", 1.0, 1, 0.05}, 0.05, 1e5, "How long these speeds are held."},
+                                         p.phases[i].duration_s, third, theme));
       ImGui::SameLine();
-      result = more(result, number_field({"##l", {"rad/s", 1.0, 1, 0.02}, -100.0, 100.0, "Left wheel."}, p.phases[i].left_radps, third, theme));
+      result = more(result, number_field({"##l", {"rad/s", 1.0, 1, 0.02}, -100.0, 100.0, "Left wheel."},
+                                         p.phases[i].left_radps, third, theme));
       ImGui::SameLine();
-      result = more(result, number_field({"##r", {"rad/s", 1.0, 1, 0.02}, -100.0, 100.0, "Right wheel."}, p.phases[i].right_radps, third, theme));
+      result = more(result, number_field({"##r", {"rad/s", 1.0, 1, 0.02}, -100.0, 100.0, "Right wheel."},
+                                         p.phases[i].right_radps, third, theme));
       ImGui::PopID();
     }
     return result;
   }
   Edited operator()(HandPath& p) const {
     note("Drive with the arrow keys or W A S D.", theme);
-    return number_row("Longest", {"##longest", {"s", 1.0, 0, 1.0}, 1.0, 36000.0, "The run ends after this time."}, p.duration_s, theme);
+    return number_row("Longest", {"##longest", {"s", 1.0, 0, 1.0}, 1.0, 36000.0, "The run ends after this time."},
+                      p.duration_s, theme);
   }
   Edited operator()(ReplayPath& p) const {
     note("As recorded in " + p.recording, theme);
@@ -94,17 +112,43 @@ struct PathFields {
 };
 
 Edited driving_fields(Scenario& s, const Theme& theme) {
-  Edited result = number_row("Speed", {"##speed", kSpeed, 0.01, 10.0, "Speed on straight lines."}, s.driving.speed_mps, theme);
-  result = more(result, number_row("Turn rate", {"##turn", kTurnRate, 0.01, 20.0, "Turn rate on the spot."}, s.driving.turn_rate_radps, theme));
-  result = more(result, number_row("Acceleration", {"##acceleration", kAcceleration, 0.005, 50.0, "How quickly it gains and loses speed."}, s.driving.acceleration_mps2, theme));
-  return more(result, number_row("Turn accel.", {"##turnacc", kTurnAcceleration, 0.01, 200.0, "How quickly it gains and loses turn rate."}, s.driving.turn_acceleration_radps2, theme));
+  Edited result =
+      number_row("Speed", {"##speed", kSpeed, 0.01, 10.0, "Speed on straight lines."}, s.driving.speed_mps, theme);
+  result = more(result, number_row("Turn rate", {"##turn", kTurnRate, 0.01, 20.0, "Turn rate on the spot."},
+                                   s.driving.turn_rate_radps, theme));
+  result =
+      more(result, number_row("Acceleration",
+                              {"##acceleration", kAcceleration, 0.005, 50.0, "How quickly it gains and loses speed."},
+                              s.driving.acceleration_mps2, theme));
+  return more(result,
+              number_row("Turn accel.",
+                         {"##turnacc", kTurnAcceleration, 0.01, 200.0, "How quickly it gains and loses turn rate."},
+                         s.driving.turn_acceleration_radps2, theme));
 }
 
 Edited sensor_fields(Scenario& s, const Theme& theme) {
-  Edited result = number_row("Encoders every", {"##encoders", kMilliseconds, 0.001, 1.0, "The encoders are read, and odometry and the driver run, this often."}, s.sensors.encoder_period_s, theme);
-  result = more(result, number_row("Truth every", {"##truth", kMilliseconds, 0.0, 10.0, "Outside measurement of the pose; 0: only at the start and the end, as with the report's sonar corner."}, s.sensors.truth_period_s, theme));
-  result = more(result, number_row("Truth noise", {"##noise", {"mm", 1e3, 1, 0.02}, 0.0, 1.0, "Standard deviation of the measured position; the report's sonar corner has 2 mm."}, s.sensors.truth_position_noise_m, theme));
-  result = more(result, number_row("… heading", {"##heading", kDegrees, 0.0, 1.0, "Standard deviation of the measured heading; the report's sonar corner has 0.4°."}, s.sensors.truth_heading_noise_rad, theme));
+  Edited result = number_row(
+      "Encoders every",
+      {"##encoders", kMilliseconds, 0.001, 1.0, "The encoders are read, and odometry and the driver run, this often."},
+      s.sensors.encoder_period_s, theme);
+  result = more(
+      result,
+      number_row(
+          "Truth every",
+          {"##truth", kMilliseconds, 0.0, 10.0,
+           "Outside measurement of the pose; 0: only at the start and the end, as with the report's sonar corner."},
+          s.sensors.truth_period_s, theme));
+  result = more(result, number_row("Truth noise",
+                                   {"##noise",
+                                    {"mm", 1e3, 1, 0.02},
+                                    0.0,
+                                    1.0,
+                                    "Standard deviation of the measured position; the report's sonar corner has 2 mm."},
+                                   s.sensors.truth_position_noise_m, theme));
+  result = more(result, number_row("… heading",
+                                   {"##heading", kDegrees, 0.0, 1.0,
+                                    "Standard deviation of the measured heading; the report's sonar corner has 0.4°."},
+                                   s.sensors.truth_heading_noise_rad, theme));
   return result;
 }
 
@@ -118,7 +162,10 @@ Actions path_panel(Scenario& draft, bool& editing, const Theme& theme) {
     ImGui::SetNextItemWidth(-1.0f);
     int kind = int(draft.path.index());
     const bool replay = std::holds_alternative<ReplayPath>(draft.path);
-    if (ImGui::Combo("##kind", &kind, replay ? "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0Replay\0" : "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0") && kind < 6) {
+    if (ImGui::Combo("##kind", &kind,
+                     replay ? "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0Replay\0"
+                            : "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0") &&
+        kind < 6) {
       draft.path = default_path(kind);
       if (kind != 0) draft.benchmark.reset();
       result = Edited::done;
@@ -128,9 +175,12 @@ Actions path_panel(Scenario& draft, bool& editing, const Theme& theme) {
   }
   if (section("Sensors and run", theme, false)) {
     result = more(result, sensor_fields(draft, theme));
-    result = more(result, number_row("Time step", {"##step", kMilliseconds, 0.0001, 0.01, "Step of the physics."}, draft.step_s, theme));
+    result = more(result, number_row("Time step", {"##step", kMilliseconds, 0.0001, 0.01, "Step of the physics."},
+                                     draft.step_s, theme));
     double seed = double(draft.seed);
-    const Edited e = number_row("Seed", {"##seed", {"", 1.0, 0, 0.1}, 0.0, 1e9, "The same scenario and seed give the same run, bit for bit."}, seed, theme);
+    const Edited e = number_row(
+        "Seed", {"##seed", {"", 1.0, 0, 0.1}, 0.0, 1e9, "The same scenario and seed give the same run, bit for bit."},
+        seed, theme);
     draft.seed = std::uint64_t(seed);
     result = more(result, e);
   }

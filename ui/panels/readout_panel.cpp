@@ -77,9 +77,12 @@ void wheel_table(const Readout& r, const Theme& theme) {
     cell(right, theme.ink);
   };
   const Unit mmps{"mm/s", 1e3, 1, 0.0}, newton{"N", 1.0, 1, 0.0};
-  row("speed", shown(l.speed_radps * r.wheel_radius_left_m, mmps), shown(w.speed_radps * r.wheel_radius_right_m, mmps), "Of the tread: wheel speed times its true radius.");
-  row("slip", shown(l.slip_speed_mps, mmps, 2), shown(w.slip_speed_mps, mmps, 2), "Tread against floor, along the wheel.");
-  row("traction", shown(l.traction_n, newton), shown(w.traction_n, newton), "Force of the floor on the wheel, along it.");
+  row("speed", shown(l.speed_radps * r.wheel_radius_left_m, mmps), shown(w.speed_radps * r.wheel_radius_right_m, mmps),
+      "Of the tread: wheel speed times its true radius.");
+  row("slip", shown(l.slip_speed_mps, mmps, 2), shown(w.slip_speed_mps, mmps, 2),
+      "Tread against floor, along the wheel.");
+  row("traction", shown(l.traction_n, newton), shown(w.traction_n, newton),
+      "Force of the floor on the wheel, along it.");
   const auto on = [](const WheelState& s) { return s.on_bump ? "on a bump" : s.in_slip_zone ? "slippery" : "floor"; };
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -98,8 +101,9 @@ Actions readout_panel(const Readout& r, const Theme& theme) {
   big_figure(shown(r.gap_m, kMillimetres), "position", theme.orange, half, theme);
   ImGui::SameLine(0, 0);
   big_figure(shown(r.gap_heading_rad, kDegrees), "heading", theme.orange, half, theme);
-  note(shown(std::abs(r.gap_along_m), kMillimetres) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") + shown(std::abs(r.gap_across_m), kMillimetres) +
-           (r.gap_across_m >= 0.0 ? " left" : " right"), theme);
+  note(shown(std::abs(r.gap_along_m), kMillimetres) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") +
+           shown(std::abs(r.gap_across_m), kMillimetres) + (r.gap_across_m >= 0.0 ? " left" : " right"),
+       theme);
   heading("Poses", theme);
   pose_table(r, theme);
   heading("Wheels", theme);
@@ -107,8 +111,10 @@ Actions readout_panel(const Readout& r, const Theme& theme) {
   ImGui::Dummy({1, theme.px(2)});
   ButtonLook hand;
   hand.toggled = r.by_hand;
-  hand.tip = r.by_hand ? "Back to the path that was driven before." : "Take the wheel: drive with the arrow keys or W A S D.";
-  if (text_button(r.by_hand ? "Driven by hand: arrow keys" : "Drive by hand", theme, hand, -1.0f)) actions.push_back(DriveByHandInstead{!r.by_hand});
+  hand.tip =
+      r.by_hand ? "Back to the path that was driven before." : "Take the wheel: drive with the arrow keys or W A S D.";
+  if (text_button(r.by_hand ? "Driven by hand: arrow keys" : "Drive by hand", theme, hand, -1.0f))
+    actions.push_back(DriveByHandInstead{!r.by_hand});
   return actions;
 }
 

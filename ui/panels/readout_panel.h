@@ -16,11 +16,11 @@ struct Readout {
   // The gap, measured by whoever owns the run: estimated against true.
   double gap_m = 0.0;
   double gap_heading_rad = 0.0;
-  double gap_along_m = 0.0;    // ahead of the true pose
-  double gap_across_m = 0.0;   // left of it
+  double gap_along_m = 0.0;   // ahead of the true pose
+  double gap_across_m = 0.0;  // left of it
   double wheel_radius_left_m = 0.075;
   double wheel_radius_right_m = 0.075;
-  bool by_hand = false;        // the arrow keys drive
+  bool by_hand = false;  // the arrow keys drive
 };
 
 Actions readout_panel(const Readout& readout, const Theme& theme);

@@ -31,8 +31,10 @@ void file_menu(const TopBar& bar, WindowChoices& choices, Actions& actions) {
 
 void simulation_menu(const TopBar& bar, Actions& actions) {
   if (ImGui::MenuItem(bar.playing ? "Pause" : "Play", "Space")) {
-    if (bar.playing) actions.push_back(Pause{});
-    else actions.push_back(Play{});
+    if (bar.playing)
+      actions.push_back(Pause{});
+    else
+      actions.push_back(Play{});
   }
   if (ImGui::MenuItem("Step forward", "Right")) actions.push_back(StepForward{});
   if (ImGui::MenuItem("Step back", "Left")) actions.push_back(StepBack{});
@@ -47,7 +49,8 @@ void simulation_menu(const TopBar& bar, Actions& actions) {
 
 void view_menu(WindowChoices& choices) {
   if (ImGui::MenuItem("Fit the floor", "F")) choices.fit_view = true;
-  if (ImGui::MenuItem("Hide the interface", "H", choices.hide_interface)) choices.hide_interface = !choices.hide_interface;
+  if (ImGui::MenuItem("Hide the interface", "H", choices.hide_interface))
+    choices.hide_interface = !choices.hide_interface;
   ImGui::Separator();
   if (ImGui::MenuItem("Light", nullptr, !choices.dark)) choices.dark = false;
   if (ImGui::MenuItem("Dark", nullptr, choices.dark)) choices.dark = true;
@@ -77,7 +80,8 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
     const char* name;
     const char* popup;
   };
-  static const Menu kMenus[] = {{"File", "file"}, {"Edit", "edit"}, {"Simulation", "simulation"}, {"View", "view"}, {"Help", "help"}};
+  static const Menu kMenus[] = {
+      {"File", "file"}, {"Edit", "edit"}, {"Simulation", "simulation"}, {"View", "view"}, {"Help", "help"}};
   float x = theme.px(84);
   for (const Menu& menu : kMenus) {
     ImGui::SetCursorPos({x, y});
@@ -88,13 +92,19 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 1.0f);
     if (ImGui::BeginPopup(menu.popup)) {
       switch (menu.name[0]) {
-        case 'F': file_menu(bar, choices, actions); break;
+        case 'F':
+          file_menu(bar, choices, actions);
+          break;
         case 'E':
           if (ImGui::MenuItem("Undo", "Ctrl+Z", false, bar.can_undo)) actions.push_back(Undo{});
           if (ImGui::MenuItem("Redo", "Ctrl+Y", false, bar.can_redo)) actions.push_back(Redo{});
           break;
-        case 'S': simulation_menu(bar, actions); break;
-        case 'V': view_menu(choices); break;
+        case 'S':
+          simulation_menu(bar, actions);
+          break;
+        case 'V':
+          view_menu(choices);
+          break;
         default:
           if (ImGui::MenuItem("Keys", "F1")) choices.show_keys = true;
       }

@@ -12,7 +12,7 @@ namespace odolab::ui {
 // What the menu shows and what it switches by itself.
 struct TopBar {
   Mode mode = Mode::drive;
-  std::string title;                      // of what is loaded
+  std::string title;  // of what is loaded
   bool playing = false;
   bool can_undo = false, can_redo = false;
   std::vector<std::string> recent_files;
@@ -22,13 +22,13 @@ struct TopBar {
 // Switches of the window itself; the caller keeps them.
 struct WindowChoices {
   bool dark = false;
-  double scale = 0.0;      // 0: as the monitor says
+  double scale = 0.0;  // 0: as the monitor says
   bool show_keys = false;
   bool hide_interface = false;
   bool show_open = false;
   bool show_save_scenario = false;
   bool show_save_recording = false;
-  bool fit_view = false;   // set to fit the floor at the next chance
+  bool fit_view = false;  // set to fit the floor at the next chance
 };
 
 Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme);

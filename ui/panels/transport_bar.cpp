@@ -10,7 +10,8 @@ namespace odolab::ui {
 namespace {
 
 void transport_buttons(const Transport& t, const Theme& theme, Actions& actions) {
-  const auto button = [&](const char* id, Icon icon, const char* tip, bool enabled, const char* why, bool primary = false) {
+  const auto button = [&](const char* id, Icon icon, const char* tip, bool enabled, const char* why,
+                          bool primary = false) {
     ButtonLook look;
     look.enabled = t.enabled && enabled;
     look.primary = primary;
@@ -21,16 +22,22 @@ void transport_buttons(const Transport& t, const Theme& theme, Actions& actions)
     return clicked;
   };
   if (button("restart", Icon::restart, "Restart from the beginning (R)", true, "")) actions.push_back(Restart{});
-  if (button("first", Icon::to_start, "To the start (Home)", t.time_s > 0.0, "This is the start.")) actions.push_back(ToStart{});
-  if (button("back", Icon::step_back, "Back by one picture (Left)", t.can_step_back, "This is the start.")) actions.push_back(StepBack{});
+  if (button("first", Icon::to_start, "To the start (Home)", t.time_s > 0.0, "This is the start."))
+    actions.push_back(ToStart{});
+  if (button("back", Icon::step_back, "Back by one picture (Left)", t.can_step_back, "This is the start."))
+    actions.push_back(StepBack{});
   const bool over = t.finished && t.time_s >= t.latest_s;
-  if (button("play", t.playing ? Icon::pause : Icon::play, t.playing ? "Pause (Space)" : "Play (Space)", t.playing || !over,
-             "The run is over: restart it, or go back in time.", true)) {
-    if (t.playing) actions.push_back(Pause{});
-    else actions.push_back(Play{});
+  if (button("play", t.playing ? Icon::pause : Icon::play, t.playing ? "Pause (Space)" : "Play (Space)",
+             t.playing || !over, "The run is over: restart it, or go back in time.", true)) {
+    if (t.playing)
+      actions.push_back(Pause{});
+    else
+      actions.push_back(Play{});
   }
-  if (button("forward", Icon::step_forward, "Forward by one picture, 20 ms (Right)", !over, "The run is over.")) actions.push_back(StepForward{});
-  if (button("last", Icon::to_end, "To the latest (End)", t.time_s < t.latest_s, "This is the latest.")) actions.push_back(ToEnd{});
+  if (button("forward", Icon::step_forward, "Forward by one picture, 20 ms (Right)", !over, "The run is over."))
+    actions.push_back(StepForward{});
+  if (button("last", Icon::to_end, "To the latest (End)", t.time_s < t.latest_s, "This is the latest."))
+    actions.push_back(ToEnd{});
 }
 
 void speed_choice(const Transport& t, const Theme& theme, Actions& actions) {
@@ -39,13 +46,16 @@ void speed_choice(const Transport& t, const Theme& theme, Actions& actions) {
   const std::string now = t.speed == 0.0 ? "fastest" : times(t.speed);
   if (ImGui::BeginCombo("##speed", now.c_str())) {
     for (const double s : kSpeeds)
-      if (ImGui::Selectable(s == 0.0 ? "as fast as possible" : times(s).c_str(), s == t.speed)) actions.push_back(SetSpeed{s});
+      if (ImGui::Selectable(s == 0.0 ? "as fast as possible" : times(s).c_str(), s == t.speed))
+        actions.push_back(SetSpeed{s});
     ImGui::EndCombo();
   }
   tooltip("Speed wanted, as a multiple of real time (+ and −)", theme);
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  const std::string reached = t.playing ? "reached " + times(t.reached_speed) : t.finished && t.time_s >= t.latest_s ? "finished" : "paused";
+  const std::string reached = t.playing                              ? "reached " + times(t.reached_speed)
+                              : t.finished && t.time_s >= t.latest_s ? "finished"
+                                                                     : "paused";
   ImGui::TextDisabled("%s", reached.c_str());
 }
 
@@ -57,13 +67,15 @@ void timeline(const Transport& t, float left, float right, float height, const T
   ImGui::BeginDisabled(!t.enabled);
   ImGui::InvisibleButton("timeline", {right - left + 2 * reach, height});
   ImGui::EndDisabled();
-  if (ImGui::IsItemActive()) actions.push_back(ScrubTo{std::min(t.latest_s, time_at(ImGui::GetIO().MousePos.x, left, right, t.total_s))});
+  if (ImGui::IsItemActive())
+    actions.push_back(ScrubTo{std::min(t.latest_s, time_at(ImGui::GetIO().MousePos.x, left, right, t.total_s))});
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
   tooltip(t.enabled ? "Drag to look at any moment so far" : t.why_disabled, theme);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = std::round(y + 0.5f * height), half = theme.px(2.5f);
   draw.AddRectFilled({left, middle - half}, {right, middle + half}, theme.pressed, half);
-  draw.AddRectFilled({left, middle - half}, {x_of_time(t.latest_s, left, right, t.total_s), middle + half}, theme.muted, half);
+  draw.AddRectFilled({left, middle - half}, {x_of_time(t.latest_s, left, right, t.total_s), middle + half}, theme.muted,
+                     half);
   for (const TimelineEvent& e : t.events) {
     const float x = x_of_time(e.time_s, left, right, t.total_s);
     draw.AddRectFilled({x - theme.px(1), middle - theme.px(5)}, {x + theme.px(1), middle + theme.px(5)}, e.colour);
@@ -128,7 +140,8 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
   for (const TimelineEvent& e : t.events) plot_of.marks.push_back({e.time_s, e.words, e.colour});
   const float strip = theme.px(18);
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const PlotResult result = plot("error over time", {room.x, std::max(theme.px(40), room.y - strip - theme.px(6))}, plot_of, state.view, theme);
+  const PlotResult result = plot("error over time", {room.x, std::max(theme.px(40), room.y - strip - theme.px(6))},
+                                 plot_of, state.view, theme);
   if (result.clicked_x && t.enabled) actions.push_back(ScrubTo{std::clamp(*result.clicked_x, 0.0, t.latest_s)});
   timeline(t, result.low.x, result.high.x, strip, theme, actions);
   return actions;

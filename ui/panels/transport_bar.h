@@ -31,10 +31,10 @@ struct Transport {
   bool enabled = true;
   std::string why_disabled;
   bool can_step_back = true;
-  double time_s = 0.0;        // shown
-  double latest_s = 0.0;      // simulated so far
-  double total_s = 1.0;       // expected
-  double speed = 1.0;         // wanted; 0: as fast as possible
+  double time_s = 0.0;    // shown
+  double latest_s = 0.0;  // simulated so far
+  double total_s = 1.0;   // expected
+  double speed = 1.0;     // wanted; 0: as fast as possible
   double reached_speed = 0.0;
   std::string quantity = "gap";
   std::vector<TimeCurve> position_curves;  // metres

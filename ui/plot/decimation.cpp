@@ -4,7 +4,8 @@
 
 namespace odolab::ui {
 
-std::vector<std::size_t> decimated(const double* x, const double* y, std::size_t count, double x0, double x1, int columns) {
+std::vector<std::size_t> decimated(const double* x, const double* y, std::size_t count, double x0, double x1,
+                                   int columns) {
   std::vector<std::size_t> kept;
   if (count == 0 || !(x1 > x0) || columns < 1) return kept;
   std::size_t begin = std::size_t(std::lower_bound(x, x + count, x0) - x);

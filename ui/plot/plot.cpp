@@ -57,7 +57,8 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
   if (x.empty()) x = {0.0, 1.0};
   if (y.empty()) y = {0.0, std::max(what.least_y_span, 1e-3)};
   if (y.high - y.low < what.least_y_span) {
-    if (what.from_zero) y.high = y.low + what.least_y_span;
+    if (what.from_zero)
+      y.high = y.low + what.least_y_span;
     else {
       const double middle = 0.5 * (y.low + y.high);
       y = {middle - 0.5 * what.least_y_span, middle + 0.5 * what.least_y_span};
@@ -97,14 +98,22 @@ void zoom(PlotView& view, double about_x, double about_y, double factor, bool bo
 void marker(ImDrawList& draw, Marker kind, ImVec2 at, ImU32 colour, const Theme& theme) {
   const float r = theme.px(4.5f), thin = theme.px(1.6f);
   switch (kind) {
-    case Marker::none: break;
-    case Marker::disc: draw.AddCircleFilled(at, r, colour); draw.AddCircle(at, r, theme.paper, 0, theme.px(1)); break;
-    case Marker::ring: draw.AddCircle(at, r, colour, 0, thin); break;
+    case Marker::none:
+      break;
+    case Marker::disc:
+      draw.AddCircleFilled(at, r, colour);
+      draw.AddCircle(at, r, theme.paper, 0, theme.px(1));
+      break;
+    case Marker::ring:
+      draw.AddCircle(at, r, colour, 0, thin);
+      break;
     case Marker::square:
       draw.AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, colour);
       draw.AddRect({at.x - r, at.y - r}, {at.x + r, at.y + r}, theme.paper, 0, 0, theme.px(1));
       break;
-    case Marker::box: draw.AddRect({at.x - r, at.y - r}, {at.x + r, at.y + r}, colour, 0, 0, thin); break;
+    case Marker::box:
+      draw.AddRect({at.x - r, at.y - r}, {at.x + r, at.y + r}, colour, 0, 0, thin);
+      break;
     case Marker::cross: {
       const float l = theme.px(9);
       draw.AddLine({at.x - l, at.y}, {at.x + l, at.y}, colour, theme.px(2));
@@ -117,13 +126,16 @@ void marker(ImDrawList& draw, Marker kind, ImVec2 at, ImU32 colour, const Theme&
 void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool in_order, const Theme& theme) {
   if (s.stroke != Stroke::none) {
     std::vector<std::size_t> kept;
-    if (in_order) kept = decimated(s.x, s.y, s.count, frame.view.x0, frame.view.x1, std::max(1, int(frame.width())));
+    if (in_order)
+      kept = decimated(s.x, s.y, s.count, frame.view.x0, frame.view.x1, std::max(1, int(frame.width())));
     else
       for (std::size_t i = 0; i < s.count; ++i) kept.push_back(i);
     std::vector<ImVec2> points;
     const auto finish = [&] {
-      if (s.stroke == Stroke::line) solid_line(draw, points, s.colour, theme.px(s.width));
-      else dashed_line(draw, points, s.colour, theme.px(s.width), theme.px(6), theme.px(4));
+      if (s.stroke == Stroke::line)
+        solid_line(draw, points, s.colour, theme.px(s.width));
+      else
+        dashed_line(draw, points, s.colour, theme.px(s.width), theme.px(6), theme.px(4));
       points.clear();
     };
     for (const std::size_t i : kept) {
@@ -136,7 +148,8 @@ void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool
     finish();
   }
   if (s.marker != Marker::none)
-    for (std::size_t i = 0; i < s.count; ++i) marker(draw, s.marker, {frame.x(s.x[i]), frame.y(s.y[i])}, s.colour, theme);
+    for (std::size_t i = 0; i < s.count; ++i)
+      marker(draw, s.marker, {frame.x(s.x[i]), frame.y(s.y[i])}, s.colour, theme);
 }
 
 std::string axis_title(const PlotAxis& axis) {
@@ -147,7 +160,8 @@ std::string axis_title(const PlotAxis& axis) {
 void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const Theme& theme, ImVec2 outer_low) {
   const float line_height = ImGui::GetTextLineHeight();
   const double sx = what.x.unit.per_si, sy = what.y.unit.per_si;
-  const int most_x = std::max(2, int(frame.width() / theme.px(80))), most_y = std::max(3, int(frame.height() / theme.px(36)));
+  const int most_x = std::max(2, int(frame.width() / theme.px(80))),
+            most_y = std::max(3, int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
   double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
   if (what.equal_scale && sx == sy) {  // the same marks on both, as close as the numbers along x allow
@@ -165,7 +179,8 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
     if (x + half < frame.high.x - title_width - theme.px(10))
       draw.AddText({std::round(x - half), frame.high.y + theme.px(3)}, theme.muted, text.c_str());
   }
-  draw.AddText({std::round(frame.high.x - title_width), frame.high.y + theme.px(3)}, theme.muted, axis_title(what.x).c_str());
+  draw.AddText({std::round(frame.high.x - title_width), frame.high.y + theme.px(3)}, theme.muted,
+               axis_title(what.x).c_str());
   for (const double v : ticks_every(step_y, frame.view.y0 * sy, frame.view.y1 * sy)) {
     const float y = std::round(frame.y(v / sy));
     const bool zero = what.equal_scale && v == 0.0;
@@ -190,7 +205,8 @@ float draw_legend(ImDrawList& draw, const Plot& what, const Frame& frame, float 
   for (const PlotSeries& s : what.series) {
     if (s.label.empty()) continue;
     if (s.stroke == Stroke::line) draw.AddLine({x, middle}, {x + swatch, middle}, s.colour, theme.px(2));
-    if (s.stroke == Stroke::dashed) dashed_line(draw, {{x, middle}, {x + swatch, middle}}, s.colour, theme.px(2), theme.px(5), theme.px(3));
+    if (s.stroke == Stroke::dashed)
+      dashed_line(draw, {{x, middle}, {x + swatch, middle}}, s.colour, theme.px(2), theme.px(5), theme.px(3));
     marker(draw, s.marker, {x + 0.5f * swatch, middle}, s.colour, theme);
     draw.AddText({x + swatch + theme.px(5), top}, theme.ink, s.label.c_str());
     x += swatch + theme.px(5) + ImGui::CalcTextSize(s.label.c_str()).x + gap;
@@ -200,7 +216,9 @@ float draw_legend(ImDrawList& draw, const Plot& what, const Frame& frame, float 
 
 std::string read_out(const Plot& what, const Frame& frame, ImVec2 mouse) {
   const auto with_unit = [](const PlotAxis& axis, double v) { return shown(v, axis.unit, axis.unit.decimals); };
-  if (what.equal_scale) return what.x.label + " " + with_unit(what.x, frame.x_of(mouse.x)) + "\n" + what.y.label + " " + with_unit(what.y, frame.y_of(mouse.y));
+  if (what.equal_scale)
+    return what.x.label + " " + with_unit(what.x, frame.x_of(mouse.x)) + "\n" + what.y.label + " " +
+           with_unit(what.y, frame.y_of(mouse.y));
   const double x = frame.x_of(mouse.x);
   std::string text = with_unit(what.x, x);
   for (const PlotSeries& s : what.series) {
@@ -230,15 +248,23 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   ImGui::InvisibleButton(id, size);
   const ImGuiIO& io = ImGui::GetIO();
   const float line_height = ImGui::GetTextLineHeight();
-  const float left = theme.px(52), top = line_height + theme.px(6), bottom = line_height + theme.px(5), right = theme.px(8);
-  PlotResult result{{outer.x + left, outer.y + top}, {outer.x + std::max(size.x - right, left + 20.0f), outer.y + std::max(size.y - bottom, top + 10.0f)}, false, std::nullopt};
+  const float left = theme.px(52), top = line_height + theme.px(6), bottom = line_height + theme.px(5),
+              right = theme.px(8);
+  PlotResult result{
+      {outer.x + left, outer.y + top},
+      {outer.x + std::max(size.x - right, left + 20.0f), outer.y + std::max(size.y - bottom, top + 10.0f)},
+      false,
+      std::nullopt};
   const Frame frame{result.low, result.high, view};
   if (view.fitted) fit(what, view, frame.width(), frame.height());
 
   const ImVec2 mouse = io.MousePos;
-  const bool inside = mouse.x >= result.low.x && mouse.x <= result.high.x && mouse.y >= result.low.y && mouse.y <= result.high.y;
+  const bool inside =
+      mouse.x >= result.low.x && mouse.x <= result.high.x && mouse.y >= result.low.y && mouse.y <= result.high.y;
   result.hovered = ImGui::IsItemHovered() && inside;
-  if (result.hovered && io.MouseWheel != 0.0f) zoom(view, frame.x_of(mouse.x), frame.y_of(mouse.y), std::pow(0.85, double(io.MouseWheel)), what.equal_scale || io.KeyShift);
+  if (result.hovered && io.MouseWheel != 0.0f)
+    zoom(view, frame.x_of(mouse.x), frame.y_of(mouse.y), std::pow(0.85, double(io.MouseWheel)),
+         what.equal_scale || io.KeyShift);
   if (result.hovered && ImGui::IsMouseDoubleClicked(0)) {
     view.fitted = true;
     view.drag_from.reset();
@@ -251,7 +277,8 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
     const ImVec2 from = *view.drag_from;
     const bool wide = std::abs(mouse.x - from.x) > enough, tall = std::abs(mouse.y - from.y) > enough;
     selecting = what.equal_scale ? wide || tall : wide;
-    if (what.equal_scale && selecting) {  // a drag moves such a plot, for a box of another shape would not keep its scale
+    if (what.equal_scale &&
+        selecting) {  // a drag moves such a plot, for a box of another shape would not keep its scale
       const double dx = frame.x_of(mouse.x - io.MouseDelta.x) - frame.x_of(mouse.x);
       const double dy = frame.y_of(mouse.y - io.MouseDelta.y) - frame.y_of(mouse.y);
       view.x0 += dx;
@@ -281,7 +308,8 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   for (const PlotMark& m : what.marks) {
     const float x = std::round(frame.x(m.x));
     draw.AddLine({x, result.low.y}, {x, result.high.y}, faded(m.colour, 0.55f), theme.px(1));
-    draw.AddTriangleFilled({x - theme.px(4), result.low.y}, {x + theme.px(4), result.low.y}, {x, result.low.y + theme.px(6)}, m.colour);
+    draw.AddTriangleFilled({x - theme.px(4), result.low.y}, {x + theme.px(4), result.low.y},
+                           {x, result.low.y + theme.px(6)}, m.colour);
   }
   for (const PlotSeries& s : what.series) {
     any = any || s.count > 0;
@@ -292,19 +320,24 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
     draw.AddLine({x, result.low.y}, {x, result.high.y}, theme.ink, theme.px(1));
   }
   if (selecting && !what.equal_scale)
-    draw.AddRectFilled({std::min(view.drag_from ? view.drag_from->x : mouse.x, mouse.x), result.low.y}, {std::max(view.drag_from ? view.drag_from->x : mouse.x, mouse.x), result.high.y}, faded(theme.sky, 0.25f));
+    draw.AddRectFilled({std::min(view.drag_from ? view.drag_from->x : mouse.x, mouse.x), result.low.y},
+                       {std::max(view.drag_from ? view.drag_from->x : mouse.x, mouse.x), result.high.y},
+                       faded(theme.sky, 0.25f));
   draw.PopClipRect();
   draw.AddRect(result.low, result.high, theme.line);
   if (what.legend) draw_legend(draw, what, frame, outer.y, theme);
   if (!any && !what.empty_text.empty()) {
     const ImVec2 text = ImGui::CalcTextSize(what.empty_text.c_str());
-    const ImVec2 at{std::round(0.5f * (result.low.x + result.high.x - text.x)), std::round(result.low.y + 0.42f * (result.high.y - result.low.y) - 0.5f * text.y)};
-    draw.AddRectFilled({at.x - theme.px(8), at.y - theme.px(4)}, {at.x + text.x + theme.px(8), at.y + text.y + theme.px(4)}, theme.paper);
+    const ImVec2 at{std::round(0.5f * (result.low.x + result.high.x - text.x)),
+                    std::round(result.low.y + 0.42f * (result.high.y - result.low.y) - 0.5f * text.y)};
+    draw.AddRectFilled({at.x - theme.px(8), at.y - theme.px(4)},
+                       {at.x + text.x + theme.px(8), at.y + text.y + theme.px(4)}, theme.paper);
     draw.AddText(at, theme.muted, what.empty_text.c_str());
   }
   if (result.hovered && any && !selecting && !ImGui::IsMouseDown(0)) {
     draw.AddLine({mouse.x, result.low.y}, {mouse.x, result.high.y}, faded(theme.muted, 0.5f), 1.0f);
-    if (what.equal_scale) draw.AddLine({result.low.x, mouse.y}, {result.high.x, mouse.y}, faded(theme.muted, 0.5f), 1.0f);
+    if (what.equal_scale)
+      draw.AddLine({result.low.x, mouse.y}, {result.high.x, mouse.y}, faded(theme.muted, 0.5f), 1.0f);
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(read_out(what, frame, mouse).c_str());
     ImGui::EndTooltip();

@@ -1,4 +1,5 @@
-// The one plot of the window: axes with units and round ticks, legend, read-out, zoom by wheel and drag, double click fits.
+// The one plot of the window: axes with units and round ticks, legend, read-out, zoom by wheel and drag, double click
+// fits.
 #pragma once
 
 #include <optional>
@@ -42,13 +43,13 @@ struct Plot {
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   std::vector<PlotMark> marks;
-  std::optional<double> cursor_x;   // e.g. the time that is shown
+  std::optional<double> cursor_x;       // e.g. the time that is shown
   std::optional<double> x_low, x_high;  // instead of the data's range where the plot is fitted
-  bool equal_scale = false;         // one unit of x is as long as one of y; the origin is in sight
-  bool from_zero = false;           // y begins at zero
+  bool equal_scale = false;             // one unit of x is as long as one of y; the origin is in sight
+  bool from_zero = false;               // y begins at zero
   bool legend = true;
-  double least_y_span = 0.0;        // the plot never shows less than this much of y when fitted, so that noise stays small
-  std::string empty_text;           // shown while there is nothing to draw
+  double least_y_span = 0.0;  // the plot never shows less than this much of y when fitted, so that noise stays small
+  std::string empty_text;     // shown while there is nothing to draw
 };
 
 // What is looked at; the caller keeps it. SI.
@@ -59,7 +60,7 @@ struct PlotView {
 };
 
 struct PlotResult {
-  ImVec2 low, high;                 // the drawing area inside the axes, on the screen
+  ImVec2 low, high;  // the drawing area inside the axes, on the screen
   bool hovered = false;
   std::optional<double> clicked_x;  // where a click without a drag landed
   double x_at(float screen_x, const PlotView& view) const;

@@ -1,0 +1,236 @@
+#include "app/gui/views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/gui/planned_path.h"
+
+namespace odolab {
+
+namespace {
+
+// At a time, or at the end of the track that is nearest to it: encoders and truth do not begin and end together.
+std::optional<Pose> pose_nearest(const Track& track, double time_s) {
+  return track.empty() ? std::nullopt : pose_at(track, std::clamp(time_s, track.front().time_s, track.back().time_s));
+}
+
+std::optional<ui::ReplayFigures> figures_of(const ComparedReplay* c) {
+  if (!c) return std::nullopt;
+  ui::ReplayFigures f;
+  f.simulated = {&c->replay.simulated, c->replay.simulated_error};
+  f.dead_reckoning = {&c->replay.dead_reckoned, c->replay.dead_reckoned_error};
+  return f;
+}
+
+}  // namespace
+
+ui::FloorScene drive_scene(const Session& session, const SimulationState& shown, const ui::Theme& theme) {
+  const DriveRun& run = session.run();
+  const Scenario& scenario = run.scenario();
+  ui::FloorScene scene;
+  scene.floor = &scenario.floor;
+  scene.editable = true;
+  scene.planned = planned_path(scenario);
+  const Track &true_track = run.simulation().true_track(), &estimated = run.simulation().estimated_track();
+  ui::TrackLine truth;
+  truth.label = "true";
+  truth.track = &true_track;
+  truth.until_s = shown.time_s;
+  truth.end = shown.true_pose;
+  truth.colour = theme.truth;
+  ui::TrackLine estimate;
+  estimate.label = "estimated";
+  estimate.track = &estimated;
+  estimate.reference = &true_track;
+  estimate.until_s = shown.time_s;
+  estimate.end = shown.estimated_pose;
+  estimate.colour = theme.orange;
+  estimate.dash = ui::Dash::dashes;
+  scene.tracks = {truth, estimate};
+  ui::VehicleGlyph vehicle;
+  vehicle.pose = shown.true_pose;
+  vehicle.wheelbase_m = scenario.actual.wheelbase_m;
+  vehicle.wheel_radius_left_m = scenario.actual.wheel_radius_left_m;
+  vehicle.wheel_radius_right_m = scenario.actual.wheel_radius_right_m;
+  vehicle.left_rotation_rad = shown.left.rotation_rad;
+  vehicle.right_rotation_rad = shown.right.rotation_rad;
+  vehicle.colour = theme.truth;
+  ui::VehicleGlyph believed = vehicle;
+  believed.pose = shown.estimated_pose;
+  believed.outline = true;
+  believed.colour = theme.orange;
+  scene.vehicles = {vehicle, believed};
+  scene.reference = shown.true_pose;
+  scene.deviating = shown.estimated_pose;
+  return scene;
+}
+
+ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
+  ui::FloorScene scene;
+  scene.reference_name = "recorded";
+  scene.deviating_name = "simulated";
+  scene.empty_text = session.comparison().loaded() ? "The recording is being driven in the simulation…"
+                                                   : "Open a recording, or drop one here";
+  const ComparedReplay* shown = session.comparison().shown();
+  if (!shown) return scene;
+  const Replay& replay = shown->replay;
+  const double now = session.comparison().start_s() + session.comparison().time_s;
+  ui::TrackLine truth, simulated, reckoned;
+  truth.label = "recorded truth";
+  truth.track = &replay.truth;
+  truth.colour = theme.truth;
+  simulated.label = "simulated";
+  simulated.track = &replay.simulated;
+  simulated.reference = &replay.truth;
+  simulated.colour = theme.orange;
+  simulated.dash = ui::Dash::dashes;
+  reckoned.label = "dead reckoning";
+  reckoned.track = &replay.dead_reckoned;
+  reckoned.reference = &replay.truth;
+  reckoned.colour = theme.blue;
+  reckoned.dash = ui::Dash::dots;
+  truth.until_s = simulated.until_s = reckoned.until_s = now;
+  scene.tracks = {truth, simulated, reckoned};
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(shown->vehicle.kind);
+  const auto glyph = [&](const std::optional<Pose>& pose, bool outline, ImU32 colour) {
+    if (!pose) return;
+    ui::VehicleGlyph v;
+    v.pose = *pose;
+    v.wheelbase_m = drive.wheelbase_m;
+    v.wheel_radius_left_m = drive.wheel_radius_left_m;
+    v.wheel_radius_right_m = drive.wheel_radius_right_m;
+    v.outline = outline;
+    v.colour = colour;
+    scene.vehicles.push_back(v);
+  };
+  scene.reference = pose_nearest(replay.truth, now);
+  scene.deviating = pose_nearest(replay.simulated, now);
+  glyph(scene.reference, false, theme.truth);
+  glyph(scene.deviating, true, theme.orange);
+  return scene;
+}
+
+ui::Transport drive_transport(const Session& session, const ui::Theme& theme) {
+  const DriveRun& run = session.run();
+  ui::Transport t;
+  t.playing = session.playing();
+  t.finished = run.finished();
+  t.time_s = run.shown_s();
+  t.latest_s = run.latest_s();
+  t.total_s = run.total_s();
+  t.can_step_back = run.shown_s() > 0.0;
+  t.speed = session.speed();
+  t.reached_speed = session.reached_speed();
+  t.quantity = "gap";
+  t.position_curves = {{"position gap", &run.time_s(), &run.gap_m(), theme.orange, false}};
+  t.heading_curves = {{"heading gap", &run.time_s(), &run.gap_heading_rad(), theme.orange, false}};
+  for (const RunEvent& e : run.events()) {
+    const ImU32 colour = e.kind == RunEvent::Kind::bump        ? theme.bump_edge
+                         : e.kind == RunEvent::Kind::slip_zone ? theme.zone
+                                                               : theme.muted;
+    t.events.push_back({e.time_s, e.words, colour});
+  }
+  return t;
+}
+
+ui::Transport compare_transport(const Session& session, const ui::Theme& theme) {
+  const Comparison& c = session.comparison();
+  ui::Transport t;
+  const ComparedReplay* shown = c.shown();
+  t.enabled = shown != nullptr;
+  t.why_disabled = c.loaded() ? "The replay is not done yet." : "Open a recording first.";
+  t.playing = session.playing();
+  t.time_s = c.time_s;
+  t.latest_s = t.total_s = c.duration_s();
+  t.can_step_back = c.time_s > 0.0;
+  t.speed = session.speed();
+  t.reached_speed = session.reached_speed();
+  t.quantity = "error";
+  if (shown) {
+    t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, false},
+                         {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, true}};
+    t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, false},
+                        {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, true}};
+  }
+  return t;
+}
+
+ui::Bench bench_of(const Session& session) {
+  const UmbmarkBench& bench = session.bench();
+  const Scenario& scenario = bench.experiments().empty() ? session.run().scenario() : bench.scenario();
+  ui::Bench b;
+  b.experiments = &bench.experiments();
+  b.running = bench.running();
+  b.share_done = session.jobs().share_done();
+  b.can_run = !session.jobs().running();
+  b.why_not = "Busy " + session.jobs().name() + ".";
+  if (const SquarePath* square = std::get_if<SquarePath>(&scenario.path)) b.side_m = square->side_m;
+  const Floor& floor = session.run().scenario().floor;
+  b.has_things = !floor.bumps.empty() || !floor.slip_zones.empty();
+  b.rough = scenario.floor.roughness.largest_height_m > 0.0;
+  b.vehicle_name = scenario.vehicle.name;
+  b.actual = scenario.actual;
+  return b;
+}
+
+ui::Compare compare_of(const Session& session, const std::vector<std::string>& example_files) {
+  const Comparison& c = session.comparison();
+  ui::Compare view;
+  if (session.jobs().running()) {
+    view.job = session.jobs().name();
+    view.share_done = session.jobs().share_done();
+  }
+  view.loaded = c.loaded();
+  for (const std::string& path : example_files)
+    if (path.find("/real_") != std::string::npos || path.find("/recorded_") != std::string::npos)
+      view.example_files.push_back(path);
+  if (!c.loaded()) return view;
+  view.name = c.recording().name;
+  view.provenance = c.recording().provenance;
+  view.inputs = c.has_wheels() ? "wheel rotation" : "commands";
+  view.duration_s = c.recording().duration_s();
+  view.vehicle_name = c.vehicle().name;
+  view.vehicle = c.chosen();
+  view.nominal = figures_of(c.nominal());
+  view.calibrated = figures_of(c.calibrated());
+  view.calibration = c.calibration();
+  if (c.nominal()) {
+    view.travelled_m = travelled_m(c.nominal()->replay.truth);
+    view.truth_samples = c.nominal()->replay.truth.size();
+  }
+  view.can_calibrate = c.has_wheels() && view.truth_samples > 1;
+  view.why_not = c.has_wheels() ? "Calibration needs an outside truth with headings."
+                                : "Calibration needs wheel rotation; this recording holds commands alone.";
+  return view;
+}
+
+ui::Readout readout_of(const Session& session, const SimulationState& shown) {
+  ui::Readout r;
+  r.state = shown;
+  const Pose gap = between(shown.true_pose, shown.estimated_pose);
+  r.gap_m = length(gap.position());
+  r.gap_heading_rad = wrapped(gap.heading_rad);
+  r.gap_along_m = gap.x_m;
+  r.gap_across_m = gap.y_m;
+  r.by_hand = std::holds_alternative<HandPath>(session.run().scenario().path);
+  r.wheel_radius_left_m = session.run().scenario().actual.wheel_radius_left_m;
+  r.wheel_radius_right_m = session.run().scenario().actual.wheel_radius_right_m;
+  return r;
+}
+
+ui::ErrorNow error_now(const Session& session) {
+  ui::ErrorNow now;
+  const ComparedReplay* shown = session.comparison().shown();
+  if (!shown) return now;
+  const double t = session.comparison().start_s() + session.comparison().time_s;
+  now.truth = pose_nearest(shown->replay.truth, t);
+  now.simulated = pose_nearest(shown->replay.simulated, t);
+  now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, t);
+  if (now.truth && now.simulated) {
+    now.simulated_gap_m = length(now.simulated->position() - now.truth->position());
+    now.simulated_gap_heading_rad = wrapped(now.simulated->heading_rad - now.truth->heading_rad);
+  }
+  return now;
+}
+
+}  // namespace odolab
