@@ -34,8 +34,9 @@ void expect_same_bits(const Recording& a, const Recording& b) {
   for (std::size_t c = 0; c < a.channels.size(); ++c) {
     EXPECT_EQ(a.channels[c].name, b.channels[c].name);
     for (std::size_t i = 0; i < a.time_s.size(); ++i)
-      if (!(std::isnan(a.channels[c].values[i]) && std::isnan(b.channels[c].values[i])))
+      if (!(std::isnan(a.channels[c].values[i]) && std::isnan(b.channels[c].values[i]))) {
         ASSERT_EQ(bits(a.channels[c].values[i]), bits(b.channels[c].values[i])) << a.channels[c].name << " row " << i;
+      }
   }
 }
 

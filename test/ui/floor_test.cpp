@@ -78,7 +78,9 @@ TEST(Lens, MagnifiesByRoundNumbersSoThatTheGapFits) {
     const double m = lens_magnification(gap_m, 100.0, 90.0);
     EXPECT_GE(m, 2.0);
     EXPECT_LE(m, 1000.0);
-    if (m > 2.0) EXPECT_LE(gap_m * 100.0 * m, 90.0);
+    if (m > 2.0) {
+      EXPECT_LE(gap_m * 100.0 * m, 90.0);
+    }
   }
   EXPECT_DOUBLE_EQ(lens_magnification(0.012, 100.0, 90.0), 50.0);
 }

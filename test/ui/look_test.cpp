@@ -41,7 +41,9 @@ TEST(Fitted, NeverIsWiderThanAsked) {
     for (float width = 30.0f; width < 500.0f; width += 13.0f) {
       const std::string shorter = fitted(text, width);
       EXPECT_LE(ImGui::CalcTextSize(shorter.c_str()).x, width);
-      if (shorter != text) EXPECT_EQ(shorter.substr(shorter.size() - 3), "…");
+      if (shorter != text) {
+        EXPECT_EQ(shorter.substr(shorter.size() - 3), "…");
+      }
     }
     EXPECT_EQ(fitted(text, 5000.0f), text);
   });

@@ -57,7 +57,9 @@ TEST(Decimation, KeepsASpikeOfASingleSample) {
   for (std::size_t k = 0; k < kept.size(); ++k) {
     least = std::min(least, y[kept[k]]);
     most = std::max(most, y[kept[k]]);
-    if (k > 0) EXPECT_LT(kept[k - 1], kept[k]);
+    if (k > 0) {
+      EXPECT_LT(kept[k - 1], kept[k]);
+    }
   }
   EXPECT_EQ(most, 9.0);
   EXPECT_EQ(least, -7.0);
