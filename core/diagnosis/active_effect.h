@@ -1,0 +1,24 @@
+// An effect of the catalogue that is switched on: in a simulation, or in a fitted model.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace odolab {
+
+struct ActiveEffect {
+  std::string effect;     // a name of the catalogue: "wheel_eccentricity", "slip_zone", ...
+  std::string component;  // "left_wheel", "right_wheel", "both_wheels", "vehicle", "truth", "floor"
+  // By the catalogue's parameter names, units in the name or as the catalogue says: {"amplitude", 0.006}, {"phase_rad", 1.2}.
+  // Effects with a place have x_m, y_m, radius_m (bumps and zones) or at_s (events) too.
+  std::vector<std::pair<std::string, double>> parameters;
+
+  double parameter(const std::string& name, double otherwise = 0.0) const {
+    for (const auto& [key, value] : parameters)
+      if (key == name) return value;
+    return otherwise;
+  }
+};
+
+}  // namespace odolab

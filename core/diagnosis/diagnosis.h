@@ -1,0 +1,116 @@
+// Where a vehicle and its model differ, what physics was left out, how much of it, and the proof.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/calibration/least_squares.h"
+#include "core/diagnosis/active_effect.h"
+#include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+enum class Verdict {
+  found,            // named, and each name stands alone
+  nothing_missing,  // calibration leaves nothing but noise
+  unknown_effect,   // something is missing that no entry of the catalogue describes
+  ambiguous,        // something is missing, and the recordings cannot decide between the names given
+  cannot_say,       // the recordings are too poor to judge
+};
+
+struct FoundParameter {
+  std::string name;
+  double value = 0.0;
+  double stderr_value = 0.0;
+  std::string unit;
+};
+
+// Only what applies.
+struct WhereFound {
+  std::vector<std::pair<double, double>> time_s;
+  std::string recording;
+  struct Zone {
+    double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
+  };
+  std::optional<Zone> zone;
+  std::string regime;  // in words: "in turns, grows with speed"
+};
+
+struct Alternative {
+  std::string effect, component;
+  double log_likelihood_gain = 0.0;
+  std::string told_apart_by;  // the drive that would decide
+};
+
+struct Finding {
+  std::string effect, component;  // effect is "unknown" where no name fits
+  std::vector<FoundParameter> parameters;
+  WhereFound where;
+  double log_likelihood_gain = 0.0;
+  double p_value = 1.0;  // family-wise over all candidates and scans
+  std::vector<Alternative> alternatives;
+  double share_of_mismatch = 0.0;  // of the chi-square above noise that calibration leaves
+  std::string sentence;            // the finding in plain words
+
+  ActiveEffect as_active() const;
+};
+
+struct FitFigures {
+  double position_rms_m = 0.0;   // gathered over a metre or a radian, from a true start
+  double heading_rms_rad = 0.0;
+  double normalised_chi2 = 0.0;
+};
+
+struct FitTable {
+  std::optional<FitFigures> nominal, calibrated, with_findings, noise_floor;
+  std::optional<FitFigures> spline, placebo;  // calibrated plus a flexible spline; plus a term of equal freedom without meaning
+};
+
+struct NotTestable {
+  std::string effect, because, drive_this;
+};
+
+// Something of a residual to draw: the response to the variable that explains it, with its band.
+struct Response {
+  std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
+  std::vector<double> at, value, low, high;
+};
+
+// Innovations of one recording over time, for pictures.
+struct Residuals {
+  std::string recording;
+  std::vector<double> time_s, x_m, y_m, along_m, across_m, heading_rad, squared;  // squared: normalised, 1 per scalar
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::cannot_say;
+  LeastSquaresCalibration calibration;
+  std::vector<Finding> findings;  // strongest first; data faults (truth_frozen, encoder_data_fault) among them
+  FitTable train, held_out;
+  FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
+  std::vector<NotTestable> not_testable;
+  std::string next_drive;
+  std::vector<std::string> sentences;  // the summary that a person reads in a minute
+  std::vector<std::string> warnings;
+  std::vector<Response> responses;
+  std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
+};
+
+struct DiagnosisOptions {
+  double family_wise_error = 0.01;
+};
+
+// Recordings of one vehicle. `held_out` are judged only after everything is frozen; where none are given, a split by run
+// is made if there are two recordings or more.
+Result<Diagnosis> diagnose(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
+                           const Vehicle& nominal, const DiagnosisOptions& options = {}, const Progress& progress = {});
+
+// The track that a vehicle with effects predicts, as predicted_track does without (core/odometry/prediction.h).
+Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle, const std::vector<ActiveEffect>& effects);
+
+}  // namespace odolab
