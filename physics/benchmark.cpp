@@ -27,13 +27,15 @@ UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBe
   std::vector<BenchmarkRun> driven(static_cast<std::size_t>(runs));
   parallel_for(
       runs,
-      [&](int i) {
+      [&](int i, const std::atomic<bool>& stopped) {
         Scenario run = scenario;
         std::get<SquarePath>(run.path).clockwise = i % 2 == 0;
         run.sensors.truth_period_s = 0.0;
         Simulation simulation(run, seed_of_stream(seed, 1000 + static_cast<std::uint64_t>(i)));
-        run_to_end(simulation, kPatience * simulation.expected_duration_s());
-        driven[static_cast<std::size_t>(i)] = {i % 2 == 0, i / 2 + 1, return_error(simulation, run), simulation.recording()};
+        const double longest_s = kPatience * simulation.expected_duration_s();
+        while (!simulation.state().finished && simulation.state().time_s < longest_s && !stopped) simulation.step();
+        driven[static_cast<std::size_t>(i)] = {i % 2 == 0, i / 2 + 1, return_error(simulation, run), simulation.state().finished,
+                                               simulation.recording()};
       },
       [&](int i) {
         const BenchmarkRun& run = driven[static_cast<std::size_t>(i)];

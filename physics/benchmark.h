@@ -17,6 +17,7 @@ struct BenchmarkRun {
   bool clockwise = false;
   int number = 0;         // from 1 in each direction
   ReturnError error;
+  bool finished = false;  // false: the robot never arrived, and the error means nothing
   Recording recording;    // encoders, and the absolute pose at the start and the end
 };
 

@@ -94,7 +94,7 @@ int PlanarWorld::add_tread(int body, Vec2 place) {
   return static_cast<int>(solver_->treads.size()) - 1;
 }
 
-int PlanarWorld::add_spring(const SpringDefinition& d) {
+void PlanarWorld::add_spring(const SpringDefinition& d) {
   b2Body* a = solver_->bodies[d.body_a].solved;
   b2Body* b = solver_->bodies[d.body_b].solved;
   b2DistanceJointDef joint;
@@ -108,12 +108,16 @@ int PlanarWorld::add_spring(const SpringDefinition& d) {
   joint.collideConnected = true;
   b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz), static_cast<float>(d.damping_ratio), a, b);
   solver_->world.CreateJoint(&joint);
-  return 0;
 }
 
 void PlanarWorld::set_tread(int tread, Vec2 velocity_mps, double grip_n) {
   solver_->treads[tread].velocity_mps = velocity_mps;
   solver_->treads[tread].joint->SetMaxForce(static_cast<float>(grip_n));
+}
+
+void PlanarWorld::set_velocity(int body, Vec2 velocity_mps, double yaw_rate_radps) {
+  solver_->bodies[body].velocity_mps = velocity_mps;
+  solver_->bodies[body].yaw_rate_radps = yaw_rate_radps;
 }
 
 void PlanarWorld::apply_force(int body, Vec2 force_n, double torque_nm) {
@@ -168,10 +172,10 @@ void PlanarWorld::step() {
   for (Body& body : bodies) {
     const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
     const double rate = frame_rate + body.solved->GetAngularVelocity();
-    const Vec2 old_velocity_turn{1.0, 0.5 * h * (rate - body.yaw_rate_radps)};  // middle heading as it came out (Eq. 4)
+    const double correction_rad = 0.5 * h * (rate - body.yaw_rate_radps);  // to the middle heading as it came out (Eq. 4)
     body.velocity_mps = turned(velocity, c, s);
     body.yaw_rate_radps = rate;
-    const Vec2 travel = h * turned(body.velocity_mps, old_velocity_turn.x_m, old_velocity_turn.y_m);
+    const Vec2 travel = h * turned(body.velocity_mps, 1.0, correction_rad);
     body.pose = {body.pose.x_m + travel.x_m, body.pose.y_m + travel.y_m, body.pose.heading_rad + h * rate};
   }
   const float inverse_step = 1.0f / static_cast<float>(h);

@@ -34,14 +34,16 @@ class PlanarWorld {
   PlanarWorld(PlanarWorld&&) noexcept;
   PlanarWorld& operator=(PlanarWorld&&) noexcept;
 
-  // Each returns the number by which the thing is named from then on. Body 0 carries the frame of the solution.
+  // Bodies and treads are named by the numbers that come back. Body 0 carries the frame of the solution.
   int add_body(const BodyDefinition& definition);
   int add_tread(int body, Vec2 place);  // where a wheel touches the floor, in the body's frame
-  int add_spring(const SpringDefinition& definition);
+  void add_spring(const SpringDefinition& definition);
 
   // What the tread does in the next step: the velocity over the floor that the wheel would give the body's point above
   // it if it did not slip (in the body's frame), and the force at which it starts to slip.
   void set_tread(int tread, Vec2 velocity_mps, double grip_n);
+  // Sets a body in motion, as at the start of a run that begins while it moves.
+  void set_velocity(int body, Vec2 velocity_mps, double yaw_rate_radps);
   // Acts during the next step alone; in the floor's frame, at the centre of mass.
   void apply_force(int body, Vec2 force_n, double torque_nm = 0.0);
 

@@ -19,6 +19,11 @@ Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
 }
 
 Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress) {
+  const bool by_wheels = std::get<ReplayPath>(scenario.path).by == ReplayPath::By::wheels;
+  if (by_wheels && wheel_samples(*recording, std::get<DifferentialDrive>(scenario.vehicle.kind)).size() < 2)
+    return Error{recording->name + ": path.by", "'wheels', but the recording has no wheel rotation", "'commands', or another recording"};
+  if (!by_wheels && command_samples(*recording).size() < 2)
+    return Error{recording->name + ": path.by", "'commands', but the recording has none", "'wheels', or another recording"};
   Result<Track> reckoned = predicted_track(*recording, scenario.vehicle);
   if (!reckoned) return reckoned.error();
   Simulation simulation(scenario, scenario.seed, recording);

@@ -58,16 +58,16 @@ struct Simulation::Parts {
         commands(replays(ReplayPath::By::commands) ? command_samples(*replayed) : std::vector<CommandSample>{}),
         encoder_steps(steps_in(scenario.sensors.encoder_period_s, scenario.step_s)),
         truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s) : 0),
-        encoder_phase(seed_of_stream(seed, kEncoderStream)),
-        left_encoder(drive.counts_per_wheel_turn(), encoder_phase.uniform()),
-        right_encoder(drive.counts_per_wheel_turn(), encoder_phase.uniform()),
+        encoder_phases(seed_of_stream(seed, kEncoderStream)),
+        left_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
+        right_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
         truth_noise(seed_of_stream(seed, kTruthStream)) {
     plan_duration();
     state.time_s = begin_s;
     state.true_pose = state.estimated_pose = start;
     sample_encoders();
     sample_truth();
-    measured_start = measured_end = sonar().measure(start, truth_noise);
+    measured_start = measured_end = measured_axle();
     if (duration_s <= 0.0) finish();
   }
 
@@ -91,7 +91,10 @@ struct Simulation::Parts {
       const std::vector<TruthSample> truth = truth_samples(*replayed);
       begin_s = truth.empty() ? first_s : truth.front().time_s - scenario.vehicle.truth.time_offset_s;
       duration_s = std::max(0.0, last_s - begin_s);
-      if (!rotation.empty()) rotation_now = rotation.at(begin_s);
+      if (!rotation.empty()) {
+        rotation_now = rotation.at(begin_s);
+        vehicle.begin_in_motion(rotation.speed_at(begin_s));
+      }
     } else {
       duration_s = duration_of(route, scenario.driving);
       by_route = true;
@@ -183,11 +186,14 @@ struct Simulation::Parts {
     truth.push_back({state.time_s, sonar().measure(tracked, truth_noise)});
   }
 
+  // The axle's pose as the last outside measurement shows it.
+  Pose measured_axle() const { return truth.back().pose * inverse(scenario.vehicle.truth.axle_T_tracked); }
+
   void finish() {
     if (state.finished) return;
     state.finished = true;
     sample_truth();
-    measured_end = sonar().measure(state.true_pose, truth_noise);
+    measured_end = measured_axle();
   }
 
   Scenario scenario;
@@ -202,7 +208,7 @@ struct Simulation::Parts {
   RecordedRotation rotation;
   RecordedCommands commands;
   std::int64_t encoder_steps, truth_steps;
-  Random encoder_phase;
+  Random encoder_phases;
   Encoder left_encoder, right_encoder;
   Random truth_noise;
 

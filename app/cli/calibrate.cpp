@@ -46,7 +46,7 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
     const Result<LeastSquaresCalibration> fitted = calibrate_least_squares(others, nominal);
     if (fitted) held_out.add(recordings[left_out], fitted->vehicle);
   }
-  return held_out.text();
+  return interrupted() ? "stopped" : held_out.text();
 }
 
 void print_calibration(const LeastSquaresCalibration& calibration) {
@@ -73,6 +73,9 @@ int execute(const CalibrateOptions& options) {
     for (const std::string& warning : loaded->warnings) print_message("warning: " + path + ": " + warning);
     recordings.push_back(std::move(loaded->recording));
   }
+  for (std::size_t i = 0; i < recordings.size(); ++i)
+    if (wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() && !command_samples(recordings[i]).empty())
+      return bad_input({options.recordings[i], "commands alone", "wheel rotation: how a base follows its commands is not calibrated yet"});
   const Result<LeastSquaresCalibration> calibration =
       calibrate_least_squares(recordings, *nominal, {}, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());

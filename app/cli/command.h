@@ -1,7 +1,6 @@
 // What a command of the program is: its words, its arguments and what it does.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,7 +22,6 @@ class Arguments {
   virtual void option(const std::string& name, std::string& value, const std::string& about, bool required = false) = 0;
   virtual void option(const std::string& name, int& value, const std::string& about) = 0;
   virtual void option(const std::string& name, double& value, const std::string& about) = 0;
-  virtual void option(const std::string& name, std::uint64_t& value, bool& given, const std::string& about) = 0;
   virtual void flag(const std::string& name, bool& value, const std::string& about) = 0;
 };
 

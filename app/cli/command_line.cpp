@@ -26,15 +26,6 @@ class CliArguments : public Arguments {
   }
   void option(const std::string& name, int& value, const std::string& about) override { app_.add_option(name, value, about); }
   void option(const std::string& name, double& value, const std::string& about) override { app_.add_option(name, value, about); }
-  void option(const std::string& name, std::uint64_t& value, bool& given, const std::string& about) override {
-    app_.add_option_function<std::uint64_t>(
-        name,
-        [&value, &given](const std::uint64_t& number) {
-          value = number;
-          given = true;
-        },
-        about);
-  }
   void flag(const std::string& name, bool& value, const std::string& about) override { app_.add_flag(name, value, about); }
 
  private:

@@ -1,7 +1,7 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -9,7 +9,8 @@
 
 namespace odolab {
 
-int parallel_for(int count, const std::function<void(int)>& work, const std::function<void(int)>& done, const Progress& progress) {
+int parallel_for(int count, const std::function<void(int, const std::atomic<bool>&)>& work, const std::function<void(int)>& done,
+                 const Progress& progress) {
   if (count <= 0) return 0;
   std::mutex mutex;
   std::condition_variable changed;
@@ -18,7 +19,8 @@ int parallel_for(int count, const std::function<void(int)>& work, const std::fun
   std::atomic<bool> stopped{false};
   const auto worker = [&] {
     for (int i = next++; i < count && !stopped; i = next++) {
-      work(i);
+      work(i, stopped);
+      if (stopped) return;
       const std::lock_guard<std::mutex> lock(mutex);
       finished[static_cast<std::size_t>(i)] = 1;
       changed.notify_one();
@@ -31,7 +33,13 @@ int parallel_for(int count, const std::function<void(int)>& work, const std::fun
   while (in_order < count && !stopped) {
     {
       std::unique_lock<std::mutex> lock(mutex);
-      changed.wait(lock, [&] { return finished[static_cast<std::size_t>(in_order)] != 0; });
+      const bool ready =
+          changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return finished[static_cast<std::size_t>(in_order)] != 0; });
+      if (!ready) {
+        lock.unlock();
+        if (!goes_on(progress, static_cast<double>(in_order) / count)) stopped = true;
+        continue;
+      }
     }
     if (done) done(in_order);
     ++in_order;

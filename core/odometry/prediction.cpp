@@ -40,6 +40,9 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   }
   Track track = through(axle, start_s, start);
   for (TimedPose& p : track) p = {p.time_s + vehicle.truth.time_offset_s, p.pose * mounting};
+  for (const TimedPose& p : track)
+    if (!std::isfinite(p.pose.x_m + p.pose.y_m + p.pose.heading_rad))
+      return Error{recording.name, "wheel rotation or commands beyond all bounds", "a drive that stays on the floor"};
   return track;
 }
 

@@ -1,5 +1,6 @@
 #include "core/recording/recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,11 @@ std::vector<double> unwrapped_counts(const std::vector<double>& raw, int counter
     count = total;
   }
   return counts;
+}
+
+// Whether a channel is there and holds anything.
+bool sampled(const Channel* channel) {
+  return channel && std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
 }
 
 // Empty cells filled linearly between the neighbours that have a value; cells before the first and after the last stay.
@@ -78,10 +84,10 @@ std::vector<std::string> problems_in(const Recording& recording) {
 
 std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive) {
   std::vector<double> left, right;
-  if (const Channel *l = recording.channel("left_wheel_rad"), *r = recording.channel("right_wheel_rad"); l && r) {
+  if (const Channel *l = recording.channel("left_wheel_rad"), *r = recording.channel("right_wheel_rad"); sampled(l) && sampled(r)) {
     left = l->values;
     right = r->values;
-  } else if (const Channel *lt = recording.channel("left_ticks"), *rt = recording.channel("right_ticks"); lt && rt) {
+  } else if (const Channel *lt = recording.channel("left_ticks"), *rt = recording.channel("right_ticks"); sampled(lt) && sampled(rt)) {
     const double rad_per_count = 2.0 * kPi / drive.counts_per_wheel_turn();
     left = unwrapped_counts(lt->values, drive.counter_bits);
     right = unwrapped_counts(rt->values, drive.counter_bits);
@@ -90,13 +96,13 @@ std::vector<WheelSample> wheel_samples(const Recording& recording, const Differe
   } else {
     return {};
   }
-  std::vector<char> sampled(left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) sampled[i] = !std::isnan(left[i]) || !std::isnan(right[i]);
+  std::vector<char> read(left.size());
+  for (std::size_t i = 0; i < left.size(); ++i) read[i] = !std::isnan(left[i]) || !std::isnan(right[i]);
   fill_between(recording.time_s, left);
   fill_between(recording.time_s, right);
   std::vector<WheelSample> samples;
   for (std::size_t i = 0; i < left.size(); ++i)
-    if (sampled[i] && !std::isnan(left[i]) && !std::isnan(right[i])) samples.push_back({recording.time_s[i], left[i], right[i]});
+    if (read[i] && !std::isnan(left[i]) && !std::isnan(right[i])) samples.push_back({recording.time_s[i], left[i], right[i]});
   return samples;
 }
 

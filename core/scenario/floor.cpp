@@ -78,8 +78,8 @@ std::vector<std::string> problems_in(const Floor& floor) {
   if (!(std::abs(floor.tilt_rad) < 0.5)) problems.push_back(sentence("floor.tilt_rad", floor.tilt_rad, "an angle within 0.5 rad"));
   if (!(floor.roughness.largest_height_m >= 0.0 && floor.roughness.largest_height_m < 0.02))
     problems.push_back(sentence("floor.roughness.largest_height_m", floor.roughness.largest_height_m, "0 to 0.02 m"));
-  if (!(floor.roughness.spacing_m > 0.0))
-    problems.push_back(sentence("floor.roughness.spacing_m", floor.roughness.spacing_m, "a length above 0 m"));
+  if (!(floor.roughness.spacing_m >= 0.001))
+    problems.push_back(sentence("floor.roughness.spacing_m", floor.roughness.spacing_m, "0.001 m or more"));
   for (std::size_t i = 0; i < floor.bumps.size(); ++i) {
     const std::string key = "floor.bump[" + std::to_string(i + 1) + "]";
     if (!(floor.bumps[i].height_m >= 0.0 && floor.bumps[i].height_m <= 0.05))

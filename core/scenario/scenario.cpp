@@ -1,8 +1,13 @@
 #include "core/scenario/scenario.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace odolab {
+
+namespace {
+constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
+}
 
 std::vector<std::string> problems_in(const Scenario& s) {
   std::vector<std::string> problems;
@@ -24,8 +29,9 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand_positive("actual.wheelbase_m", s.actual.wheelbase_m, "m");
   demand(std::abs(s.actual.toe_left_rad) < 0.5, "actual.toe_left_rad", s.actual.toe_left_rad, "an angle within 0.5 rad");
   demand(std::abs(s.actual.toe_right_rad) < 0.5, "actual.toe_right_rad", s.actual.toe_right_rad, "an angle within 0.5 rad");
-  demand_positive("actual.mass_kg", s.actual.mass_kg, "kg");
-  demand_positive("actual.moment_of_inertia_kgm2", s.actual.moment_of_inertia_kgm2, "kg m2");
+  demand(s.actual.mass_kg >= 0.01 && s.actual.mass_kg <= 1e5, "actual.mass_kg", s.actual.mass_kg, "0.01 to 1e5 kg");
+  demand(s.actual.moment_of_inertia_kgm2 >= 1e-6 && s.actual.moment_of_inertia_kgm2 <= 1e6, "actual.moment_of_inertia_kgm2",
+         s.actual.moment_of_inertia_kgm2, "1e-6 to 1e6 kg m2");
   demand(s.actual.drive_wheel_load_share > 0.0 && s.actual.drive_wheel_load_share <= 1.0, "actual.drive_wheel_load_share",
          s.actual.drive_wheel_load_share, "a share above 0, at most 1");
   demand_positive("motor.wheel_inertia_kgm2", s.motor.wheel_inertia_kgm2, "kg m2");
@@ -33,6 +39,11 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.motor.proportional_gain > 0.0, "motor.proportional_gain", s.motor.proportional_gain, "a gain above 0");
   demand(s.motor.integral_gain >= 0.0, "motor.integral_gain", s.motor.integral_gain, "a gain of 0 or more");
   for (const std::string& p : problems_in(s.floor)) problems.push_back(p);
+  const double smallest_radius_m = std::min(s.actual.wheel_radius_left_m, s.actual.wheel_radius_right_m);
+  for (const Bump& bump : s.floor.bumps)
+    demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m, "less than half a wheel's radius");
+  demand(s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
+         s.floor.roughness.largest_height_m, "less than half a wheel's radius");
   demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
@@ -53,8 +64,18 @@ std::vector<std::string> problems_in(const Scenario& s) {
   if (const auto* wheel = std::get_if<WheelSpeedPath>(&s.path)) {
     demand(!wheel->phases.empty(), "path.phase", 0.0, "one phase or more");
     demand(wheel->ramp_s >= 0.0, "path.ramp_s", wheel->ramp_s, "0 s or more");
-    for (const WheelSpeeds& phase : wheel->phases) demand(phase.duration_s > 0.0, "path.phase.duration_s", phase.duration_s, "a time above 0 s");
+    for (const WheelSpeeds& phase : wheel->phases)
+      demand(phase.duration_s > 0.0 && phase.duration_s >= wheel->ramp_s && phase.duration_s <= kLongest_s, "path.phase.duration_s",
+             phase.duration_s, "a time above 0 s, no shorter than path.ramp_s and at most 1e5 s");
   }
+  if (const auto* hand = std::get_if<HandPath>(&s.path))
+    demand(hand->duration_s > 0.0 && hand->duration_s <= kLongest_s, "path.duration_s", hand->duration_s, "a time above 0, at most 1e5 s");
+  const double way_m = std::holds_alternative<SquarePath>(s.path)     ? 4.0 * std::get<SquarePath>(s.path).side_m
+                       : std::holds_alternative<StraightPath>(s.path) ? std::get<StraightPath>(s.path).length_m
+                       : std::holds_alternative<FigureEightPath>(s.path)
+                           ? 4.0 * kPi * std::get<FigureEightPath>(s.path).radius_m * std::get<FigureEightPath>(s.path).loops
+                           : 0.0;
+  demand(way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps", s.driving.speed_mps, "a speed that ends the path within 1e5 s");
   if (s.benchmark) {
     demand(s.benchmark->runs_each_way >= 1 && s.benchmark->runs_each_way <= 1000, "benchmark.runs_each_way",
            s.benchmark->runs_each_way, "1 to 1000");

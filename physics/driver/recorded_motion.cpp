@@ -19,6 +19,16 @@ RecordedRotation::RecordedRotation(std::vector<WheelSample> samples) {
     else
       samples_.push_back(s);
   speeds_radps_.assign(samples_.size(), WheelPair{});
+  // The ends take the speed of their interval: a recording may begin and end in motion.
+  if (samples_.size() > 1) {
+    const auto mean_speed = [&](std::size_t i) {
+      const double span_s = samples_[i + 1].time_s - samples_[i].time_s;
+      return WheelPair{(samples_[i + 1].left_rad - samples_[i].left_rad) / span_s,
+                       (samples_[i + 1].right_rad - samples_[i].right_rad) / span_s};
+    };
+    speeds_radps_.front() = mean_speed(0);
+    speeds_radps_.back() = mean_speed(samples_.size() - 2);
+  }
   for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
     const double span_s = samples_[i + 1].time_s - samples_[i - 1].time_s;
     speeds_radps_[i] = {(samples_[i + 1].left_rad - samples_[i - 1].left_rad) / span_s,
@@ -34,6 +44,12 @@ WheelPair RecordedRotation::at(double time_s) {
   const WheelPair va = speeds_radps_[segment_], vb = speeds_radps_[segment_ + 1];
   const double h = b.time_s - a.time_s, u = (time_s - a.time_s) / h;
   return {hermite(a.left_rad, va.left, b.left_rad, vb.left, h, u), hermite(a.right_rad, va.right, b.right_rad, vb.right, h, u)};
+}
+
+WheelPair RecordedRotation::speed_at(double time_s) {
+  constexpr double kInstant_s = 1e-4;
+  const WheelPair now = at(time_s), soon = at(time_s + kInstant_s);
+  return {(soon.left - now.left) / kInstant_s, (soon.right - now.right) / kInstant_s};
 }
 
 CommandSample RecordedCommands::at(double time_s) {

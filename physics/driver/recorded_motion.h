@@ -17,6 +17,8 @@ class RecordedRotation {
   bool empty() const { return samples_.empty(); }
   double first_s() const { return samples_.front().time_s; }
   double last_s() const { return samples_.back().time_s; }
+  // Wheel speeds at a time, standing before the first and after the last sample.
+  WheelPair speed_at(double time_s);
   // Rotation at a time; before the first and after the last sample the wheels stand. Times must be asked for in order.
   WheelPair at(double time_s);
 

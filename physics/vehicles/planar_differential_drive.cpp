@@ -10,6 +10,7 @@ PlanarDifferentialDrive::PlanarDifferentialDrive(const ActualDrive& a, const Mot
     : world_(step_s),
       step_s_(step_s),
       mass_kg_(a.mass_kg),
+      half_base_m_(0.5 * a.wheelbase_m),
       wheel_load_n_(0.5 * a.drive_wheel_load_share * a.mass_kg * kGravity_mps2),
       body_(world_.add_body({start, a.mass_kg, a.moment_of_inertia_kgm2})),
       wheels_{Wheel{WheelDrive(motor, a.wheel_radius_left_m, 0.5 * a.mass_kg * a.wheel_radius_left_m * a.wheel_radius_left_m),
@@ -41,6 +42,12 @@ void PlanarDifferentialDrive::turn_wheels(const Ground& ground, const Floor& flo
   roll(ground, floor);
 }
 
+void PlanarDifferentialDrive::begin_in_motion(WheelPair speed) {
+  const double left_mps = wheels_[0].radius_m * speed.left, right_mps = wheels_[1].radius_m * speed.right;
+  const Vec2 velocity = rotated({0.5 * (left_mps + right_mps), 0.0}, world_.pose(body_).heading_rad);
+  world_.set_velocity(body_, velocity, (right_mps - left_mps) / (2.0 * half_base_m_));
+}
+
 void PlanarDifferentialDrive::push(Vec2 impulse_ns) { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
 
 double PlanarDifferentialDrive::speed_mps() const {
@@ -61,7 +68,7 @@ void PlanarDifferentialDrive::roll(const Ground& ground, const Floor& floor) {
         ground.under({wheel.side, contact_place, heading_rad + wheel.toe_rad, wheel.radius_m, wheel.travelled_m});
     const double tread_mps = wheel.radius_m * wheel.mean_speed_radps * contact.horizontal_share * (1.0 - contact.slip);
     wheel.travelled_m += tread_mps * step_s_;
-    world_.set_tread(wheel.tread, tread_mps * wheel.rolling_direction, contact.friction * wheel_load_n_);
+    world_.set_tread(wheel.tread, tread_mps * wheel.rolling_direction, contact.friction * wheel_load_n_ * std::cos(floor.tilt_rad));
     wheel.state.on_bump = contact.on_bump;
     wheel.state.in_slip_zone = contact.in_slip_zone;
     wheel.state.slip_speed_mps = tread_mps;  // less the floor's, below

@@ -33,6 +33,8 @@ class PlanarDifferentialDrive {
   void drive(const Ground& ground, const Floor& floor, WheelPair set_speed_radps);
   // One step in which the wheels turn at exactly these speeds.
   void turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed_radps);
+  // The wheels turn at these speeds from now on, and the vehicle moves with them.
+  void begin_in_motion(WheelPair speed_radps);
   // A push from outside at the centre of mass, spread over the next step.
   void push(Vec2 impulse_ns);
 
@@ -61,6 +63,7 @@ class PlanarDifferentialDrive {
   PlanarWorld world_;
   double step_s_;
   double mass_kg_;
+  double half_base_m_;
   double wheel_load_n_;
   int body_;
   std::array<Wheel, 2> wheels_;

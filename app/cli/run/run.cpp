@@ -1,3 +1,4 @@
+#include <charconv>
 #include <filesystem>
 
 #include "app/cli/command.h"
@@ -13,9 +14,7 @@ namespace odolab {
 namespace {
 
 struct RunOptions {
-  std::string scenario, out;
-  std::uint64_t seed = 1;
-  bool seed_given = false;
+  std::string scenario, out, seed;
   bool check = false;
 };
 
@@ -36,19 +35,36 @@ Result<Done> write(const RunOutputs& out, const Scenario& scenario, const std::s
   HtmlReport report = out.report;
   for (const auto& [name, picture] : out.pictures) report.picture(picture);
 
-  for (const auto& [name, recording] : out.recordings)
-    if (auto done = write_recording_csv(folder + "/" + name + ".csv", recording); !done) return done;
-  for (const auto& [name, track] : out.tracks)
-    if (auto done = write_track_csv(folder + "/" + name + ".csv", track); !done) return done;
-  for (const auto& [name, picture] : out.pictures)
-    if (auto done = write_whole_file(folder + "/" + name + ".svg", picture); !done) return done;
-  if (auto done = write_report(folder + "/report.html", report); !done) return done;
-  return write_json(folder + "/summary.json", summary);
+  std::vector<std::string> written;
+  std::optional<Error> failure;
+  const auto keep = [&](const std::string& path, const Result<Done>& done) {
+    if (done) written.push_back(path);
+    else if (!failure) failure = done.error();
+  };
+  const auto put = [&](const std::string& name, const auto& writer) {
+    if (!failure) keep(folder + "/" + name, writer(folder + "/" + name));
+  };
+  for (const auto& entry : out.recordings)
+    put(entry.first + ".csv", [&](const std::string& path) { return write_recording_csv(path, entry.second); });
+  for (const auto& entry : out.tracks)
+    put(entry.first + ".csv", [&](const std::string& path) { return write_track_csv(path, entry.second); });
+  for (const auto& entry : out.pictures)
+    put(entry.first + ".svg", [&](const std::string& path) { return write_whole_file(path, entry.second); });
+  put("report.html", [&](const std::string& path) { return write_report(path, report); });
+  put("summary.json", [&](const std::string& path) { return write_json(path, summary); });
+  if (!failure) return Done{};
+  for (const std::string& path : written) std::filesystem::remove(path);  // nothing half-written
+  return *failure;
 }
 
-// Prints how each expectation fared. An Error where one asks for a figure that this run does not have.
-Result<bool> judge(const Scenario& scenario, const RunOutputs& out, const std::string& path) {
+struct Judgement {
   bool all_hold = true;
+  std::string lines;  // how each expectation fared
+};
+
+// An Error where an expectation asks for a figure that this run does not have.
+Result<Judgement> judge(const Scenario& scenario, const RunOutputs& out, const std::string& path) {
+  Judgement judgement;
   for (const Expectation& e : scenario.expectations) {
     const double* value = nullptr;
     std::string known;
@@ -58,39 +74,42 @@ Result<bool> judge(const Scenario& scenario, const RunOutputs& out, const std::s
     }
     if (!value) return Error{path + ": expect", "the figure '" + e.figure + "'", "one of " + known};
     const bool holds = (!e.at_least || *value >= *e.at_least) && (!e.at_most || *value <= *e.at_most);
-    all_hold = all_hold && holds;
+    judgement.all_hold = judgement.all_hold && holds;
     std::string range;
     if (e.at_least) range += text_of(" at least %g", *e.at_least);
     if (e.at_most) range += text_of("%s at most %g", e.at_least ? " and" : "", *e.at_most);
-    std::printf("%s: %s is %g, expected%s\n", holds ? "ok" : "FAILED", e.figure.c_str(), *value, range.c_str());
+    judgement.lines += text_of("%s: %s is %g, expected%s\n", holds ? "ok" : "FAILED", e.figure.c_str(), *value, range.c_str());
   }
-  return all_hold;
+  return judgement;
 }
 
 int execute(const RunOptions& options) {
   Result<Scenario> scenario = read_scenario(options.scenario);
   if (!scenario) return bad_input(scenario.error());
-  if (options.seed_given) scenario->seed = options.seed;
+  if (!options.seed.empty()) {
+    const auto end = options.seed.data() + options.seed.size();
+    if (const auto read = std::from_chars(options.seed.data(), end, scenario->seed); read.ec != std::errc() || read.ptr != end)
+      return bad_input({"--seed", "'" + options.seed + "'", "a whole number from 0 to 18446744073709551615"});
+  }
   Result<RunOutputs> out = run(*scenario, options.scenario, terminal_progress("running"));
   if (!out) return bad_input(out.error());
 
+  const Result<Judgement> judgement = judge(*scenario, *out, options.scenario);
+  if (!judgement) return bad_input(judgement.error());
   HtmlReport report(scenario->name);
   if (!scenario->about.empty()) report.paragraph(scenario->about);
-  for (const std::string& sentence : out->sentences) {
-    std::printf("%s\n", sentence.c_str());
-    report.paragraph(sentence);
-  }
+  for (const std::string& sentence : out->sentences) report.paragraph(sentence);
   report.append(out->report);
   out->report = report;
 
   const std::string folder =
       options.out.empty() ? "out/" + std::filesystem::path(options.scenario).stem().string() : options.out;
   if (Result<Done> written = write(*out, *scenario, folder); !written) return bad_input(written.error());
+  for (const std::string& sentence : out->sentences) std::printf("%s\n", sentence.c_str());
   std::printf("written: %s/report.html, summary.json, recordings and pictures\n", folder.c_str());
   if (!options.check) return kDone;
-  const Result<bool> holds = judge(*scenario, *out, options.scenario);
-  if (!holds) return bad_input(holds.error());
-  return *holds ? kDone : kCheckFailed;
+  std::printf("%s", judgement->lines.c_str());
+  return judgement->all_hold ? kDone : kCheckFailed;
 }
 
 }  // namespace
@@ -103,7 +122,7 @@ Command run_command() {
   command.example = "odolab run assets/scenarios/umbmark.toml --seed 7 --out out/umbmark --check";
   command.declare = [options](Arguments& arguments) {
     arguments.file("SCENARIO", options->scenario, "what to simulate (TOML)");
-    arguments.option("--seed", options->seed, options->seed_given, "seed of all that is random; the scenario's own if not given");
+    arguments.option("--seed", options->seed, "seed of all that is random; the scenario's own if not given");
     arguments.option("--out", options->out, "folder for what it writes; out/SCENARIO if not given");
     arguments.flag("--check", options->check, "judge the scenario's own expectations; exit 1 where one fails");
   };

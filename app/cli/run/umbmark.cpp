@@ -16,13 +16,17 @@ const char* name_of(std::size_t stage) {
   return kNames[stage];
 }
 
+std::string uncertainty(double stderr_value) { return stderr_value > 0.0 ? text_of(" +- %.5f", stderr_value) : ""; }
+
 void add_calibration(RunOutputs& out, const UmbmarkCalibration& c, const DifferentialDrive& nominal) {
   out.sentences.push_back(text_of(
       "Type A: it turns %.3f degrees too %s in each corner. Type B: it curves %.3f degrees to the %s on each side. "
-      "Ed = D_R / D_L = %.5f +- %.5f, Eb = b_actual / b_nominal = %.5f +- %.5f.",
+      "Ed = D_R / D_L = %.5f%s, Eb = b_actual / b_nominal = %.5f%s.",
       degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far", degrees(std::abs(c.exact.beta_rad)),
-      c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio, c.wheel_diameter_ratio_stderr, c.wheelbase_ratio,
-      c.wheelbase_ratio_stderr));
+      c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio, uncertainty(c.wheel_diameter_ratio_stderr).c_str(),
+      c.wheelbase_ratio, uncertainty(c.wheelbase_ratio_stderr).c_str()));
+  if (c.wheel_diameter_ratio_stderr == 0.0)
+    out.sentences.push_back("One run in each direction leaves no spread: how uncertain these ratios are is unknown.");
   out.sentences.push_back(text_of("Correct the wheelbase from %.2f to %.2f mm, the left wheel's diameter from %.3f to %.3f mm, the right one's from %.3f to %.3f mm.",
                                   1e3 * nominal.wheelbase_m, 1e3 * c.corrected.wheelbase_m, 2e3 * nominal.wheel_radius_left_m,
                                   2e3 * c.corrected.wheel_radius_left_m, 2e3 * nominal.wheel_radius_right_m,
@@ -57,6 +61,11 @@ Json json_of(const UmbmarkStage& stage) {
   return json;
 }
 
+// The first run in which the robot did not arrive, in words; empty where all did.
+void note_lost(std::string& lost, const BenchmarkRun& run) {
+  if (!run.finished && lost.empty()) lost = text_of("run %s %d never arrived", run.clockwise ? "cw" : "ccw", run.number);
+}
+
 std::string file_name(const BenchmarkRun& run) { return text_of("%s_%d", run.clockwise ? "cw" : "ccw", run.number); }
 
 }  // namespace
@@ -64,14 +73,17 @@ std::string file_name(const BenchmarkRun& run) { return text_of("%s_%d", run.clo
 Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed, const Progress& progress) {
   RunOutputs out;
   std::size_t driven = 0;
+  std::string lost;
   const std::size_t runs = 2 * static_cast<std::size_t>(scenario.benchmark->runs_each_way);
   const std::vector<UmbmarkStage> stages = run_umbmark_calibration(
       scenario, seed,
       [&](const BenchmarkRun& run) {
+        note_lost(lost, run);
         constexpr const char* kStages[] = {"uncalibrated_", "calibrated_", "compensated_twice_"};
         out.recordings.emplace_back(kStages[driven++ / runs] + file_name(run), run.recording);
       },
       progress);
+  if (!lost.empty()) return Error{scenario.name, lost, "a robot that completes its squares"};
   if (stages.size() < 2) return Error{scenario.name, "a benchmark stopped by its user", "one driven to the end"};
 
   ScatterPicture picture{"Return position errors of the square path", {}};
@@ -90,7 +102,11 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
   }
   out.report.table({"[mm]", "Emax,syst", "cw", "ccw", "spread", "SEM"}, rows);
   const double before = stages.front().measure.largest_systematic_error_m, after = stages.back().measure.largest_systematic_error_m;
-  out.sentences.push_back(text_of("That is %.1f times better.", before / after));
+  if (after < before) {
+    out.sentences.push_back(text_of("That is %.1f times better.", before / after));
+  } else {
+    out.sentences.push_back(text_of("That is %.1f times worse: what is wrong here is not the wheelbase and not the ratio of the wheels.", after / before));
+  }
   out.figure("largest_systematic_error_before_m", before);
   out.figure("largest_systematic_error_after_m", after);
   out.figure("improvement", before / after);
@@ -114,8 +130,15 @@ Result<RunOutputs> extended_umbmark_outputs(const Scenario& scenario, std::uint6
   smooth.floor.bumps.clear();
   RunOutputs out;
   const auto half = [&](double begin) { return [&progress, begin](double share) { return goes_on(progress, begin + 0.5 * share); }; };
-  const UmbmarkRuns without = run_umbmark(smooth, seed, {}, half(0.0));
-  const UmbmarkRuns with = run_umbmark(scenario, seed, [&](const BenchmarkRun& run) { out.recordings.emplace_back("bumps_" + file_name(run), run.recording); }, half(0.5));
+  if (scenario.floor.bumps.empty()) return Error{scenario.name + ": floor.bump", "no bump", "bumps for the extended benchmark"};
+  std::string lost;
+  const UmbmarkRuns without = run_umbmark(smooth, seed, [&](const BenchmarkRun& run) { note_lost(lost, run); }, half(0.0));
+  const UmbmarkRuns with = run_umbmark(scenario, seed, [&](const BenchmarkRun& run) {
+        note_lost(lost, run);
+        out.recordings.emplace_back("bumps_" + file_name(run), run.recording);
+      },
+      half(0.5));
+  if (!lost.empty()) return Error{scenario.name, lost, "a robot that completes its squares"};
   const auto measure = measure_extended_umbmark(without, with);
   if (!measure || static_cast<int>(with.counter_clockwise.size()) < scenario.benchmark->runs_each_way)
     return Error{scenario.name, "a benchmark stopped by its user", "one driven to the end"};
