@@ -28,6 +28,7 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
   if (!reckoned) return reckoned.error();
   Simulation simulation(scenario, scenario.seed, recording);
   const double begin_s = simulation.state().time_s, duration_s = simulation.expected_duration_s();
+  if (duration_s > 1e5) return Error{recording->name, "more than a day between truth and wheels", "one recording on one clock"};
   for (int k = 0; !simulation.state().finished; ++k) {
     simulation.step();
     if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / duration_s))

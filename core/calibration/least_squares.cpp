@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/calibration/first_guess.h"
 #include "core/calibration/minimise.h"
 
 namespace odolab {
@@ -83,11 +84,21 @@ std::string text(const char* format, double a = 0.0, double b = 0.0) {
   return buffer;
 }
 
+// So far from each other that the likelihood may have another minimum in between.
+bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
+  constexpr double kNear = 0.1;
+  return std::abs(std::log(a.wheelbase_m / b.wheelbase_m)) > kNear ||
+         std::abs(std::log((a.wheel_radius_left_m + a.wheel_radius_right_m) / (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
+}
+
 // The whole likelihood of all runs, with the state of the fit.
 class Fit {
  public:
   Fit(std::vector<InnovationRun> runs, const Parameters& nominal)
       : runs_(std::move(runs)), nominal_(nominal), now_(nominal), prior_(prior_sizes(nominal)) {}
+
+  // Begins elsewhere than at the nominal values; the priors stay where they are.
+  void start_from(const DifferentialDrive& drive) { now_.shared.drive = drive; }
 
   struct Sums {
     double chi2 = 0.0;  // without the prior
@@ -398,6 +409,11 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     runs.push_back(std::move(*run));
   }
   const Error stopped{"calibration", "stopped before its end", ""};
+  if (const std::string contradiction = contradiction_in(runs, *drive); !contradiction.empty())
+    return Error{recordings.size() == 1 ? recordings[0].name : "the recordings", contradiction,
+                 "wheels and truth of one robot, in the units that the columns are named after"};
+  const FirstGuess guess = first_guess(runs, *drive);
+  const std::vector<std::string> jumps = counter_jumps_in(runs);
 
   std::vector<int> active = {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase};
   if (options.fit_truth_mounting) {
@@ -410,6 +426,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   if (options.fit_truth_clock)
     for (int c = kShared; c < start.size(); ++c) active.push_back(c);
   Fit fit(std::move(runs), start);
+  if (guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
 
   // Parameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where nothing
   // is odd, since each depends little on the others.
@@ -453,6 +470,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   if (!goes_on(progress, 1.0)) return stopped;
 
   LeastSquaresCalibration result;
+  result.warnings = jumps;
   const InnovationModel& model = fit.now().shared;
   fit.correlations(result.correlation);
   constexpr int kBatches = 60;

@@ -42,7 +42,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
   const double smallest_radius_m = std::min(s.actual.wheel_radius_left_m, s.actual.wheel_radius_right_m);
   for (const Bump& bump : s.floor.bumps)
     demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m, "less than half a wheel's radius");
-  demand(s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
+  demand(s.floor.roughness.largest_height_m == 0.0 || s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
          s.floor.roughness.largest_height_m, "less than half a wheel's radius");
   demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
@@ -75,7 +75,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
                        : std::holds_alternative<FigureEightPath>(s.path)
                            ? 4.0 * kPi * std::get<FigureEightPath>(s.path).radius_m * std::get<FigureEightPath>(s.path).loops
                            : 0.0;
-  demand(way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps", s.driving.speed_mps, "a speed that ends the path within 1e5 s");
+  demand(!(s.driving.speed_mps > 0.0) || way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps", s.driving.speed_mps, "a speed that ends the path within 1e5 s");
   if (s.benchmark) {
     demand(s.benchmark->runs_each_way >= 1 && s.benchmark->runs_each_way <= 1000, "benchmark.runs_each_way",
            s.benchmark->runs_each_way, "1 to 1000");

@@ -16,6 +16,15 @@ std::vector<std::string> problems_in(const DifferentialDrive& drive) {
   demand_above_zero("wheel_radius_left_m", drive.wheel_radius_left_m, "a length in metres");
   demand_above_zero("wheel_radius_right_m", drive.wheel_radius_right_m, "a length in metres");
   demand_above_zero("wheelbase_m", drive.wheelbase_m, "a length in metres");
+  const auto demand_below = [&](const char* key, double value, double limit) {
+    if (!(value > limit)) return;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s: found %g, expected a length in metres below %g", key, value, limit);
+    problems.emplace_back(text);
+  };
+  demand_below("wheel_radius_left_m", drive.wheel_radius_left_m, 10.0);  // no robot's; millimetres, most likely
+  demand_below("wheel_radius_right_m", drive.wheel_radius_right_m, 10.0);
+  demand_below("wheelbase_m", drive.wheelbase_m, 50.0);
   demand_above_zero("encoder_counts_per_revolution", drive.encoder_counts_per_revolution, "a number of counts");
   demand_above_zero("gear_ratio", drive.gear_ratio, "a ratio");
   if (drive.counter_bits < 0 || drive.counter_bits > 62)

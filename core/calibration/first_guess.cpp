@@ -1,0 +1,210 @@
+#include "core/calibration/first_guess.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace odolab {
+
+namespace {
+
+// A stretch between two truth samples: rotation of the wheels, and the truth's turn and way along its middle heading.
+struct Stretch {
+  double left_rad = 0.0, right_rad = 0.0;
+  double turn_rad = 0.0, way_m = 0.0;
+};
+
+WheelSample wheels_at(const std::vector<WheelSample>& wheels, double time_s) {
+  const auto after = std::lower_bound(wheels.begin(), wheels.end(), time_s, [](const WheelSample& w, double t) { return w.time_s < t; });
+  if (after == wheels.begin()) return wheels.front();
+  if (after == wheels.end()) return wheels.back();
+  const WheelSample &a = *(after - 1), &b = *after;
+  const double u = (time_s - a.time_s) / (b.time_s - a.time_s);
+  return {time_s, a.left_rad + u * (b.left_rad - a.left_rad), a.right_rad + u * (b.right_rad - a.right_rad)};
+}
+
+// Long enough that clocks apart by a tenth of a second matter little, short enough that a turn is not taken for another.
+constexpr double kShortest_s = 0.5, kLongest_s = 5.0;
+constexpr double kLargestTurn_rad = 1.2;
+
+std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
+  std::vector<Stretch> stretches;
+  for (const InnovationRun& run : runs) {
+    if (!run.truth_has_heading) continue;
+    std::size_t from = 0;
+    for (std::size_t i = 1; i < run.truth.size(); ++i) {
+      const TruthSample &a = run.truth[from], &b = run.truth[i];
+      const double span_s = b.time_s - a.time_s;
+      if (span_s < kShortest_s) continue;
+      from = i;
+      if (span_s > kLongest_s || !a.heading_rad || !b.heading_rad) continue;
+      Stretch s;
+      s.turn_rad = wrapped(*b.heading_rad - *a.heading_rad);
+      if (std::abs(s.turn_rad) > kLargestTurn_rad) continue;
+      const double middle_rad = *a.heading_rad + 0.5 * s.turn_rad;
+      s.way_m = dot(b.position - a.position, {std::cos(middle_rad), std::sin(middle_rad)});
+      const WheelSample wa = wheels_at(run.wheels, a.time_s), wb = wheels_at(run.wheels, b.time_s);
+      s.left_rad = wb.left_rad - wa.left_rad;
+      s.right_rad = wb.right_rad - wa.right_rad;
+      if (std::abs(s.left_rad) + std::abs(s.right_rad) > 0.0) stretches.push_back(s);
+    }
+  }
+  // A single jump of a counter would outweigh all the rest.
+  std::vector<double> sizes;
+  for (const Stretch& s : stretches) sizes.push_back(std::abs(s.left_rad) + std::abs(s.right_rad));
+  if (sizes.empty()) return stretches;
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  const double largest = 20.0 * sizes[sizes.size() / 2];
+  stretches.erase(std::remove_if(stretches.begin(), stretches.end(),
+                                 [&](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad) > largest; }),
+                  stretches.end());
+  return stretches;
+}
+
+// How many times further the truth turns than the wheels say, from half-second to half-second.
+double turning_ratio(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  double truth_rad = 0.0, wheels_rad = 0.0;
+  for (const InnovationRun& run : runs) {
+    std::size_t from = 0;
+    for (std::size_t i = 1; i < run.truth.size(); ++i) {
+      if (run.truth[i].time_s - run.truth[from].time_s < kShortest_s) continue;
+      if (run.truth[i].heading_rad && run.truth[from].heading_rad) truth_rad += std::abs(*run.truth[i].heading_rad - *run.truth[from].heading_rad);
+      from = i;
+    }
+    for (std::size_t i = 1; i < run.wheels.size(); ++i)
+      wheels_rad += std::abs(drive.wheel_radius_right_m * (run.wheels[i].right_rad - run.wheels[i - 1].right_rad) -
+                             drive.wheel_radius_left_m * (run.wheels[i].left_rad - run.wheels[i - 1].left_rad)) /
+                    drive.wheelbase_m;
+  }
+  return wheels_rad > 1.0 ? truth_rad / wheels_rad : 1.0;
+}
+
+// y = p left + q right over all stretches, and which share of y's squares it explains. Three rounds, each without the
+// stretches that contradict the one before by three times the median.
+struct Plane {
+  double left = 0.0, right = 0.0, explained = 0.0;
+};
+
+Plane fitted(const std::vector<Stretch>& stretches, double Stretch::* y) {
+  Plane plane;
+  std::vector<char> used(stretches.size(), 1);
+  for (int round = 0; round < 3; ++round) {
+    double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0, yy = 1e-12;
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      if (!used[i]) continue;
+      const Stretch& s = stretches[i];
+      ll += s.left_rad * s.left_rad, lr += s.left_rad * s.right_rad, rr += s.right_rad * s.right_rad;
+      ly += s.left_rad * s.*y, ry += s.right_rad * s.*y, yy += s.*y * s.*y;
+    }
+    // A little stiffness for drives on which both wheels always do the same.
+    const double ridge = 1e-9 * (ll + rr), determinant = (ll + ridge) * (rr + ridge) - lr * lr;
+    plane.left = ((rr + ridge) * ly - lr * ry) / determinant;
+    plane.right = ((ll + ridge) * ry - lr * ly) / determinant;
+    double left_over = 0.0, total = 1e-12;
+    std::vector<double> misses(stretches.size());
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      const Stretch& s = stretches[i];
+      misses[i] = std::abs(s.*y - plane.left * s.left_rad - plane.right * s.right_rad);
+      if (used[i]) left_over += misses[i] * misses[i], total += s.*y * s.*y;
+    }
+    plane.explained = 1.0 - left_over / total;
+    std::vector<double> sorted = misses;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    const double gate = 3.0 * sorted[sorted.size() / 2] / 0.6745 + 1e-9;
+    for (std::size_t i = 0; i < stretches.size(); ++i) used[i] = misses[i] <= gate;
+  }
+  return plane;
+}
+
+struct Planes {
+  Plane turn, way;
+  bool enough = false;  // both wheels were driven apart and together
+};
+
+Planes planes_of(const std::vector<Stretch>& stretches) {
+  Planes planes;
+  double together = 0.0, apart = 0.0;
+  for (const Stretch& s : stretches) {
+    together += (s.left_rad + s.right_rad) * (s.left_rad + s.right_rad);
+    apart += (s.left_rad - s.right_rad) * (s.left_rad - s.right_rad);
+  }
+  planes.enough = stretches.size() >= 8 && together > 0.01 * apart && apart > 0.01 * together;
+  if (!planes.enough) return planes;
+  planes.turn = fitted(stretches, &Stretch::turn_rad);
+  planes.way = fitted(stretches, &Stretch::way_m);
+  return planes;
+}
+
+constexpr double kExplained = 0.8;
+
+}  // namespace
+
+FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
+  FirstGuess guess{nominal, false};
+  const Planes p = planes_of(stretches_of(runs));
+  if (!p.enough || p.turn.explained < kExplained || p.way.explained < kExplained) return guess;
+  // way = (r_L left + r_R right) / 2, turn = (r_R right - r_L left) / b
+  const double mean_radius_m = p.way.left + p.way.right, slope = 0.5 * (p.turn.right - p.turn.left);
+  if (mean_radius_m <= 0.0 || slope <= 0.0) return guess;
+  guess.drive.wheel_radius_left_m = guess.drive.wheel_radius_right_m = mean_radius_m;
+  guess.drive.wheelbase_m = mean_radius_m / slope;
+  guess.trusted = problems_in(guess.drive).empty();
+  if (!guess.trusted) guess.drive = nominal;
+  return guess;
+}
+
+std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs) {
+  std::vector<std::string> sentences;
+  for (const InnovationRun& run : runs) {
+    for (double WheelSample::* wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < run.wheels.size(); ++i) steps.push_back(std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
+      if (steps.empty()) continue;
+      const std::size_t largest = static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
+      const double jump_rad = steps[largest];
+      std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10), steps.end());
+      if (jump_rad < 10.0 || jump_rad < 100.0 * steps[steps.size() * 9 / 10]) continue;
+      char text[240];
+      std::snprintf(text, sizeof text, "%s: the %s wheel's reading jumps by %.4g rad at %.2f s: an encoder fault, or a counter that wraps (counter_bits)",
+                    run.name.c_str(), wheel == &WheelSample::left_rad ? "left" : "right", jump_rad, run.wheels[largest].time_s);
+      sentences.push_back(text);
+    }
+  }
+  return sentences;
+}
+
+std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
+  char text[240];
+  // A degree taken for a radian makes 57 of one.
+  const Planes p = planes_of(stretches_of(runs));
+  const double turning = turning_ratio(runs, nominal);
+  if (turning > 20.0) {
+    std::snprintf(text, sizeof text, "headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?", turning);
+    return text;
+  }
+  if (!p.enough) return "";
+  const double way_sum = p.way.left + p.way.right, turn_difference = p.turn.right - p.turn.left;
+  if (p.way.explained > kExplained && p.way.left > 0.0 && p.way.right > 0.0 && p.turn.explained > kExplained && turn_difference < 0.0)
+    return "wheels that turn the robot the other way than the truth: the left and the right wheel are exchanged, or headings run clockwise";
+  if (p.way.explained > kExplained && way_sum < 0.0)
+    return "wheels that roll backward while the truth goes forward: the sign of the wheels' rotation is wrong, or the truth's heading points backward";
+  // One reversed wheel: what should be the way is in the difference of the wheels.
+  if (p.way.explained > kExplained && p.way.left * p.way.right < 0.0 && std::abs(way_sum) < 0.3 * std::abs(p.way.left - p.way.right))
+    return "one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's rotation is wrong";
+  const double radius_ratio = way_sum / (nominal.wheel_radius_left_m + nominal.wheel_radius_right_m) * 2.0;
+  if (p.way.explained > kExplained && (radius_ratio > 5.0 || radius_ratio < 0.2)) {
+    std::snprintf(text, sizeof text,
+                  "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per turn, or counts that "
+                  "are not cumulative",
+                  radius_ratio);
+    return text;
+  }
+  if (p.turn.explained < 0.3 && p.way.explained < 0.3)
+    return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are not cumulative, or "
+           "another robot's truth";
+  if (p.way.explained > kExplained && p.turn.explained < 0.3)
+    return "headings that do not follow the wheels, while the way does: headings in degrees?";
+  return "";
+}
+
+}  // namespace odolab

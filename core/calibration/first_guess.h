@@ -1,0 +1,27 @@
+// Where a calibration starts, and whether wheels and truth speak of the same robot at all.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/calibration/innovations.h"
+
+namespace odolab {
+
+// By plain least squares over stretches of half a second to a few: the truth's turn against the rotation of both wheels,
+// and its way along the heading against the same. Rough, but it has one minimum and knows no start.
+struct FirstGuess {
+  DifferentialDrive drive;  // wheel radii and wheelbase; the nominal ones where nothing can be said
+  bool trusted = false;     // most of the truth's motion is explained by it
+};
+
+FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal);
+
+// A sentence about wheels that contradict the truth in a way that no calibration mends: exchanged or reversed wheels,
+// headings in degrees, lengths in millimetres. Empty where they do not.
+std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal);
+
+// Readings that jump by more than a hundred times the usual step: a sentence for each wheel that does.
+std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs);
+
+}  // namespace odolab

@@ -1,0 +1,74 @@
+#include "core/calibration/first_guess.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace odolab {
+namespace {
+
+// A robot of wheelbase 0.2 m and radii 0.05 m on winding arcs, laid down in millisecond steps; encoders and truth at 50 Hz.
+InnovationRun winding_arcs(double radius_m, double wheelbase_m) {
+  InnovationRun run;
+  run.truth_has_heading = true;
+  Pose pose;
+  double left = 0.0, right = 0.0;
+  for (int k = 0; k <= 40000; ++k) {
+    const double t = 0.001 * k;
+    if (k % 20 == 0) {
+      run.wheels.push_back({t, left, right});
+      run.truth.push_back({t, pose.position(), pose.heading_rad});
+    }
+    const double v = 0.3, w = 0.8 * std::sin(0.5 * t);
+    left += (v - 0.5 * wheelbase_m * w) / radius_m * 0.001;
+    right += (v + 0.5 * wheelbase_m * w) / radius_m * 0.001;
+    pose = {pose.x_m + v * 0.001 * std::cos(pose.heading_rad), pose.y_m + v * 0.001 * std::sin(pose.heading_rad), pose.heading_rad + w * 0.001};
+  }
+  return run;
+}
+
+DifferentialDrive drive(double radius_m, double wheelbase_m) {
+  DifferentialDrive d;
+  d.wheel_radius_left_m = d.wheel_radius_right_m = radius_m;
+  d.wheelbase_m = wheelbase_m;
+  return d;
+}
+
+TEST(FirstGuess, FindsARobotOfHalfTheBelievedSize) {
+  const FirstGuess guess = first_guess({winding_arcs(0.05, 0.2)}, drive(0.1, 0.4));
+  ASSERT_TRUE(guess.trusted);
+  // Chords instead of arcs over half a second: (0.4 rad)^2 / 24.
+  EXPECT_NEAR(guess.drive.wheel_radius_left_m, 0.05, 0.0005);
+  EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
+  EXPECT_EQ(contradiction_in({winding_arcs(0.05, 0.2)}, drive(0.1, 0.4)), "");
+}
+
+TEST(FirstGuess, IsNotLedAstrayByOneJumpOfACounter) {
+  InnovationRun run = winding_arcs(0.05, 0.2);
+  for (std::size_t i = 700; i < run.wheels.size(); ++i) run.wheels[i].left_rad += 1e6;
+  const FirstGuess guess = first_guess({run}, drive(0.05, 0.2));
+  ASSERT_TRUE(guess.trusted);
+  EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
+}
+
+TEST(FirstGuess, NamesWhatNoCalibrationMends) {
+  const DifferentialDrive nominal = drive(0.05, 0.2);
+  const auto says = [&](const InnovationRun& run, const char* words) {
+    const std::string found = contradiction_in({run}, nominal);
+    EXPECT_NE(found.find(words), std::string::npos) << words << ": " << found;
+  };
+  InnovationRun exchanged = winding_arcs(0.05, 0.2), reversed = exchanged, one = exchanged, degrees_run = exchanged, millimetres = exchanged;
+  for (WheelSample& w : exchanged.wheels) std::swap(w.left_rad, w.right_rad);
+  for (WheelSample& w : reversed.wheels) w = {w.time_s, -w.left_rad, -w.right_rad};
+  for (WheelSample& w : one.wheels) w.left_rad = -w.left_rad;
+  for (TruthSample& t : degrees_run.truth) t.heading_rad = degrees(*t.heading_rad);
+  for (TruthSample& t : millimetres.truth) t.position = 1000.0 * t.position;
+  says(exchanged, "exchanged");
+  says(reversed, "roll backward");
+  says(one, "one wheel");
+  says(degrees_run, "degrees");
+  says(millimetres, "other units");
+}
+
+}  // namespace
+}  // namespace odolab
