@@ -1,9 +1,32 @@
 #include "physics/replay.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/odometry/prediction.h"
 #include "physics/simulation.h"
 
 namespace odolab {
+
+namespace {
+
+// The turn about the first truth sample that lays the first two metres of a track onto the truth's positions.
+double turn_onto(const Track& track, const std::vector<TruthSample>& truth) {
+  constexpr double kFirst_m = 2.0;
+  const auto start = pose_at(track, truth[0].time_s);
+  double along = 0.0, across = 0.0, way_m = 0.0;
+  for (std::size_t i = 1; start && i < truth.size() && way_m < kFirst_m; ++i) {
+    way_m = std::max(way_m, length(truth[i].position - truth[0].position));
+    const auto pose = pose_at(track, truth[i].time_s);
+    if (!pose) continue;
+    const Vec2 driven = pose->position() - start->position(), seen = truth[i].position - truth[0].position;
+    along += dot(driven, seen);
+    across += cross(driven, seen);
+  }
+  return std::atan2(across, along);
+}
+
+}  // namespace
 
 Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
   Scenario scenario;
@@ -26,7 +49,19 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
     return Error{recording->name + ": path.by", "'commands', but the recording has none", "'wheels', or another recording"};
   Result<Track> reckoned = predicted_track(*recording, scenario.vehicle);
   if (!reckoned) return reckoned.error();
-  Simulation simulation(scenario, scenario.seed, recording);
+  Scenario aligned = scenario;
+  Replay result;
+  result.truth = truth_track(*recording);
+  if (const std::vector<TruthSample> samples = truth_samples(*recording); result.truth.size() < 2 && samples.size() >= 2) {
+    result.truth_has_headings = false;
+    aligned.start.heading_rad = turn_onto(*reckoned, samples);
+    const Pose origin{samples[0].position.x_m, samples[0].position.y_m, 0.0};
+    for (TimedPose& p : *reckoned) p.pose = origin * Pose{0.0, 0.0, aligned.start.heading_rad} * between(origin, p.pose);
+    result.truth.clear();
+    for (const TruthSample& s : samples)
+      if (const auto pose = pose_at(*reckoned, s.time_s)) result.truth.push_back({s.time_s, {s.position.x_m, s.position.y_m, pose->heading_rad}});
+  }
+  Simulation simulation(aligned, scenario.seed, recording);
   const double begin_s = simulation.state().time_s, duration_s = simulation.expected_duration_s();
   if (duration_s > 1e5) return Error{recording->name, "more than a day between truth and wheels", "one recording on one clock"};
   for (int k = 0; !simulation.state().finished; ++k) {
@@ -34,8 +69,6 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
     if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / duration_s))
       return Error{recording->name, "the replay stopped by its user", "a replay to the end"};
   }
-  Replay result;
-  result.truth = truth_track(*recording);
   result.dead_reckoned = *reckoned;
   const TruthMounting& truth = scenario.vehicle.truth;
   for (const TimedPose& p : simulation.true_track())

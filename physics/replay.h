@@ -17,7 +17,10 @@ struct Replay {
   Track truth;
   Track simulated;       // the planar vehicle, driven by the recorded wheel rotation or commands
   Track dead_reckoned;   // the vehicle file's odometry from the same start, without any physics
-  // Against the truth; none where the truth has no heading or fewer than two samples.
+  // A truth without headings lends its first metres to find the heading of the start; its headings here are those of dead
+  // reckoning, and only the position at the end and the largest on the way can be judged.
+  bool truth_has_headings = true;
+  // Against the truth; none where it has fewer than two samples.
   std::optional<TrackError> simulated_error;
   std::optional<TrackError> dead_reckoned_error;
 };

@@ -34,7 +34,7 @@ Pose start_of(const Scenario& scenario, const Recording* replayed) {
   if (!replayed) return scenario.start;
   const std::vector<TruthSample> truth = truth_samples(*replayed);
   if (truth.empty()) return scenario.start;
-  const Pose tracked{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)};
+  const Pose tracked{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(scenario.start.heading_rad)};
   return tracked * inverse(scenario.vehicle.truth.axle_T_tracked);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "app/cli/command.h"
@@ -49,6 +50,17 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
   return interrupted() ? "stopped" : held_out.text();
 }
 
+// Whether two recordings hold the same samples, as when both files of a pair were given.
+bool same_run(const Recording& a, const Recording& b) {
+  if (a.time_s != b.time_s || a.channels.size() != b.channels.size()) return false;
+  for (std::size_t c = 0; c < a.channels.size(); ++c)
+    for (std::size_t i = 0; i < a.time_s.size(); ++i) {
+      const double x = a.channels[c].values[i], y = b.channels[c].values[i];
+      if (x != y && !(std::isnan(x) && std::isnan(y))) return false;
+    }
+  return true;
+}
+
 void print_calibration(const LeastSquaresCalibration& calibration) {
   std::vector<std::vector<std::string>> rows{{"parameter", "before", "estimate", "+- (1 sigma)", "unit"}};
   for (const ParameterEstimate& p : calibration.parameters)
@@ -76,13 +88,23 @@ int execute(const CalibrateOptions& options) {
   for (std::size_t i = 0; i < recordings.size(); ++i)
     if (wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() && !command_samples(recordings[i]).empty())
       return bad_input({options.recordings[i], "commands alone", "wheel rotation: how a base follows its commands is not calibrated yet"});
+  for (std::size_t i = 0; i < recordings.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_run(recordings[i], recordings[k]))
+        return bad_input({options.recordings[i], "the same run as in " + options.recordings[k], "each run once"});
   const Result<LeastSquaresCalibration> calibration =
       calibrate_least_squares(recordings, *nominal, {}, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());
-  if (!options.out.empty())
+  const bool anything = std::any_of(calibration->parameters.begin(), calibration->parameters.end(),
+                                    [](const ParameterEstimate& p) { return p.determined; });
+  if (!options.out.empty() && anything)
     if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written) return bad_input(written.error());
 
   print_calibration(*calibration);
+  if (!anything) {
+    std::printf("\nNothing could be determined, and no vehicle was written.\n");
+    return kDone;
+  }
   PerMetre before, after;
   for (const Recording& recording : recordings) {
     before.add(recording, *nominal);

@@ -84,6 +84,22 @@ std::string text(const char* format, double a = 0.0, double b = 0.0) {
   return buffer;
 }
 
+// Whether the robots hardly ever changed their speed while they drove. Without headings, a clock that is late by dt then
+// looks like a tracked point that is v dt behind.
+bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (const InnovationRun& run : runs)
+    for (const DriveStep& step : drive_steps(run, drive)) {
+      const double speed = 0.5 * (step.left_m + step.right_m) / step.duration_s;
+      if (std::abs(speed) < 0.01) continue;
+      n += 1.0;
+      sum += speed;
+      squares += speed * speed;
+    }
+  constexpr double kSteady = 0.3;
+  return n < 2.0 || squares / n - sum * sum / (n * n) < kSteady * kSteady * sum * sum / (n * n);
+}
+
 // So far from each other that the likelihood may have another minimum in between.
 bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
   constexpr double kNear = 0.1;
@@ -421,9 +437,11 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     active.push_back(column::mounting_y);
     if (any_heading) active.push_back(column::mounting_heading);
   }
+  const bool clock_hides_in_place = !any_heading && at_steady_speed(runs, *drive);
+  if (clock_hides_in_place) active.erase(std::remove(active.begin(), active.end(), column::mounting_x), active.end());
   const Parameters start{{*drive, nominal.truth, {0.005, 0.005, 0.02}},
                          std::vector<double>(options.one_truth_clock ? 1 : runs.size(), nominal.truth.time_offset_s)};
-  if (options.fit_truth_clock)
+  if (options.fit_truth_clock && !clock_hides_in_place)
     for (int c = kShared; c < start.size(); ++c) active.push_back(c);
   Fit fit(std::move(runs), start);
   if (guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
@@ -558,6 +576,10 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   if (!any_heading) result.noise.truth_heading_rad = 0.0;
   result.cannot_tell =
       what_cannot_be_told(determined, active, information, driven_in(fit.runs(), model.drive), any_heading);
+  if (clock_hides_in_place)
+    result.cannot_tell.push_back(
+        "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a tracked point "
+        "further behind; both stay as given. Change the speed on the way, or stop now and then");
   result.normalised_chi2 = final_sums.chi2 / std::max(1, final_sums.scalars);
   Parameters as_nominal = start;
   as_nominal.shared.noise = model.noise;

@@ -39,6 +39,39 @@ TEST(Replay, SimulatedVehicleFollowsARecordingOfItsOwnKind) {
   EXPECT_NEAR(as_drawn->simulated_error->heading_rms_rad, 0.0147, 0.002);
 }
 
+TEST(Replay, BeginsInMotionWithoutFalseSlip) {
+  // 1 m/s from the first sample on. From rest the wheels would slip for v^2 / (2 mu share g) = 91 mm.
+  Recording recording;
+  std::vector<double> wheel, x, zero;
+  for (int k = 0; k <= 100; ++k) {
+    recording.time_s.push_back(0.02 * k);
+    wheel.push_back(0.02 * k / 0.075);
+    x.push_back(0.02 * k);
+    zero.push_back(0.0);
+  }
+  recording.channels = {{"left_wheel_rad", wheel}, {"right_wheel_rad", wheel}, {"truth_x_m", x}, {"truth_y_m", zero}, {"truth_heading_rad", zero}};
+  const auto shared = std::make_shared<const Recording>(recording);
+  const Result<Replay> result = replay(replay_scenario(Vehicle{}, recording), shared);
+  ASSERT_TRUE(result);
+  EXPECT_LT(result->simulated_error->largest_position_m, 1e-4);
+}
+
+TEST(Replay, TruthWithoutHeadingsIsLaidOntoByItsFirstMetres) {
+  Scenario scenario;
+  scenario.path = FigureEightPath{1.0, 1};
+  scenario.start = {1.0, 2.0, 0.9};
+  Simulation driven(scenario, 5);
+  run_to_end(driven);
+  Recording blind = driven.recording();
+  blind.channels.pop_back();  // truth_heading_rad
+  const auto recording = std::make_shared<const Recording>(blind);
+  const Result<Replay> result = replay(replay_scenario(Vehicle{}, blind), recording);
+  ASSERT_TRUE(result);
+  EXPECT_FALSE(result->truth_has_headings);
+  // Encoder counts: 0.7 mrad over 2 m of reach.
+  EXPECT_LT(result->simulated_error->largest_position_m, 5e-3);
+}
+
 TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
   Recording commands;
   commands.name = "commands";

@@ -54,9 +54,11 @@ Result<RunOutputs> drive_outputs(const Scenario& scenario, std::uint64_t seed, c
   out.figure("end_y_m", end.y_m);
   out.figure("end_heading_rad", end.heading_rad);
   if (!simulation.state().finished) out.sentences.push_back("The robot did not arrive: it was given up after three times the planned time.");
-  out.sentences.push_back(text_of("The robot drove %.2f m in %.1f s. In the end it is %.1f mm and %.2f degrees from where it believes to be.",
+  const auto whole = track_error(believed, exact);
+  out.sentences.push_back(text_of("The robot drove %.2f m in %.1f s. In the end it is %.1f mm and %.2f degrees from where it believes to be; on "
+                                  "the way it was up to %.1f mm.",
                                   travelled_m(exact), simulation.state().time_s, 1e3 * length(gap.position()),
-                                  degrees(std::abs(wrapped(gap.heading_rad)))));
+                                  degrees(std::abs(wrapped(gap.heading_rad))), whole ? 1e3 * whole->largest_position_m : 0.0));
   out.recordings.emplace_back("recording", simulation.recording());
   out.tracks.emplace_back("true_track", exact);
   out.tracks.emplace_back("estimated_track", believed);

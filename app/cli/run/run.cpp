@@ -83,6 +83,18 @@ Result<Judgement> judge(const Scenario& scenario, const RunOutputs& out, const s
   return judgement;
 }
 
+std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
+  const auto& nominal = std::get<DifferentialDrive>(scenario.vehicle.kind);
+  const ActualDrive& actual = scenario.actual;
+  const auto row = [](const char* name, double believed, double real) {
+    return std::vector<std::string>{name, text_of("%.7g", believed), text_of("%.7g", real)};
+  };
+  return {row("wheel_radius_left_m", nominal.wheel_radius_left_m, actual.wheel_radius_left_m),
+          row("wheel_radius_right_m", nominal.wheel_radius_right_m, actual.wheel_radius_right_m),
+          row("wheelbase_m", nominal.wheelbase_m, actual.wheelbase_m),
+          {"mass_kg", "", text_of("%.4g", actual.mass_kg)}};
+}
+
 int execute(const RunOptions& options) {
   Result<Scenario> scenario = read_scenario(options.scenario);
   if (!scenario) return bad_input(scenario.error());
@@ -100,6 +112,14 @@ int execute(const RunOptions& options) {
   if (!scenario->about.empty()) report.paragraph(scenario->about);
   for (const std::string& sentence : out->sentences) report.paragraph(sentence);
   report.append(out->report);
+  report.heading("Figures");
+  std::vector<std::vector<std::string>> figures;
+  for (const auto& [name, value] : out->figures) figures.push_back({name, text_of("%.6g", value)});
+  report.table({"figure", "value"}, figures);
+  report.heading("What was run");
+  report.table({"parameter", "nominal", "actual"}, what_was_run(*scenario));
+  report.paragraph(text_of("odolab run %s --seed %llu (OdoLab " ODOLAB_VERSION ", step %g s, friction %g)", options.scenario.c_str(),
+                           static_cast<unsigned long long>(scenario->seed), scenario->step_s, scenario->floor.friction));
   out->report = report;
 
   const std::string folder =

@@ -25,6 +25,9 @@ void add_calibration(RunOutputs& out, const UmbmarkCalibration& c, const Differe
       degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far", degrees(std::abs(c.exact.beta_rad)),
       c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio, uncertainty(c.wheel_diameter_ratio_stderr).c_str(),
       c.wheelbase_ratio, uncertainty(c.wheelbase_ratio_stderr).c_str()));
+  out.sentences.push_back(
+      "Squares cannot see a scale common to both wheels: what a rough floor adds to both goes into the wheelbase (Eq. 6.30), "
+      "and the uncertainty given is that of the squares alone.");
   if (c.wheel_diameter_ratio_stderr == 0.0)
     out.sentences.push_back("One run in each direction leaves no spread: how uncertain these ratios are is unknown.");
   out.sentences.push_back(text_of("Correct the wheelbase from %.2f to %.2f mm, the left wheel's diameter from %.3f to %.3f mm, the right one's from %.3f to %.3f mm.",
