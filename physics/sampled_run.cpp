@@ -21,8 +21,9 @@ Recording recording_of(const SampledRun& run, const Sensors& sensors, const std:
     recording.time_s.push_back(std::min(robot_s, truth_s));
     left.push_back(robot ? run.wheels[w].left_rad : none);
     right.push_back(robot ? run.wheels[w].right_rad : none);
-    speed.push_back(command ? run.commands[w].speed_mps : none);
-    rate.push_back(command ? run.commands[w].yaw_rate_radps : none);
+    // A minus zero, adding zero, loses its sign.
+    speed.push_back(command ? run.commands[w].speed_mps + 0.0 : none);
+    rate.push_back(command ? run.commands[w].yaw_rate_radps + 0.0 : none);
     x.push_back(truth ? run.truth[t].pose.x_m : none);
     y.push_back(truth ? run.truth[t].pose.y_m : none);
     heading.push_back(truth ? run.truth[t].pose.heading_rad : none);

@@ -39,7 +39,7 @@ TEST(CastorReversalKick, GivesItsWholeKickWithinAFewCentimetresOfEachReversal) {
   const Scenario there_and_back = table_drive({phase(5.0, 0.2, 0.0), phase(5.0, -0.2, 0.0)}, {kick});
   EXPECT_NEAR(end_pose(there_and_back).heading_rad, 0.03, 1e-5);
   Simulation s(there_and_back, 1);
-  while (s.state().time_s < 5.25 + 0.4) s.step();  // reverses at 5.25 s and is then 3 cm back: amid the kick
+  while (s.state().time_s < 5.5) s.step();  // it reverses at 5.25 s and is 2.5 cm back now: amid the 5 cm of the kick
   EXPECT_GT(s.state().true_pose.heading_rad, 0.003);
   EXPECT_LT(s.state().true_pose.heading_rad, 0.027);
 }
@@ -74,9 +74,10 @@ TEST(Collision, TakesTheVehicleAsideByWhatItSays) {
     const Pose before = s.state().true_pose;
     while (s.state().time_s < 2.25 - 1e-9) s.step();
     const Pose after = s.state().true_pose;
-    // What the wheels roll meanwhile, 5 cm, turns along with the vehicle: by half the turn on average.
+    // What the wheels roll meanwhile, 5 cm, turns along with the vehicle: by half the turn on average. The variance of the
+    // heading on the way, 0.2^2 / 8, makes that way 0.25 % shorter, 0.12 mm.
     const Vec2 rolled = rotated({0.25 * speed, 0.0}, before.heading_rad + 0.1);
-    EXPECT_NEAR(length(after.position() - before.position() - rolled - Vec2{-0.04, 0.06}), 0.0, speed == 0.0 ? 1e-5 : 1e-4);
+    EXPECT_NEAR(length(after.position() - before.position() - rolled - Vec2{-0.04, 0.06}), 0.0, speed == 0.0 ? 1e-5 : 1.5e-4);
     EXPECT_NEAR(after.heading_rad - before.heading_rad, 0.2, 1e-4);
   }
 }

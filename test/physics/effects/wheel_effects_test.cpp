@@ -86,7 +86,8 @@ TEST(DrivetrainBacklash, WheelsLagByTheGapAfterAReversalWhileTheEncoderTurns) {
   // Forward 5 s and back 5.5 s with ramps: the motor is where it was, the wheel a gap ahead of it.
   EXPECT_NEAR(s.state().left.counted_rad, (5.0 - 5.5) * 0.2 / kRadius_m, 1e-9);
   EXPECT_NEAR(s.state().left.rotation_rad - s.state().left.counted_rad, 0.05, 1e-9);
-  EXPECT_NEAR(s.state().true_pose.x_m, kRadius_m * s.state().left.rotation_rad, 2e-4);  // the engaging wheel skids for a moment
+  // At the end of the gap the motor pulls at 77 mm/s: the wheels skid for 0.64 mm (grip 5.5 m/s2, less the ramp's 0.8).
+  EXPECT_NEAR(s.state().true_pose.x_m, kRadius_m * s.state().left.rotation_rad, 7e-4);
 }
 
 TEST(EncoderMissedCounts, LosesItsShareAboveTheSpeedAlone) {
