@@ -101,6 +101,16 @@ TEST(Effects, FoundInARecordingExplainItInAReplay) {
       {{"truth_mounting_offset", "truth", {{"x_m", 0.08}}}},
       {{"payload_radius_change", "vehicle", {{"left", 0.01}, {"right", -0.01}, {"at_s", 8.0}}}},
       {{"turn_scrub", "vehicle", {{"per_radps", 0.04}}}},
+      {{"traction_slip", "both_wheels", {{"per_mps2", 0.1}}}},
+      {{"lateral_slip", "vehicle", {{"m_per_s_per_mps2", 0.03}}}},
+      {{"tyre_compression", "vehicle", {{"radius_change_m_per_mps2", 0.002}}}},
+      {{"speed_dependent_radius", "right_wheel", {{"per_mps", 0.02}}}},
+      {{"radius_drift", "left_wheel", {{"per_s", 1e-3}}}},
+      {{"one_sided_drag", "vehicle", {{"rad_per_m", 0.01}}}},
+      {{"castor_reversal_kick", "vehicle", {{"kick_rad", 0.02}}}},
+      {{"floor_slope_creep", "floor", {{"creep_mps", 0.002}}}},
+      {{"collision", "vehicle", {{"dx_m", 0.05}, {"dheading_rad", 0.02}, {"at_s", 5.0}}}},
+      {{"turn_speed_loss", "vehicle", {{"per_radps", 0.03}}}},
       {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.1}}}}};
   for (const std::vector<ActiveEffect>& effects : cases) {
     Scenario scenario = table_drive({phase(4.0, 0.4, 0.0), phase(4.0, 0.4, 0.6), phase(4.0, -0.4, 0.3), phase(4.0, 0.2, -0.9)}, effects);
