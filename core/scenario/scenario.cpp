@@ -47,6 +47,11 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.floor.roughness.largest_height_m == 0.0 || s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
          s.floor.roughness.largest_height_m, "less than half a wheel's radius");
   for (const std::string& p : problems_in(s.effects)) problems.push_back(p);
+  for (std::size_t i = 0; i < s.effects.size(); ++i) {  // over half a wheel's radius: 2 (acos(1/2) - sqrt(3)/2) of it
+    const double extra_m = s.effects[i].effect == "bump" ? s.effects[i].parameter("extra_distance_m") : 0.0;
+    const std::string key = "effect[" + std::to_string(i + 1) + "].extra_distance_m";
+    demand(extra_m < 0.362 * smallest_radius_m, key.c_str(), extra_m, "less than the way over half a wheel's radius");
+  }
   demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");

@@ -16,6 +16,8 @@ class TractionSlip final : public Effect {
     if (!acts_on(component_, wheel.side)) return;
     Tyre& tyre = tyres_[wheel.side == Side::left ? 0 : 1];
     const double rim_mps = wheel.radius_m * wheel.speed_radps;
+    if (!tyre.rolled) tyre.rim_mps = rim_mps;  // a replay may begin in motion
+    tyre.rolled = true;
     const double acceleration_mps2 = (rim_mps - tyre.rim_mps) / step_s_;
     tyre.slip_mps += share_ * (per_mps2_ * acceleration_mps2 * 0.5 * std::abs(rim_mps + tyre.rim_mps) - tyre.slip_mps);
     tyre.rim_mps = rim_mps;
@@ -24,6 +26,7 @@ class TractionSlip final : public Effect {
 
  private:
   struct Tyre {
+    bool rolled = false;
     double rim_mps = 0.0;
     double slip_mps = 0.0;
   };
