@@ -70,7 +70,7 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
       return Error{recording->name, "the replay stopped by its user", "a replay to the end"};
   }
   result.dead_reckoned = *reckoned;
-  const TruthMounting& truth = scenario.vehicle.truth;
+  const TruthMounting truth = simulation.truth_mounting();
   for (const TimedPose& p : simulation.true_track())
     result.simulated.push_back({p.time_s + truth.time_offset_s, p.pose * truth.axle_T_tracked});
   result.simulated_error = track_error(result.simulated, result.truth);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/scenario/effect_catalogue.h"
+
 namespace odolab {
 
 namespace {
@@ -44,6 +46,12 @@ std::vector<std::string> problems_in(const Scenario& s) {
     demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m, "less than half a wheel's radius");
   demand(s.floor.roughness.largest_height_m == 0.0 || s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
          s.floor.roughness.largest_height_m, "less than half a wheel's radius");
+  for (const std::string& p : problems_in(s.effects)) problems.push_back(p);
+  for (std::size_t i = 0; i < s.effects.size(); ++i) {  // over half a wheel's radius: 2 (acos(1/2) - sqrt(3)/2) of it
+    const double extra_m = s.effects[i].effect == "bump" ? s.effects[i].parameter("extra_distance_m") : 0.0;
+    const std::string key = "effect[" + std::to_string(i + 1) + "].extra_distance_m";
+    demand(extra_m < 0.362 * smallest_radius_m, key.c_str(), extra_m, "less than the way over half a wheel's radius");
+  }
   demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
@@ -53,6 +61,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.sensors.truth_period_s >= 0.0, "sensors.truth_period_s", s.sensors.truth_period_s, "0 (only start and end) or more");
   demand(s.sensors.truth_position_noise_m >= 0.0, "sensors.truth_position_noise_m", s.sensors.truth_position_noise_m, "0 m or more");
   demand(s.sensors.truth_heading_noise_rad >= 0.0, "sensors.truth_heading_noise_rad", s.sensors.truth_heading_noise_rad, "0 rad or more");
+  demand(s.sensors.record_encoders || s.sensors.record_commands, "sensors.record_encoders", 0.0, "true, or else record_commands = true");
   if (const auto* square = std::get_if<SquarePath>(&s.path)) demand_positive("path.side_m", square->side_m, "m");
   if (const auto* straight = std::get_if<StraightPath>(&s.path)) demand_positive("path.length_m", straight->length_m, "m");
   if (const auto* eight = std::get_if<FigureEightPath>(&s.path)) {

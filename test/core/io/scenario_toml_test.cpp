@@ -103,8 +103,8 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(scene.complaint(replaced(kScenario, "[floor]", "[flor]\n[floor]")),
             "s.toml:9: found the key 'flor', expected a known key; the nearest is 'floor'");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "height_m = 0.010", "radius_m = 0.010")),
-            "s.toml:15: found the key 'radius_m', expected a known key: x_m, y_m, direction_rad, length_m, height_m or "
-            "under");
+            "s.toml:15: found the key 'radius_m', expected a known key: x_m, y_m, direction_rad, length_m, height_m, "
+            "under or round");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "\"square\"", "\"circle\"")),
             "s.toml:23: kind: found 'circle', expected square, straight, figure_eight, waypoints, wheel_speeds, hand "
             "or replay");
@@ -138,6 +138,24 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(scene.complaint(cut_off).substr(0, 30), "s.toml:24: found broken TOML (");
 }
 
+TEST(ScenarioToml, AnEffectThatIsMisspeltIsNamedWithTheNearest) {
+  Scene scene;
+  const std::string good = "seed = 1\n[[effect]]\neffect = \"wheel_eccentricity\"\ncomponent = \"left_wheel\"\namplitude = 0.01\n";
+  ASSERT_TRUE(scene.read(good).ok());
+  EXPECT_EQ(scene.complaint(replaced(good, "eccentricity", "excentricity")),
+            "s.toml:3: effect: found 'wheel_excentricity', expected a known word; the nearest is 'wheel_eccentricity'");
+  EXPECT_EQ(scene.complaint(replaced(good, "left_wheel", "left")),
+            "s.toml:4: component: found 'left', expected left_wheel, right_wheel or both_wheels");
+  EXPECT_EQ(scene.complaint(replaced(good, "amplitude", "amplitud")),
+            "s.toml:5: found the key 'amplitud', expected a known key; the nearest is 'amplitude'");
+  EXPECT_EQ(scene.complaint(replaced(good, "amplitude = 0.01", "phase_rad = 1")),
+            "s.toml:2: found no key 'amplitude', expected it to be given");
+  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "0.7")), "s.toml:5: effect[1].amplitude: found 0.7, expected 0 to 0.5");
+  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "\"much\"")), "s.toml:5: amplitude: found 'much', expected a number");
+  EXPECT_EQ(scene.complaint("[sensors]\nrecord_encoders = false\n"),
+            "s.toml:2: sensors.record_encoders: found 0, expected true, or else record_commands = true");
+}
+
 TEST(ScenarioToml, AnErrorInTheVehicleNamesTheVehiclesFile) {
   Scene scene;
   scene.folder.write(
@@ -166,13 +184,14 @@ Scenario full_scenario() {
   s.floor.tilt_rad = 0.01;
   s.floor.downhill_direction_rad = 1.0 / 7.0;
   s.floor.roughness = {0.0009, 0.021};
-  s.floor.bumps = {{{1.0, 2.0}, 0.3, 0.4, 0.011, Under::right_wheel}, {}};
+  s.floor.bumps = {{{1.0, 2.0}, 0.3, 0.4, 0.011, Under::right_wheel, true}, {}};
   s.floor.slip_zones = {{Disc{{1, 2}, 0.3}, 0.1, 0.2},
                         {Rectangle{{3, 4}, 0.5, 0.6, 0.7}, std::nullopt, 0.8},
                         {Polygon{{{0, 0}, {1, 0}, {0.1, 0.9}}}, 0.4, 0.0}};
   s.start = {0.1, -0.2, 0.3};
   s.driving = {0.21, 1.1, 0.22, 1.2};
-  s.sensors = {0.025, 0.015, 0.002, 0.007};
+  s.sensors = {0.025, 0.015, 0.002, 0.007, false, false, true};
+  s.effects = {{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.01}, {"phase_rad", 1.0 / 3.0}}}, {"truth_frozen", "truth", {}}};
   s.expectations = {{"a", 1.0, std::nullopt}, {"b", std::nullopt, 2.0}, {"c", -1.0, 1.0}};
   s.step_s = 0.002;
   s.seed = 9223372036854775807ULL;
@@ -205,6 +224,14 @@ TEST_P(ScenarioTomlPaths, RoundTripWritesTheSameFileAgain) {
   EXPECT_EQ(back->start.heading_rad, 0.3);
   EXPECT_EQ(back->driving.turn_acceleration_radps2, 1.2);
   EXPECT_EQ(back->sensors.truth_heading_noise_rad, 0.007);
+  EXPECT_FALSE(back->sensors.truth_heading);
+  EXPECT_FALSE(back->sensors.record_encoders);
+  EXPECT_TRUE(back->sensors.record_commands);
+  EXPECT_TRUE(back->floor.bumps[0].round);
+  ASSERT_EQ(back->effects.size(), 2u);
+  EXPECT_EQ(back->effects[0].effect, "wheel_eccentricity");
+  EXPECT_EQ(back->effects[0].component, "left_wheel");
+  EXPECT_EQ(back->effects[0].parameters, scenario.effects[0].parameters);
   EXPECT_EQ(back->benchmark.has_value(), scenario.benchmark.has_value());
   EXPECT_EQ(back->expectations.size(), 3u);
   EXPECT_EQ(back->vehicle.name, "mine");
