@@ -40,6 +40,7 @@ Ground::Ground(const Floor& floor, Side inside, std::uint64_t seed) : floor_(flo
     placed.along = {std::cos(bump.direction_rad), std::sin(bump.direction_rad)};
     placed.half_length_m = 0.5 * bump.length_m;
     placed.height_m = bump.height_m;
+    placed.round = bump.round;
     placed.left = bump.under == Under::any_wheel || bump.under == Under::left_wheel || (on_inside && inside == Side::left);
     placed.right = bump.under == Under::any_wheel || bump.under == Under::right_wheel || (on_inside && inside == Side::right);
     if (bump.height_m > 0.0) bumps_.push_back(placed);
@@ -61,12 +62,13 @@ Contact Ground::under(const WheelStance& stance) const {
     const Vec2 ahead{std::cos(stance.heading_rad), std::sin(stance.heading_rad)};
     for (const PlacedBump& bump : bumps_) {
       if (stance.side == Side::left ? !bump.left : !bump.right) continue;
-      const double across = cross(ahead, bump.along);
+      const Vec2 along = bump.round ? Vec2{-ahead.y_m, ahead.x_m} : bump.along;
+      const double across = cross(ahead, along);
       if (std::abs(across) < 0.05) continue;  // the wheel runs along the cable, not over it
       const Vec2 from_contact = bump.centre - stance.contact;
-      const double u = cross(from_contact, bump.along) / across;  // way along the wheel's heading to the cable
+      const double u = cross(from_contact, along) / across;  // way along the wheel's heading to the cable
       if (std::abs(u) >= stance.radius_m) continue;
-      if (std::abs(dot(u * ahead - from_contact, bump.along)) > bump.half_length_m) continue;
+      if (std::abs(dot(u * ahead - from_contact, along)) > bump.half_length_m) continue;
       if (climb.meet(u, bump.height_m)) contact.on_bump = true;
     }
   }

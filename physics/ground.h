@@ -39,7 +39,7 @@ class Ground {
   struct PlacedBump {
     Vec2 centre, along;
     double half_length_m, height_m;
-    bool left, right;
+    bool left, right, round;
   };
 
   Floor floor_;

@@ -31,7 +31,7 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
   Replay result;
   result.truth = truth_track(*recording);
   result.dead_reckoned = *reckoned;
-  const TruthMounting& truth = scenario.vehicle.truth;
+  const TruthMounting truth = simulation.truth_mounting();
   for (const TimedPose& p : simulation.true_track())
     result.simulated.push_back({p.time_s + truth.time_offset_s, p.pose * truth.axle_T_tracked});
   result.simulated_error = track_error(result.simulated, result.truth);

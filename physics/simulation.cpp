@@ -7,12 +7,16 @@
 #include "core/odometry/differential_drive.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
+#include "physics/effects/effects.h"
+#include "physics/sampled_run.h"
 #include "physics/sensors/absolute_pose.h"
 #include "physics/sensors/encoder.h"
 
 namespace odolab {
 
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Streams of random numbers, one for each thing that draws.
 enum Stream : std::uint64_t { kFloorStream = 1, kEncoderStream = 2, kTruthStream = 3 };
@@ -30,12 +34,12 @@ WheelPair wheel_speeds(const BaseCommand& command, const DifferentialDrive& driv
   return {(command.speed_mps - half_base) / drive.wheel_radius_left_m, (command.speed_mps + half_base) / drive.wheel_radius_right_m};
 }
 
-Pose start_of(const Scenario& scenario, const Recording* replayed) {
+Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
   if (!replayed) return scenario.start;
   const std::vector<TruthSample> truth = truth_samples(*replayed);
   if (truth.empty()) return scenario.start;
   const Pose tracked{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)};
-  return tracked * inverse(scenario.vehicle.truth.axle_T_tracked);
+  return tracked * inverse(mounting.axle_T_tracked);
 }
 
 // Steps between two readings of a sensor.
@@ -48,10 +52,12 @@ struct Simulation::Parts {
       : scenario(given),
         replayed(std::move(recorded)),
         drive(nominal_drive(scenario)),
+        effects(scenario.effects, {scenario.actual, scenario.step_s}),
+        mounting(effects.mounted(scenario.vehicle.truth)),
         floor_seed(seed_of_stream(seed, kFloorStream)),
-        ground(scenario.floor, inside_of(scenario.path), floor_seed),
-        start(start_of(scenario, replayed.get())),
-        vehicle(scenario.actual, scenario.motor, start, scenario.step_s),
+        ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
+        start(start_of(scenario, replayed.get(), mounting)),
+        vehicle(effects.built_into(scenario.actual), scenario.motor, start, scenario.step_s, effects),
         route(route_of(scenario.path, start)),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
         rotation(replays(ReplayPath::By::wheels) ? wheel_samples(*replayed, drive) : std::vector<WheelSample>{}),
@@ -89,9 +95,10 @@ struct Simulation::Parts {
       const double first_s = rotation.empty() ? commands.first_s() : rotation.first_s();
       const double last_s = rotation.empty() ? commands.last_s() : rotation.last_s();
       const std::vector<TruthSample> truth = truth_samples(*replayed);
-      begin_s = truth.empty() ? first_s : truth.front().time_s - scenario.vehicle.truth.time_offset_s;
-      duration_s = std::max(0.0, last_s - begin_s);
+      begin_s = truth.empty() ? first_s : truth.front().time_s - mounting.time_offset_s;
+      duration_s = std::max(0.0, effects.empty() ? last_s - begin_s : effects.since_start_of_stamp_s(begin_s, last_s));
       if (!rotation.empty()) rotation_now = rotation.at(begin_s);
+      vehicle.set_clock(begin_s);
     } else {
       duration_s = duration_of(route, scenario.driving);
       by_route = true;
@@ -117,24 +124,34 @@ struct Simulation::Parts {
     return {};
   }
 
+  // What a recording that is replayed was stamped, this many steps after the start.
+  double recorded_s(double after_steps) const {
+    const double since_start_s = after_steps * scenario.step_s;
+    return effects.empty() ? begin_s + since_start_s : effects.robot_stamp_s(begin_s, since_start_s);
+  }
+
+  WheelPair set_speeds() {
+    if (std::holds_alternative<WheelSpeedPath>(scenario.path)) return tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * scenario.step_s);
+    if (!commands.empty()) {
+      const CommandSample c = commands.at(recorded_s(static_cast<double>(steps) + 0.5));
+      return wheel_speeds({c.speed_mps, c.yaw_rate_radps}, drive);
+    }
+    // Between two commands the set speeds move evenly: a jump would make the wheels slip.
+    const double u = (static_cast<double>(steps % encoder_steps) + 0.5) / static_cast<double>(encoder_steps);
+    return {set_before.left + u * (set_next.left - set_before.left), set_before.right + u * (set_next.right - set_before.right)};
+  }
+
   void drive_one_step() {
     const double h = scenario.step_s;
-    const double middle_s = begin_s + (static_cast<double>(steps) + 0.5) * h;
     if (!rotation.empty()) {
-      const WheelPair next = rotation.at(begin_s + static_cast<double>(steps + 1) * h);
+      const WheelPair next = rotation.at(recorded_s(static_cast<double>(steps + 1)));
       vehicle.turn_wheels(ground, scenario.floor, {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
       rotation_now = next;
-    } else if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
-      vehicle.drive(ground, scenario.floor, tabled_speeds(middle_s));
-    } else if (!commands.empty()) {
-      const CommandSample c = commands.at(middle_s);
-      vehicle.drive(ground, scenario.floor, wheel_speeds({c.speed_mps, c.yaw_rate_radps}, drive));
-    } else {
-      // Between two commands the set speeds move evenly: a jump would make the wheels slip.
-      const double u = (static_cast<double>(steps % encoder_steps) + 0.5) / static_cast<double>(encoder_steps);
-      vehicle.drive(ground, scenario.floor,
-                    {set_before.left + u * (set_next.left - set_before.left), set_before.right + u * (set_next.right - set_before.right)});
+      return;
     }
+    WheelPair set = set_speeds();
+    for (const auto& effect : effects) effect->command(set);
+    vehicle.drive(ground, scenario.floor, set);
   }
 
   void step() {
@@ -152,8 +169,12 @@ struct Simulation::Parts {
   }
 
   void sample_encoders() {
-    const double left = left_encoder.reading_rad(state.left.rotation_rad);
-    const double right = right_encoder.reading_rad(state.right.rotation_rad);
+    double left = left_encoder.reading_rad(state.left.counted_rad);
+    double right = right_encoder.reading_rad(state.right.counted_rad);
+    for (const auto& effect : effects) {
+      effect->read_encoder(Side::left, state.time_s, left);
+      effect->read_encoder(Side::right, state.time_s, right);
+    }
     if (!wheels.empty()) {
       state.estimated_pose = dead_reckoned(state.estimated_pose, left - wheels.back().left_rad, right - wheels.back().right_rad, drive);
       estimated.push_back({state.time_s, state.estimated_pose});
@@ -164,8 +185,30 @@ struct Simulation::Parts {
     }
     wheels.push_back({state.time_s, left, right});
     set_before = set_next;
-    if (by_route) set_next = wheel_speeds(follower.update(state.estimated_pose), drive);
-    if (std::holds_alternative<HandPath>(scenario.path)) set_next = wheel_speeds(by_hand(), drive);
+    if (by_route) command(follower.update(state.estimated_pose));
+    if (std::holds_alternative<HandPath>(scenario.path)) command(by_hand());
+    if (scenario.sensors.record_commands) record_command();
+  }
+
+  void command(const BaseCommand& given) {
+    given_now = given;
+    set_next = wheel_speeds(given, drive);
+  }
+
+  // What the driver asks of the base from now until the next sample; of a path that knows wheel speeds alone, what they
+  // are for the nominal base in the middle of that time.
+  void record_command() {
+    if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
+      const WheelPair speeds = tabled_speeds(state.time_s + 0.5 * scenario.sensors.encoder_period_s);
+      const double left_mps = speeds.left * drive.wheel_radius_left_m, right_mps = speeds.right * drive.wheel_radius_right_m;
+      given_now = {0.5 * (left_mps + right_mps), (right_mps - left_mps) / drive.wheelbase_m};
+    } else if (!commands.empty()) {
+      const CommandSample c = commands.at(recorded_s(static_cast<double>(steps)));
+      given_now = {c.speed_mps, c.yaw_rate_radps};
+    } else if (!rotation.empty()) {
+      given_now = {kNone, kNone};  // nobody commands wheels that are turned by a recording
+    }
+    given.push_back(given_now);
   }
 
   // A hand's command, reached at no more than the driver's accelerations.
@@ -179,8 +222,9 @@ struct Simulation::Parts {
 
   void sample_truth() {
     if (!truth.empty() && truth.back().time_s == state.time_s) return;
-    const Pose tracked = state.true_pose * scenario.vehicle.truth.axle_T_tracked;
-    truth.push_back({state.time_s, sonar().measure(tracked, truth_noise)});
+    Pose measured = sonar().measure(state.true_pose * mounting.axle_T_tracked, truth_noise);
+    for (const auto& effect : effects) effect->measure_truth(state.time_s, measured);
+    truth.push_back({state.time_s, measured});
   }
 
   void finish() {
@@ -193,6 +237,8 @@ struct Simulation::Parts {
   Scenario scenario;
   std::shared_ptr<const Recording> replayed;
   DifferentialDrive drive;  // nominal
+  planar::Effects effects;
+  TruthMounting mounting;   // as it really is
   std::uint64_t floor_seed;
   Ground ground;
   Pose start;
@@ -210,9 +256,10 @@ struct Simulation::Parts {
   double begin_s = 0.0, duration_s = 0.0;
   bool by_route = false;
   WheelPair set_before, set_next, rotation_now;
-  BaseCommand hand, hand_now;
+  BaseCommand hand, hand_now, given_now;
   SimulationState state;
   std::vector<WheelSample> wheels;
+  std::vector<BaseCommand> given;  // with each of them, where they are recorded
   Track exact, estimated, truth;
   Pose measured_start, measured_end;
 };
@@ -232,7 +279,7 @@ double Simulation::expected_duration_s() const { return parts_->duration_s; }
 
 void Simulation::set_floor(const Floor& floor) {
   parts_->scenario.floor = floor;
-  parts_->ground = Ground(floor, inside_of(parts_->scenario.path), parts_->floor_seed);
+  parts_->ground = Ground(parts_->effects.laid_on(floor), inside_of(parts_->scenario.path), parts_->floor_seed);
 }
 
 void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps) { parts_->hand = {speed_mps, yaw_rate_radps}; }
@@ -243,31 +290,17 @@ const Track& Simulation::estimated_track() const { return parts_->estimated; }
 Pose Simulation::measured_start() const { return parts_->measured_start; }
 Pose Simulation::measured_end() const { return parts_->measured_end; }
 
+TruthMounting Simulation::truth_mounting() const { return parts_->mounting; }
+
 Recording Simulation::recording() const {
-  // Encoders and truth have rates of their own; where both were read at one time they share a row.
-  Recording recording;
-  recording.name = parts_->scenario.name;
-  recording.provenance = "simulated: " + parts_->scenario.name;
-  const std::vector<WheelSample>& wheels = parts_->wheels;
-  const Track& truth = parts_->truth;
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> left, right, x, y, heading;
-  std::size_t w = 0, t = 0;
-  while (w < wheels.size() || t < truth.size()) {
-    const double wheel_s = w < wheels.size() ? wheels[w].time_s : std::numeric_limits<double>::infinity();
-    const double truth_s = t < truth.size() ? truth[t].time_s : std::numeric_limits<double>::infinity();
-    const bool has_wheel = wheel_s <= truth_s, has_truth = truth_s <= wheel_s;
-    recording.time_s.push_back(std::min(wheel_s, truth_s));
-    left.push_back(has_wheel ? wheels[w].left_rad : none);
-    right.push_back(has_wheel ? wheels[w].right_rad : none);
-    x.push_back(has_truth ? truth[t].pose.x_m : none);
-    y.push_back(has_truth ? truth[t].pose.y_m : none);
-    heading.push_back(has_truth ? truth[t].pose.heading_rad : none);
-    w += has_wheel;
-    t += has_truth;
-  }
-  recording.channels = {{"left_wheel_rad", left}, {"right_wheel_rad", right}, {"truth_x_m", x}, {"truth_y_m", y}, {"truth_heading_rad", heading}};
-  return recording;
+  const Parts& parts = *parts_;
+  const bool offset = parts.mounting.time_offset_s != parts.scenario.vehicle.truth.time_offset_s;
+  SampledRun run{parts.wheels, parts.given, parts.truth};
+  if (!parts.effects.empty())
+    for (WheelSample& w : run.wheels) w.time_s = parts.effects.robot_stamp_s(parts.begin_s, w.time_s - parts.begin_s);
+  if (offset)
+    for (TimedPose& t : run.truth) t.time_s += parts.mounting.time_offset_s - parts.scenario.vehicle.truth.time_offset_s;
+  return recording_of(run, parts.scenario.sensors, parts.scenario.name);
 }
 
 void run_to_end(Simulation& simulation, double longest_s) {

@@ -46,7 +46,9 @@ class Simulation {
   // Sampled so far. The tracks hold a pose for each encoder sample.
   const Track& true_track() const;
   const Track& estimated_track() const;
-  // What the robot and the outside measurement recorded so far.
+  // Where the truth really sits and how late its stamps are: the vehicle file's, and what effects add to them.
+  TruthMounting truth_mounting() const;
+  // What the robot and the outside measurement recorded so far, each by its own clock.
   Recording recording() const;
   // The absolute measurements at the start and, once finished, at the end (sonar corner).
   Pose measured_start() const;

@@ -7,6 +7,7 @@
 #include "core/io/toml_text.h"
 #include "core/io/vehicle_toml.h"
 #include "core/io/whole_file.h"
+#include "core/scenario/effect_catalogue.h"
 
 namespace odolab {
 
@@ -63,6 +64,7 @@ void bump_fields(S& bump, Toml& toml) {
   toml.field("length_m", bump.length_m);
   toml.field("height_m", bump.height_m);
   toml.choice("under", bump.under, kUnder);
+  toml.field("round", bump.round);
 }
 
 template <typename S, typename Toml>
@@ -85,6 +87,9 @@ void sensor_fields(S& sensors, Toml& toml) {
   toml.field("truth_period_s", sensors.truth_period_s);
   toml.field("truth_position_noise_m", sensors.truth_position_noise_m);
   toml.field("truth_heading_noise_rad", sensors.truth_heading_noise_rad);
+  toml.field("truth_heading", sensors.truth_heading);
+  toml.field("record_encoders", sensors.record_encoders);
+  toml.field("record_commands", sensors.record_commands);
 }
 
 template <typename S, typename Toml>
@@ -202,6 +207,33 @@ void read_floor(TomlTable table, Floor& floor) {
   }
 }
 
+// One effect: its words decide which parameters may stand there.
+ActiveEffect read_effect(TomlTable& table) {
+  std::vector<std::string> names;
+  for (const EffectEntry& entry : effect_catalogue()) names.push_back(entry.name);
+  table.require("effect");
+  const EffectEntry& entry = effect_catalogue()[table.index_of_choice("effect", 0, names)];
+  ActiveEffect active;
+  active.effect = entry.name;
+  if (table.failure()) return active;
+  table.require("component");
+  active.component = entry.components[table.index_of_choice("component", 0, entry.components)];
+  for (const EffectParameter& parameter : entry.parameters) {
+    if (parameter.required) table.require(parameter.name.c_str());
+    std::optional<double> value;
+    table.field(parameter.name.c_str(), value);
+    if (value) active.parameters.emplace_back(parameter.name, *value);
+  }
+  return active;
+}
+
+void write_effect(TomlText& text, const ActiveEffect& active) {
+  text.table_element("effect");
+  text.field("effect", active.effect);
+  text.field("component", active.component);
+  for (const auto& [name, value] : active.parameters) text.field(name.c_str(), value);
+}
+
 void read_path(TomlTable table, Path& path) {
   if (!table.present()) return;
   table.require("kind");
@@ -277,6 +309,7 @@ Result<Scenario> read_scenario(const std::string& path) {
   TomlTable motor = top.table("motor");
   motor_fields(scenario.motor, motor);
   read_floor(top.table("floor"), scenario.floor);
+  for (TomlTable& element : top.tables("effect")) scenario.effects.push_back(read_effect(element));
   TomlTable start = top.table("start");
   pose_fields(scenario.start, start);
   TomlTable driving = top.table("driving");
@@ -327,6 +360,7 @@ Result<Done> write_scenario(const std::string& path, const Scenario& scenario) {
     text.choice("shape", zone.shape.index(), kShapes);
     zone_fields(zone, text);
   }
+  for (const ActiveEffect& active : scenario.effects) write_effect(text, active);
   text.table("start");
   pose_fields(scenario.start, text);
   text.table("driving");

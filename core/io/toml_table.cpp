@@ -38,6 +38,8 @@ struct TomlTable::File {
 
 namespace {
 
+constexpr std::size_t kWordsToList = 8;  // of more, an error names only the nearest
+
 std::string place(const std::string& path, const toml::source_region& source) {
   return source.begin ? path + ":" + std::to_string(source.begin.line) : path;
 }
@@ -79,7 +81,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string expected_instead_of(std::string_view key, const std::vector<std::string>& known) {
+// The known word that is most like another; null where none is near.
+const std::string* nearest_to(std::string_view key, const std::vector<std::string>& known) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
   for (const std::string& candidate : known)
@@ -87,6 +90,11 @@ std::string expected_instead_of(std::string_view key, const std::vector<std::str
       least = distance;
       nearest = &candidate;
     }
+  return nearest;
+}
+
+std::string expected_instead_of(std::string_view key, const std::vector<std::string>& known) {
+  const std::string* nearest = nearest_to(key, known);
   if (nearest) return "a known key; the nearest is '" + *nearest + "'";
   return known.empty() ? "no key here" : known.size() == 1 ? "the key " + known[0] : "a known key: " + joined(known);
 }
@@ -241,6 +249,11 @@ std::size_t TomlTable::index_of_choice(const char* key, std::size_t otherwise, c
   if (const auto* text = node->as_string()) {
     const auto word = std::find(words.begin(), words.end(), text->get());
     if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
+    if (words.size() > kWordsToList)
+      if (const std::string* nearest = nearest_to(text->get(), words)) {
+        fail({place(file_->path, node->source()) + ": " + key, shown(*node), "a known word; the nearest is '" + *nearest + "'"});
+        return otherwise;
+      }
   }
   fail({place(file_->path, node->source()) + ": " + key, shown(*node), joined(words)});
   return otherwise;

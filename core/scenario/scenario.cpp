@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "core/scenario/effect_catalogue.h"
+
 namespace odolab {
 
 std::vector<std::string> problems_in(const Scenario& s) {
@@ -33,6 +35,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.motor.proportional_gain > 0.0, "motor.proportional_gain", s.motor.proportional_gain, "a gain above 0");
   demand(s.motor.integral_gain >= 0.0, "motor.integral_gain", s.motor.integral_gain, "a gain of 0 or more");
   for (const std::string& p : problems_in(s.floor)) problems.push_back(p);
+  for (const std::string& p : problems_in(s.effects)) problems.push_back(p);
   demand_positive("driving.speed_mps", s.driving.speed_mps, "m/s");
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
@@ -42,6 +45,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.sensors.truth_period_s >= 0.0, "sensors.truth_period_s", s.sensors.truth_period_s, "0 (only start and end) or more");
   demand(s.sensors.truth_position_noise_m >= 0.0, "sensors.truth_position_noise_m", s.sensors.truth_position_noise_m, "0 m or more");
   demand(s.sensors.truth_heading_noise_rad >= 0.0, "sensors.truth_heading_noise_rad", s.sensors.truth_heading_noise_rad, "0 rad or more");
+  demand(s.sensors.record_encoders || s.sensors.record_commands, "sensors.record_encoders", 0.0, "true, or else record_commands = true");
   if (const auto* square = std::get_if<SquarePath>(&s.path)) demand_positive("path.side_m", square->side_m, "m");
   if (const auto* straight = std::get_if<StraightPath>(&s.path)) demand_positive("path.length_m", straight->length_m, "m");
   if (const auto* eight = std::get_if<FigureEightPath>(&s.path)) {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/diagnosis/active_effect.h"
 #include "core/scenario/floor.h"
 #include "core/vehicle/vehicle.h"
 
@@ -38,6 +39,9 @@ struct Sensors {
   double truth_period_s = 0.010;        // 0: only at the start and the end of the run, as with a sonar corner
   double truth_position_noise_m = 0.0;  // standard deviation
   double truth_heading_noise_rad = 0.0; // standard deviation
+  bool truth_heading = true;            // false: the truth knows the position alone
+  bool record_encoders = true;          // false: the recording has no wheels, though the robot drives by them
+  bool record_commands = false;         // true: the recording has what the driver asked of the base
 };
 
 // How fast the driver goes.
@@ -108,6 +112,7 @@ struct Scenario {
   ActualDrive actual;
   Motor motor;
   Floor floor;
+  std::vector<ActiveEffect> effects;  // physics beyond the plain machine; core/scenario/effect_catalogue.h has the words
   Pose start;
   Driving driving;
   Path path = SquarePath{};

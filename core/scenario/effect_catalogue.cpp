@@ -1,0 +1,119 @@
+#include "core/scenario/effect_catalogue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace odolab {
+
+namespace {
+
+const std::vector<std::string> kWheels = {"left_wheel", "right_wheel", "both_wheels"};
+const std::vector<std::string> kVehicle = {"vehicle"};
+const std::vector<std::string> kVehicleOrWheels = {"vehicle", "both_wheels"};
+const std::vector<std::string> kVehicleOrAnyWheel = {"vehicle", "left_wheel", "right_wheel", "both_wheels"};
+const std::vector<std::string> kTruth = {"truth"};
+
+constexpr double kFar = 1e6;  // metres or seconds
+constexpr bool kRequired = true;
+
+const std::vector<EffectParameter> kWhen = {{"at_s", -kFar, kFar}, {"every_s", 1e-3, kFar}, {"lasts_s", 0.0, kFar}};
+
+std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) {
+  parameters.insert(parameters.end(), kWhen.begin(), kWhen.end());
+  return parameters;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  return text;
+}
+
+bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key, std::vector<std::string>& problems) {
+  for (const auto& [name, value] : active.parameters) {
+    const auto known = std::find_if(entry.parameters.begin(), entry.parameters.end(),
+                                    [&, &wanted = name](const EffectParameter& p) { return p.name == wanted; });
+    if (known == entry.parameters.end()) {
+      std::vector<std::string> names;
+      for (const EffectParameter& p : entry.parameters) names.push_back(p.name);
+      problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " + joined(names));
+    } else if (!(value >= known->at_least && value <= known->at_most)) {
+      char text[96];
+      std::snprintf(text, sizeof text, ": found %g, expected %g to %g", value, known->at_least, known->at_most);
+      problems.push_back(key + "." + name + text);
+    }
+  }
+  for (const EffectParameter& p : entry.parameters) {
+    const bool given = std::any_of(active.parameters.begin(), active.parameters.end(), [&](const auto& g) { return g.first == p.name; });
+    if (p.required && !given) problems.push_back(key + "." + p.name + ": found nothing, expected a number");
+  }
+}
+
+}  // namespace
+
+const std::vector<EffectEntry>& effect_catalogue() {
+  static const std::vector<EffectEntry> entries = {
+      {"wheel_eccentricity", kWheels, {{"amplitude", 0.0, 0.5, kRequired}, {"phase_rad"}}},
+      {"encoder_missed_counts", kWheels, {{"fraction", 0.0, 0.99, kRequired}, {"above_radps", 0.0, 1e4}}},
+      {"drivetrain_backlash", kWheels, {{"gap_rad", 0.0, 3.0, kRequired}}},
+      {"wheel_toe", kVehicleOrWheels, {{"sideways_per_metre", -0.5, 0.5, kRequired}}},
+      {"castor_reversal_kick", kVehicle, {{"kick_rad", -1.0, 1.0, kRequired}, {"over_m", 1e-3, 1.0}}},
+      {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}}},
+      {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}}},
+      {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}}},
+      {"payload_radius_change", kVehicleOrWheels, {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kFar, kFar, kRequired}}},
+      {"lateral_slip", kVehicleOrWheels, {{"m_per_s_per_mps2", -1.0, 1.0, kRequired}}},
+      {"traction_slip", kVehicleOrAnyWheel, {{"per_mps2", -1.0, 1.0, kRequired}}},
+      {"turn_scrub", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
+      {"one_sided_drag", kVehicle, {{"rad_per_m", -1.0, 1.0, kRequired}}},
+      {"bump",
+       kWheels,
+       {{"extra_distance_m", 0.0, 0.04, kRequired}, {"x_m", -kFar, kFar, kRequired}, {"y_m", -kFar, kFar, kRequired}, {"radius_m", 1e-3, kFar}}},
+      {"slip_zone",
+       {"floor", "vehicle", "both_wheels"},
+       {{"slip", 0.0, 1.0, kRequired}, {"x_m", -kFar, kFar, kRequired}, {"y_m", -kFar, kFar, kRequired}, {"radius_m", 1e-3, kFar, kRequired}}},
+      {"floor_slope_creep", {"floor", "vehicle"}, {{"direction_rad"}, {"creep_mps", -1.0, 1.0, kRequired}}},
+      {"collision",
+       kVehicle,
+       {{"dx_m", -1.0, 1.0}, {"dy_m", -1.0, 1.0}, {"dheading_rad", -4.0, 4.0}, {"at_s", -kFar, kFar, kRequired}, {"lasts_s", 0.01, 10.0}}},
+      {"turn_speed_loss", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
+      {"clock_rate", {"vehicle", "both_wheels", "truth"}, {{"rate", -0.5, 0.5, kRequired}}},
+      {"truth_frozen", kTruth, kWhen},
+      {"encoder_data_fault", kWheels, with_when({{"backward_rad", 0.0, 1e4}})},
+      {"truth_time_offset", kTruth, {{"offset_s", -10.0, 10.0, kRequired}}},
+      {"truth_mounting_offset", kTruth, {{"x_m", -10.0, 10.0}, {"y_m", -10.0, 10.0}, {"heading_rad", -4.0, 4.0}}},
+      {"actuator_lag", kVehicle, {{"time_constant_s", 0.0, 10.0, kRequired}}},
+      {"actuator_delay", kVehicle, {{"delay_s", 0.0, 10.0, kRequired}}},
+  };
+  return entries;
+}
+
+const EffectEntry* effect_entry(const std::string& name) {
+  for (const EffectEntry& entry : effect_catalogue())
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects) {
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const ActiveEffect& active = effects[i];
+    const std::string key = "effect[" + std::to_string(i + 1) + "]";
+    const EffectEntry* entry = effect_entry(active.effect);
+    if (!entry) {
+      problems.push_back(key + ".effect: found '" + active.effect + "', expected an effect of a differential drive");
+      continue;
+    }
+    if (!is_one_of(entry->components, active.component))
+      problems.push_back(key + ".component: found '" + active.component + "', expected " + joined(entry->components));
+    check_parameters(active, *entry, key, problems);
+  }
+  return problems;
+}
+
+}  // namespace odolab

@@ -1,0 +1,34 @@
+// The words by which effects are switched on in a scenario: names, components and parameters of the catalogue.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/active_effect.h"
+
+namespace odolab {
+
+struct EffectParameter {
+  std::string name;  // its unit stands in the name; without one it is a fraction
+  double at_least = -1e9;
+  double at_most = 1e9;
+  bool required = false;
+};
+
+// An effect as it may be written down. physics/effects/README.md says what each one does.
+struct EffectEntry {
+  std::string name;
+  std::vector<std::string> components;
+  std::vector<EffectParameter> parameters;
+};
+
+// Every effect that a differential drive can have.
+const std::vector<EffectEntry>& effect_catalogue();
+
+// Null where there is no effect of this name.
+const EffectEntry* effect_entry(const std::string& name);
+
+// What is wrong with a list of effects, each a sentence that starts with the key, "effect[2].amplitude".
+std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects);
+
+}  // namespace odolab

@@ -1,0 +1,44 @@
+// A push from outside: a force that takes the vehicle aside and lets it come to rest there, while the wheels slide.
+#include <algorithm>
+
+#include "physics/effects/effect.h"
+
+namespace odolab::planar {
+
+namespace {
+
+class Collision final : public Effect {
+ public:
+  Collision(const ActiveEffect& a, double step_s)
+      : way_{a.parameter("dx_m"), a.parameter("dy_m"), a.parameter("dheading_rad")},
+        at_s_(a.parameter("at_s")),
+        lasts_s_(a.parameter("lasts_s", 0.25)),
+        step_s_(step_s) {}
+
+  void creep(const VehicleMotion& motion, Creep& creep) override {
+    // Share of the way at the step's end, a raised cosine over the push; its rise is the speed that the vehicle is given.
+    const double u = std::clamp((motion.time_s + 0.5 * step_s_ - at_s_) / lasts_s_, 0.0, 1.0);
+    const double share = 0.5 * (1.0 - std::cos(kPi * u));
+    const double rate = (share - share_) / step_s_, change = (rate - rate_) / step_s_;
+    share_ = share;
+    rate_ = rate;
+    const Vec2 ahead = rotated(way_.position(), -motion.heading_rad);
+    creep.velocity_mps = creep.velocity_mps + rate * ahead;
+    creep.yaw_rate_radps += rate * way_.heading_rad;
+    creep.push_mps2 = creep.push_mps2 + change * ahead;
+    creep.push_radps2 += change * way_.heading_rad;
+  }
+
+ private:
+  Pose way_;  // in the floor's frame
+  double at_s_, lasts_s_, step_s_;
+  double share_ = 0.0, rate_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Effect> collision(const ActiveEffect& active, const Machine& machine) {
+  return std::make_unique<Collision>(active, machine.step_s);
+}
+
+}  // namespace odolab::planar

@@ -1,0 +1,103 @@
+// Effects of the wheels: their radius, their direction, their slip.
+#include <gtest/gtest.h>
+
+#include "test/physics/effects/effect_runs.h"
+
+namespace odolab {
+namespace {
+
+// A step of 1 ms in which a changing tread drags 50 kg along leaves micrometres; radii and angles are exact.
+constexpr double kExact_m = 2e-5, kExact_rad = 1e-4;
+
+TEST(WheelEccentricity, SwingsTheHeadingOnceATurnByRadiusTimesAmplitudeOverWheelbase) {
+  const double amplitude = 0.006;
+  Scenario scenario = table_drive({phase(10.0, 0.2, 0.0)}, {{"wheel_eccentricity", "left_wheel", {{"amplitude", amplitude}, {"phase_rad", 0.4}}}});
+  Simulation simulation(scenario, 1);
+  double largest_rad = 0.0;
+  while (!simulation.state().finished) {
+    simulation.step();
+    // The left wheel has rolled r a (cos(phase) - cos(phi + phase)) too far: the vehicle turns right by that over b.
+    const double phi = simulation.state().left.rotation_rad;
+    const double expected_rad = -kRadius_m * amplitude * (std::cos(0.4) - std::cos(phi + 0.4)) / kBase_m;
+    largest_rad = std::max(largest_rad, std::abs(simulation.state().true_pose.heading_rad - expected_rad));
+  }
+  EXPECT_LT(largest_rad, 0.01 * kRadius_m * amplitude / kBase_m);  // a hundredth of the swing
+}
+
+TEST(RadiusDrift, RollsFurtherByHalfTheDriftTimesTheSquareOfTime) {
+  const Pose end = end_pose(table_drive({phase(20.0, 0.2, 0.0)}, {{"radius_drift", "both_wheels", {{"per_s", 1e-3}}}}));
+  // Distance without drift 4 m; 0.2 per_s (T^2/2) more, and the ramps make the mean time 10.25 s.
+  EXPECT_NEAR(end.x_m, 4.0 + 4.0 * 1e-3 * 10.25, kExact_m);
+  EXPECT_NEAR(end.heading_rad, 0.0, kExact_rad);
+}
+
+TEST(SpeedDependentRadius, ChangesTheWayByItsShareAtEachSpeed) {
+  const auto way_m = [](double speed_mps) {
+    return end_pose(table_drive({phase(10.0, speed_mps, 0.0)}, {{"speed_dependent_radius", "both_wheels", {{"per_mps", 0.02}}}})).x_m;
+  };
+  // The integral of v (1 + k v): at full speed for 9.5 s, and the two ramps of 0.5 s give v^2 / 3 each.
+  for (const double v : {0.2, 0.4}) EXPECT_NEAR(way_m(v), 10.0 * v + 0.02 * v * v * (9.5 + 2.0 * 0.5 / 3.0), kExact_m);
+}
+
+TEST(PayloadRadiusChange, StepsEachRadiusAtItsTime) {
+  const Pose end = end_pose(table_drive({phase(10.0, 0.2, 0.0)}, {{"payload_radius_change", "vehicle", {{"left", -0.01}, {"right", -0.02}, {"at_s", 5.0}}}}));
+  // From 5 s on a wheel rolls (10 - 5 + 0.25) s at 0.2 m/s: 1.05 m, less 1 and 2 %. A step of the radius is one of 2 to 4 mm/s.
+  EXPECT_NEAR(end.heading_rad, -0.01 * 1.05 / kBase_m, kExact_rad);
+}
+
+TEST(TyreCompression, TurnsTighterOrWiderByTheSqueezedOuterTyre) {
+  // 0.4 m/s at 0.8 rad/s: 0.32 m/s2 squeeze the right tyre by 0.32 mm, 0.43 % of what it rolls.
+  const auto turned_rad = [](std::vector<ActiveEffect> effects) { return end_pose(table_drive({phase(20.0, 0.4, 0.8)}, std::move(effects))).heading_rad; };
+  const double lost_rad = turned_rad({}) - turned_rad({{"tyre_compression", "vehicle", {{"radius_change_m_per_mps2", 1e-3}}}});
+  const double outer_mps = 0.4 + 0.5 * kBase_m * 0.8;
+  const double expected_rad = 1e-3 * 0.32 / kRadius_m * outer_mps / kBase_m * 19.5;
+  EXPECT_NEAR(lost_rad, expected_rad, 0.04 * expected_rad);  // the turn slows by 0.8 % itself; ramps add a half of 2 %
+}
+
+TEST(WheelToe, CrawlsSidewaysInEachMetreAndBackInReverse) {
+  const ActiveEffect toe{"wheel_toe", "both_wheels", {{"sideways_per_metre", 0.01}}};
+  const Pose out = end_pose(table_drive({phase(10.0, 0.2, 0.0)}, {toe}));
+  EXPECT_NEAR(out.y_m, 0.02, 0.02 * 1e-4 + kExact_m);  // the wheels roll at an angle: 2 m times its sine, a second-order less
+  EXPECT_NEAR(out.heading_rad, 0.0, kExact_rad);
+  const Pose back = end_pose(table_drive({phase(10.0, 0.2, 0.0), phase(10.0, -0.2, 0.0)}, {toe}));
+  EXPECT_NEAR(back.y_m, 0.0, 0.01 * 0.1);  // the ramp between both takes 0.1 m from the way back
+}
+
+TEST(TractionSlip, LosesHalfTheCoefficientTimesTheSquareOfTheSpeedAndGetsItBackInBraking) {
+  const ActiveEffect slip{"traction_slip", "both_wheels", {{"per_mps2", 0.05}}};
+  const Scenario scenario = table_drive({phase(5.0, 0.4, 0.0)}, {slip});
+  Simulation simulation(scenario, 1);
+  while (simulation.state().time_s < 3.0) simulation.step();
+  const double rolled_m = kRadius_m * simulation.state().left.rotation_rad;
+  EXPECT_NEAR(rolled_m - simulation.state().true_pose.x_m, 0.5 * 0.05 * 0.4 * 0.4, 4e-5);  // 4 mm to a hundredth
+  run_to_end(simulation);
+  // What is left: the slip that had not yet decayed at the very end, 30 ms of a speed near zero.
+  EXPECT_NEAR(simulation.state().true_pose.x_m, 2.0, 1e-4);
+}
+
+TEST(TractionSlip, LosesWayInReverseToo) {
+  Simulation simulation(table_drive({phase(5.0, -0.4, 0.0)}, {{"traction_slip", "both_wheels", {{"per_mps2", 0.05}}}}), 1);
+  while (simulation.state().time_s < 3.0) simulation.step();
+  EXPECT_NEAR(simulation.state().true_pose.x_m - kRadius_m * simulation.state().left.rotation_rad, 0.5 * 0.05 * 0.4 * 0.4, 4e-5);
+}
+
+TEST(DrivetrainBacklash, WheelsLagByTheGapAfterAReversalWhileTheEncoderTurns) {
+  const Simulation s = finished(table_drive({phase(5.0, 0.2, 0.0), phase(5.5, -0.2, 0.0)}, {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}}}}));
+  // Forward 5 s and back 5.5 s with ramps: the motor is where it was, the wheel a gap ahead of it.
+  EXPECT_NEAR(s.state().left.counted_rad, (5.0 - 5.5) * 0.2 / kRadius_m, 1e-9);
+  EXPECT_NEAR(s.state().left.rotation_rad - s.state().left.counted_rad, 0.05, 1e-9);
+  EXPECT_NEAR(s.state().true_pose.x_m, kRadius_m * s.state().left.rotation_rad, 2e-4);  // the engaging wheel skids for a moment
+}
+
+TEST(EncoderMissedCounts, LosesItsShareAboveTheSpeedAlone) {
+  const ActiveEffect missed{"encoder_missed_counts", "left_wheel", {{"fraction", 0.02}, {"above_radps", 4.0}}};
+  const Simulation slow = finished(table_drive({phase(10.0, 0.2, 0.0)}, {missed}));  // 2.7 rad/s
+  EXPECT_DOUBLE_EQ(slow.state().left.counted_rad, slow.state().left.rotation_rad);
+  const Simulation fast = finished(table_drive({phase(10.0, 0.6, 0.0)}, {missed}));  // 8 rad/s, above 4 for all but half of each ramp
+  EXPECT_NEAR(fast.state().left.rotation_rad, 80.0, 1e-6);
+  EXPECT_NEAR(80.0 - fast.state().left.counted_rad, 0.02 * (80.0 - 2.0 * 0.25 * 2.0), 0.02 * 8.0 * 2e-3);  // two steps
+  EXPECT_NEAR(fast.state().true_pose.heading_rad, 0.0, kExact_rad);  // the wheel itself rolls truly
+}
+
+}  // namespace
+}  // namespace odolab
