@@ -44,9 +44,9 @@ std::string scatter_picture(const ScatterPicture& picture) {
   for (std::size_t i = 0; i < picture.experiments.size() && i < 2; ++i) {
     const DrawnUmbmark& e = picture.experiments[i];
     const std::string end = e.label.empty() ? "" : ", " + e.label;
-    if (!e.runs.clockwise.empty()) clouds.push_back({"clockwise" + end, &e.runs.clockwise, true, colours[i][0]});
+    if (!e.runs.clockwise.empty()) clouds.push_back({"cw" + end, &e.runs.clockwise, true, colours[i][0]});
     if (!e.runs.counter_clockwise.empty())
-      clouds.push_back({"counter-clockwise" + end, &e.runs.counter_clockwise, false, colours[i][1]});
+      clouds.push_back({"ccw" + end, &e.runs.counter_clockwise, false, colours[i][1]});
   }
 
   double low_x = 0.0, high_x = 0.0, low_y = 0.0, high_y = 0.0;  // the origin, no error at all, is always in sight
@@ -99,7 +99,7 @@ std::string scatter_picture(const ScatterPicture& picture) {
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Point centre = mean_mm(*clouds[i].errors);
     char text[120];
-    std::snprintf(text, sizeof text, "%s: centre %.0f mm away", clouds[i].label.c_str(),
+    std::snprintf(text, sizeof text, "%s: %.0f mm", clouds[i].label.c_str(),
                   std::hypot(centre.x, centre.y));
     draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i].clockwise, clouds[i].colour);
     svg.text({legend_x + 20.0, legend_y}, text);
