@@ -1,0 +1,33 @@
+// What a diagnosis leaves to predict with: the calibrated vehicle, and the effects that were found on it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/diagnosis/active_effect.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+struct FittedEffect {
+  ActiveEffect active;
+  std::vector<std::pair<std::string, double>> stderr_values;  // of the parameters that were estimated
+};
+
+struct FittedModel {
+  Vehicle vehicle;  // calibrated, its truth mounting and clock too
+  std::vector<FittedEffect> effects;
+
+  std::vector<ActiveEffect> active_effects() const;
+};
+
+// Faults of the data and effects without a name have no form that could predict; they are left out.
+FittedModel model_of(const Diagnosis& diagnosis);
+
+// Whether a model was fitted on this vehicle: an error where the kind or the encoders differ, which no fit changes.
+Result<Done> fits(const FittedModel& model, const Vehicle& nominal);
+
+}  // namespace odolab
