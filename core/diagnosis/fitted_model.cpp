@@ -4,9 +4,10 @@
 
 namespace odolab {
 
-std::vector<ActiveEffect> FittedModel::active_effects() const {
+std::vector<ActiveEffect> FittedModel::effects_in(const std::string& recording) const {
   std::vector<ActiveEffect> active;
-  for (const FittedEffect& effect : effects) active.push_back(effect.active);
+  for (const FittedEffect& effect : effects)
+    if (effect.recording.empty() || effect.recording == recording) active.push_back(effect.active);
   return active;
 }
 

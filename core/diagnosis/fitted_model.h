@@ -15,13 +15,15 @@ namespace odolab {
 struct FittedEffect {
   ActiveEffect active;
   std::vector<std::pair<std::string, double>> stderr_values;  // of the parameters that were estimated
+  std::string recording;  // an event (a push, a payload put on) happened in this one alone; empty: acts in all
 };
 
 struct FittedModel {
   Vehicle vehicle;  // calibrated, its truth mounting and clock too
   std::vector<FittedEffect> effects;
 
-  std::vector<ActiveEffect> active_effects() const;
+  // What acts in a recording of this name.
+  std::vector<ActiveEffect> effects_in(const std::string& recording) const;
 };
 
 // Faults of the data and effects without a name have no form that could predict; they are left out.

@@ -93,12 +93,14 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
     if (f.share_of_mismatch > 0.0) rows.push_back({"share of the mismatch that calibration leaves", number("%.0f %%", 100.0 * f.share_of_mismatch)});
-    rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number("%.1g", f.p_value)});
-    report.table({"", "estimate and standard error"}, rows);
+    if (f.log_likelihood_gain > 0.0)
+      rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number("%.1g", f.p_value)});
+    if (!rows.empty()) report.table({"", f.parameters.empty() ? "" : "estimate and standard error"}, rows);
     for (const Alternative& a : f.alternatives) {
-      std::string text = "Instead of it, " + effect_text(a.effect, a.component) +
-                         number(" would explain the data with a log-likelihood gain of %.1f", a.log_likelihood_gain) +
-                         number(" where this one has %.1f", f.log_likelihood_gain) + ".";
+      const std::string gains = number("a log-likelihood gain of %.1f", a.log_likelihood_gain) + number(" where this one has %.1f", f.log_likelihood_gain);
+      std::string text = f.effect == "unknown"
+                             ? "It resembles " + effect_text(a.effect, a.component) + ", which does not suffice: " + gains + "."
+                             : "Instead of it, " + effect_text(a.effect, a.component) + " would explain the data with " + gains + ".";
       if (!a.told_apart_by.empty()) text += " The two are told apart by " + a.told_apart_by + ".";
       report.paragraph(text);
     }
@@ -121,9 +123,9 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
     LinePicture line;
     line.title = before->recording + ": error of the prediction, in units of its noise";
     line.y_label = "times the noise";
+    line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
     line.lines.push_back({"calibrated only", before->time_s, times_noise(*before), Look::estimate});
     if (after && !d.findings.empty()) line.lines.push_back({"with what was found", after->time_s, times_noise(*after), Look::second});
-    line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
     for (const Finding& f : d.findings)
       if (f.where.recording.empty() || f.where.recording == before->recording)
         line.marked.insert(line.marked.end(), f.where.time_s.begin(), f.where.time_s.end());
@@ -256,7 +258,6 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
 
 HtmlReport diagnosis_report(const Diagnosis& diagnosis) {
   HtmlReport report(verdict_sentence(diagnosis));
-  for (const std::string& sentence : diagnosis.sentences) report.paragraph(sentence);
   add_findings(report, diagnosis);
   add_place_and_time(report, diagnosis);
   add_responses(report, diagnosis);

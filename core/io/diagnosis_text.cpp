@@ -90,13 +90,14 @@ std::string p_value_text(double p) { return p < 1e-15 ? "p < 1e-15" : number("p 
 
 std::string finding_line(const Finding& f) {
   std::string line = effect_text(f.effect, f.component);
+  if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
   std::string parameters;
   for (const FoundParameter& p : f.parameters)
-    parameters += (parameters.empty() ? ": " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+    parameters += (parameters.empty() ? "; " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
-  line += number("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
+  if (f.log_likelihood_gain > 0.0) line += number("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
   if (f.share_of_mismatch > 0.0) line += number(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   return line;
 }
@@ -229,7 +230,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
     append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
     if (f.alternatives.empty()) continue;
     const Alternative& a = f.alternatives.front();
-    std::string other = "   not beaten: " + effect_text(a.effect, a.component) + number(" (gain %.1f)", a.log_likelihood_gain);
+    std::string other = (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) + effect_text(a.effect, a.component) + number(" (gain %.1f)", a.log_likelihood_gain);
     if (f.alternatives.size() > 1) other += number(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
     if (!a.told_apart_by.empty()) other += "; told apart by " + a.told_apart_by;
     append_wrapped(lines, other, columns, "   ");
@@ -256,13 +257,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   }
   if (!diagnosis.next_drive.empty()) append_wrapped(end, "drive next: " + diagnosis.next_drive, columns, "   ");
 
-  // the engine's own sentences where there is room for them
-  std::vector<std::string> said;
-  for (const std::string& sentence : diagnosis.sentences) append_wrapped(said, sentence, columns, "   ");
-  const std::size_t others = lines.size() + end.size();
-  const std::size_t room = most_lines > others ? most_lines - others : 0;
-  if (said.size() > room) said.resize(room);
-  lines.insert(lines.begin() + 1, said.begin(), said.end());
+  if (lines.size() + end.size() > most_lines) lines.resize(most_lines > end.size() ? most_lines - end.size() : 1);
   lines.insert(lines.end(), end.begin(), end.end());
   if (lines.size() > most_lines) lines.resize(most_lines);
   return lines;

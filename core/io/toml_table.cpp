@@ -243,20 +243,6 @@ void TomlTable::field(const char* key, std::vector<Vec2>& points) {
   }
 }
 
-void TomlTable::other_fields(std::vector<std::pair<std::string, double>>& values) {
-  if (!node_->table) return;
-  std::vector<const toml::key*> keys;
-  for (const auto& entry : *node_->table)
-    if (std::find(node_->asked.begin(), node_->asked.end(), entry.first.str()) == node_->asked.end()) keys.push_back(&entry.first);
-  std::sort(keys.begin(), keys.end(), [](const toml::key* a, const toml::key* b) { return a->source().begin < b->source().begin; });
-  for (const toml::key* key : keys) {
-    const std::string name(key->str());
-    double value = 0.0;
-    field(name.c_str(), value);
-    values.emplace_back(name, value);
-  }
-}
-
 std::size_t TomlTable::index_of_choice(const char* key, std::size_t otherwise, const std::vector<std::string>& words) {
   const toml::node* node = asked_for(node_->table, node_->asked, key);
   if (!node) return otherwise;

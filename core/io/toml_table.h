@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -37,9 +36,6 @@ class TomlTable {
   void field(const char* key, std::optional<double>& value);
   void field(const char* key, std::vector<double>& values);
   void field(const char* key, std::vector<Vec2>& points);  // [[x, y], ...]
-
-  // Every key that nobody asked for yet, as a number each, in the file's order.
-  void other_fields(std::vector<std::pair<std::string, double>>& values);
 
   // One of several words; the enumerators count from zero in the words' order.
   template <typename Enum>

@@ -67,8 +67,10 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
   constexpr double kSide = 14.0, kTop = 40.0, kBottom = 50.0;
   FloorBox box;
   for (std::size_t i = 0; i < track.x_m.size(); ++i) box.include({track.x_m[i], track.y_m[i]});
-  if (box.empty())
-    for (const MarkedDisc& disc : picture.discs) box.include({disc.x_m, disc.y_m});
+  for (const MarkedDisc& disc : picture.discs) {
+    box.include({disc.x_m - disc.radius_m, disc.y_m - disc.radius_m});
+    box.include({disc.x_m + disc.radius_m, disc.y_m + disc.radius_m});
+  }
   const FloorView view(box, {kSide, kTop}, picture.width_px - 2.0 * kSide, picture.height_px - kTop - kBottom);
 
   Svg svg(picture.width_px, picture.height_px, picture.title);

@@ -16,9 +16,10 @@ FittedModel eccentric_robot() {
   drive.counter_bits = 16;
   model.vehicle.kind = drive;
   model.vehicle.truth = {{0.01, -0.02, 1.0 / 7.0}, -0.0123};
-  model.effects.push_back({{"wheel_eccentricity", "left_wheel", {{"phase_rad", -1.0 / 3.0}, {"amplitude", 0.0061}}},
-                           {{"phase_rad", 0.02}, {"amplitude", 1e-4}}});
-  model.effects.push_back({{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 2.0}, {"y_m", -0.5}, {"radius_m", 0.7}}}, {{"slip", 0.002}}});
+  model.effects.push_back({{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.0061}, {"phase_rad", -1.0 / 3.0}}},
+                           {{"amplitude", 1e-4}, {"phase_rad", 0.02}}, ""});
+  model.effects.push_back({{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 2.0}, {"y_m", -0.5}, {"radius_m", 0.7}}}, {{"slip", 0.002}}, ""});
+  model.effects.push_back({{"collision", "vehicle", {{"dx_m", 0.02}, {"at_s", 12.5}}}, {}, "run_3.csv"});
   return model;
 }
 
@@ -33,11 +34,12 @@ TEST(ModelToml, ReadsBackWhatItWroteToTheBit) {
   EXPECT_EQ(drive.counter_bits, 16);
   EXPECT_EQ(read->vehicle.truth.axle_T_tracked.heading_rad, 1.0 / 7.0);
   EXPECT_EQ(read->vehicle.truth.time_offset_s, -0.0123);
-  ASSERT_EQ(read->effects.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
+  ASSERT_EQ(read->effects.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(read->effects[i].active.effect, model.effects[i].active.effect);
     EXPECT_EQ(read->effects[i].active.component, model.effects[i].active.component);
     EXPECT_EQ(read->effects[i].active.parameters, model.effects[i].active.parameters);
+    EXPECT_EQ(read->effects[i].recording, model.effects[i].recording);
     EXPECT_EQ(read->effects[i].stderr_values, model.effects[i].stderr_values);
   }
   EXPECT_EQ(model_text(*read), model_text(model));
@@ -67,8 +69,16 @@ TEST(ModelToml, RefusesWhatItDoesNotKnow) {
       << message_with("[effect.stderr]\n", "[effect.stderr]\nphase = 1.0\n");
   EXPECT_NE(message_with("amplitude = 0.0061", "amplitude = \"much\"").find("amplitude: found 'much'"), std::string::npos)
       << message_with("amplitude = 0.0061", "amplitude = \"much\"");
+  EXPECT_NE(message_with("amplitude = 0.0061", "amplitud = 0.0061").find("the key 'amplitud', expected a known key; the nearest is 'amplitude'"), std::string::npos)
+      << message_with("amplitude = 0.0061", "amplitud = 0.0061");
+  EXPECT_NE(message_with("\"wheel_eccentricity\"", "\"wheel_excentricity\"").find("m.toml:"), std::string::npos);
   EXPECT_NE(message_with("component = \"left_wheel\"\n", "").find("component"), std::string::npos);
   EXPECT_NE(message_with("[vehicle]", "[vehicles]").find("no key 'kind'"), std::string::npos);
+}
+
+TEST(FittedModel, KeepsAnEventToItsRecording) {
+  EXPECT_EQ(eccentric_robot().effects_in("run_3.csv").size(), 3u);
+  EXPECT_EQ(eccentric_robot().effects_in("run_4.csv").size(), 2u);
 }
 
 TEST(FittedModel, IsRefusedBesideAnotherVehicle) {
