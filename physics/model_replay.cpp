@@ -69,7 +69,7 @@ std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& e
 
 }  // namespace
 
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& model,
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before, const FittedModel& after,
                                  const std::optional<FitFigures>& noise_floor, const Progress& progress) {
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
@@ -77,22 +77,20 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
       return (effect.recording.empty() || effect.recording == recording.name) && for_scenario(effect.active, recording);
     });
   };
-  for (const FittedEffect& effect : model.effects)
+  for (const FittedEffect& effect : after.effects)
     if (!is_of_the_truth(effect.active) && !switched_on(effect))
       result.not_switched_on.push_back(effect.active.effect + " of " + effect.active.component + " could not be switched on in the simulator");
 
   const std::size_t count = recordings.size();
-  std::vector<std::optional<TrackError>> errors(2 * count);  // without the effects, then with them
+  std::vector<std::optional<TrackError>> errors(2 * count);  // before, then after
   std::vector<std::optional<Error>> failures(2 * count);
   const auto drive = [&](int job) {
     const std::size_t i = static_cast<std::size_t>(job) % count;
-    const bool with_effects = static_cast<std::size_t>(job) >= count;
+    const FittedModel& model = static_cast<std::size_t>(job) < count ? before : after;
     const Recording& recording = recordings[i];
-    Scenario scenario = replay_scenario(model.vehicle, recording);
-    if (with_effects)
-      for (const ActiveEffect& fitted : model.effects_in(recording.name))
-        if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted)) scenario.effects.push_back(*active);
-    if (with_effects && scenario.effects.empty()) return;
+    Scenario scenario = replay_scenario(model.vehicle_in(recording.name), recording);
+    for (const ActiveEffect& fitted : model.effects_in(recording.name))
+      if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted)) scenario.effects.push_back(*active);
     const Result<Replay> replayed = replay(scenario, std::make_shared<const Recording>(recording));
     if (replayed)
       errors[static_cast<std::size_t>(job)] = replayed->simulated_error;
@@ -103,8 +101,6 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   if (parallel_for(jobs, drive, {}, progress) < jobs) return Error{"the simulation", "a stop by its user", "to come to the end"};
   for (const std::optional<Error>& failure : failures)
     if (failure) return *failure;
-  for (std::size_t i = 0; i < count; ++i)
-    if (!errors[count + i]) errors[count + i] = errors[i];  // nothing acts in it
   result.fit.calibrated = joined({errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count)}, noise_floor);
   result.fit.with_findings = joined({errors.begin() + static_cast<std::ptrdiff_t>(count), errors.end()}, noise_floor);
   return result;

@@ -14,7 +14,7 @@
 namespace odolab {
 
 struct ModelReplay {
-  // `calibrated`: the calibrated vehicle without the effects; `with_findings`: with them. None where no recording has a
+  // `calibrated`: before; `with_findings`: after. None where no recording has a
   // truth with headings to compare with.
   FitTable fit;
   std::vector<std::string> not_switched_on;  // effects that the planar world does not have, a sentence each
@@ -22,7 +22,7 @@ struct ModelReplay {
 
 // Drives the planar vehicle by each recording's own wheels or commands. The normalised chi2 of a replay is its squared
 // error, mean over the two coordinates and the heading, over that which `noise_floor` leaves; not a number without one.
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& model,
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before, const FittedModel& after,
                                  const std::optional<FitFigures>& noise_floor, const Progress& progress = {});
 
 }  // namespace odolab

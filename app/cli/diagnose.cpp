@@ -36,12 +36,21 @@ std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle
   return std::nullopt;
 }
 
-// A recording's name stands for it in all that is said; where two files have one name, the path does.
+// A recording's name stands for it in all that is said; where two files have one name, as much of the path as tells them
+// apart stands before it.
 void make_names_differ(std::vector<Recording>& recordings, const std::vector<std::string>& paths) {
-  std::vector<std::string> names;
-  for (const Recording& r : recordings) names.push_back(r.name);
-  for (std::size_t i = 0; i < recordings.size(); ++i)
-    if (std::count(names.begin(), names.end(), names[i]) > 1) recordings[i].name = paths[i];
+  std::vector<std::filesystem::path> rest(paths.begin(), paths.end());
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<std::string> names;
+    for (const Recording& r : recordings) names.push_back(r.name);
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      rest[i] = rest[i].parent_path();
+      if (std::count(names.begin(), names.end(), names[i]) < 2 || rest[i].filename().empty()) continue;
+      recordings[i].name = rest[i].filename().string() + "/" + recordings[i].name;
+      changed = true;
+    }
+  }
 }
 
 struct Loaded {
@@ -105,7 +114,7 @@ int execute(const DiagnoseOptions& options) {
   if (!diagnosis) return bad_input(diagnosis.error());
   const FittedModel model = model_of(*diagnosis);
   const auto& noise_floor = diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
-  const Result<ModelReplay> replayed = replay_model(all, model, noise_floor, terminal_progress("driving the simulator"));
+  const Result<ModelReplay> replayed = replay_model(all, calibrated_model_of(*diagnosis), model, noise_floor, terminal_progress("driving the simulator"));
   if (!replayed) return bad_input(replayed.error());
   diagnosis->simulation = replayed->fit;
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);

@@ -19,7 +19,7 @@ int execute(const PredictOptions& options) {
   if (!vehicle) return bad_input(vehicle.error());
   const Result<ImportedRecording> loaded = load_recording(options.recording);
   if (!loaded) return bad_input(loaded.error());
-  FittedModel model{*vehicle, {}};
+  FittedModel model{*vehicle, {}, {}};
   if (!options.model.empty()) {
     Result<FittedModel> read = read_model(options.model);
     if (!read) return bad_input(read.error());

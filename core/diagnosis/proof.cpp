@@ -83,6 +83,8 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, 
   const FittedNoise noise = joint.model.noise;
   const bool unnamed = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "unknown"; });
   const JointModel& after = unnamed ? calibrated : joint;
+  d.fitted_vehicle = vehicle_of(after, nominal, -1);
+  for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
   const auto table = [&](const std::vector<Recording>& recordings, bool same) {
     FitTable t;
     Gathered g_nominal, g_calibrated, g_found;

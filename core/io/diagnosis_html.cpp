@@ -16,7 +16,7 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostRecordings = 4;  // drawn; more make a page that nobody reads
-constexpr double kSmoothing_s = 0.5;        // what is drawn is a mean over this time to both sides
+constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides: short enough for a bump, long enough for what is faint
 
 std::string with_blanks(std::string words) {
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -29,22 +29,49 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-// Root of the mean normalised square around each sample: how many times larger than its noise the residual is.
-std::vector<double> times_noise(const Residuals& r) {
-  std::vector<double> result(r.squared.size());
+// The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
+double size_of(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
+  if (values.empty()) return 0.0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return 1.4826 * *middle;
+}
+
+struct Sizes {
+  double along, across, heading;
+};
+
+Sizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
+
+// How many times larger than noise would leave it the residual is, gathered over a while around each sample. What lies far
+// below the noise of one sample shows here as soon as it keeps its direction.
+void gather(const Residuals& r, const Sizes& noise, double half_s, std::vector<double>& largest) {
+  std::vector<double> sum[3] = {{0.0}, {0.0}, {0.0}};
+  const std::vector<double>* channels[3] = {&r.along_m, &r.across_m, &r.heading_rad};
+  const double sizes[3] = {noise.along, noise.across, noise.heading};
+  for (int c = 0; c < 3; ++c)
+    for (double v : *channels[c]) sum[c].push_back(sum[c].back() + (std::isfinite(v) ? v : 0.0));
   std::size_t from = 0, to = 0;
-  double sum = 0.0;
-  int count = 0;
-  const auto add = [&](double squared, int sign) {
-    if (!std::isfinite(squared)) return;
-    sum += sign * squared;
-    count += sign;
-  };
-  for (std::size_t i = 0; i < r.squared.size(); ++i) {
-    while (to < r.squared.size() && r.time_s[to] <= r.time_s[i] + kSmoothing_s) add(r.squared[to++], 1);
-    while (r.time_s[from] < r.time_s[i] - kSmoothing_s) add(r.squared[from++], -1);
-    result[i] = count > 0 ? std::sqrt(std::max(0.0, sum / count)) : std::nan("");
+  for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+    while (to < r.time_s.size() && r.time_s[to] <= r.time_s[i] + half_s) ++to;
+    while (r.time_s[from] < r.time_s[i] - half_s) ++from;
+    double squares = 0.0;
+    int used = 0;
+    for (int c = 0; c < 3; ++c) {
+      if (!(sizes[c] > 0.0) || sum[c].size() != r.time_s.size() + 1) continue;
+      const double gathered = (sum[c][to] - sum[c][from]) / (sizes[c] * std::sqrt(static_cast<double>(to - from)));
+      squares += gathered * gathered;
+      ++used;
+    }
+    if (used > 0) largest[i] = std::max(largest[i], std::sqrt(squares / used));
   }
+}
+
+std::vector<double> times_noise(const Residuals& r, const Sizes& noise) {
+  std::vector<double> result(r.time_s.size(), 0.0);
+  for (double half_s : kGathered_s) gather(r, noise, half_s, result);
   return result;
 }
 
@@ -72,10 +99,10 @@ const Residuals* of_recording(const std::vector<Residuals>& all, const std::stri
   return nullptr;
 }
 
-std::string track_of(const Diagnosis& d, const Residuals& r, const std::string& title, bool with_discs) {
+std::string track_of(const Diagnosis& d, const Residuals& r, const Sizes& noise, const std::string& title, bool with_discs) {
   ColouredTrackPicture picture;
   picture.title = title;
-  picture.track = {r.x_m, r.y_m, times_noise(r)};
+  picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
   for (const Finding& f : d.findings)
     if (with_discs && f.where.zone) picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, with_blanks(f.effect)});
   return coloured_track_picture(picture);
@@ -116,16 +143,17 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
                      number(" of %.0f are drawn.", static_cast<double>(d.residuals_before.size())));
   for (const Residuals* before : drawn) {
     const Residuals* after = of_recording(d.residuals_after, before->recording);
-    std::vector<std::string> tracks{track_of(d, *before, before->recording + ": calibrated only", true)};
-    if (after && !d.findings.empty()) tracks.push_back(track_of(d, *after, before->recording + ": with what was found", false));
-    report.pictures(tracks, "The way driven, seen from above; the circle is its start. Colours say how many times larger than its noise "
-                            "the error of the prediction is there.");
+    const Sizes noise = sizes_of(after ? *after : *before);
+    std::vector<std::string> tracks{track_of(d, *before, noise, before->recording + ": calibrated only", true)};
+    if (after && !d.findings.empty()) tracks.push_back(track_of(d, *after, noise, before->recording + ": with what was found", false));
+    report.pictures(tracks, "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
+                            "would leave it the error of the prediction is, gathered over up to a second.");
     LinePicture line;
-    line.title = before->recording + ": error of the prediction, in units of its noise";
+    line.title = before->recording + ": error of the prediction, gathered over up to a second";
     line.y_label = "times the noise";
     line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
-    line.lines.push_back({"calibrated only", before->time_s, times_noise(*before), Look::estimate});
-    if (after && !d.findings.empty()) line.lines.push_back({"with what was found", after->time_s, times_noise(*after), Look::second});
+    line.lines.push_back({"calibrated only", before->time_s, times_noise(*before, noise), Look::estimate});
+    if (after && !d.findings.empty()) line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
     for (const Finding& f : d.findings)
       if (f.where.recording.empty() || f.where.recording == before->recording)
         line.marked.insert(line.marked.end(), f.where.time_s.begin(), f.where.time_s.end());

@@ -9,6 +9,7 @@
 
 namespace odolab {
 
+// The clocks of single recordings are not kept: a file's name is no proof that it is the same recording.
 // Errors name file and line or key. What was written reads back to the same bits.
 Result<FittedModel> read_model(const std::string& path);
 Result<Done> write_model(const std::string& path, const FittedModel& model);

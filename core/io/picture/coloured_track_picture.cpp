@@ -18,11 +18,11 @@ struct Level {
   const char* label;
 };
 constexpr Level kLevels[] = {
-    {1.5, "#b9c4cc", 2.0, "noise"},
-    {2.5, "#F0C040", 3.0, "2\xC3\x97"},
-    {4.0, "#E69F00", 3.6, "3\xC3\x97"},
-    {7.0, "#D55E00", 4.2, "5\xC3\x97"},
-    {std::numeric_limits<double>::infinity(), "#8B1A1A", 4.8, "over 7\xC3\x97"},
+    {2.0, "#b9c4cc", 2.0, "noise"},
+    {3.0, "#F0C040", 3.0, "2\xE2\x80\x93" "3\xC3\x97"},
+    {5.0, "#E69F00", 3.6, "3\xE2\x80\x93" "5\xC3\x97"},
+    {8.0, "#D55E00", 4.2, "5\xE2\x80\x93" "8\xC3\x97"},
+    {std::numeric_limits<double>::infinity(), "#8B1A1A", 4.8, "over 8\xC3\x97"},
 };
 
 std::size_t level_of(double value) {
@@ -99,9 +99,9 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
   for (const Level& level : kLevels) {
     svg.line({x, y - 4.0}, {x + 20.0, y - 4.0}, {level.colour, level.width_px + 1.0, ""});
     svg.text({x + 25.0, y}, level.label, Anchor::start, 11.0);
-    x += 38.0 + 7.0 * static_cast<double>(std::string(level.label).size());
+    x += 36.0 + 6.0 * static_cast<double>(std::string(level.label).size());
   }
-  view.draw_scale_bar(svg, {picture.width_px - kSide, y});
+  view.draw_scale_bar(svg, {picture.width_px - kSide, y}, 8);
   return svg.finished();
 }
 

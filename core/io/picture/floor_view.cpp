@@ -36,8 +36,8 @@ void FloorView::draw_grid(Svg& svg) const {
     svg.line(at({box.left, k * step_m}), at({box.right, k * step_m}), {ink::kGrid, 1.0, ""});
 }
 
-void FloorView::draw_scale_bar(Svg& svg, Point right_end) const {
-  const double length_m = round_step(width_px / scale_px, 5);
+void FloorView::draw_scale_bar(Svg& svg, Point right_end, int parts) const {
+  const double length_m = round_step(width_px / scale_px, parts);
   const double right = right_end.x, y = right_end.y, left = right - length_m * scale_px;
   svg.line({left, y}, {right, y}, {ink::kText, 2.0, ""});
   svg.line({left, y - 4}, {left, y + 4}, {ink::kText, 2.0, ""});

@@ -24,8 +24,8 @@ struct FloorView {
   Point at(Vec2 p) const { return {corner.x + (p.x_m - box.left) * scale_px, corner.y + (box.high - p.y_m) * scale_px}; }
   // Lines every metre, unless that would be a net too fine or one line alone.
   void draw_grid(Svg& svg) const;
-  // A bar of round length whose right end is at a point.
-  void draw_scale_bar(Svg& svg, Point right_end) const;
+  // A bar of round length, about one of so many parts of the width, whose right end is at a point.
+  void draw_scale_bar(Svg& svg, Point right_end, int parts = 5) const;
   void draw_start(Svg& svg, const Pose& start) const;
 
   FloorBox box;
