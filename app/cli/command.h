@@ -37,6 +37,7 @@ struct Command {
 Command gui_command();
 Command run_command();
 Command calibrate_command();
+Command diagnose_command();
 Command predict_command();
 Command import_command();
 

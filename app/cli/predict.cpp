@@ -1,16 +1,17 @@
 #include "app/cli/command.h"
 #include "app/cli/terminal.h"
+#include "core/diagnosis/diagnosis.h"
 #include "core/io/import/imported_recording.h"
+#include "core/io/model_toml.h"
 #include "core/io/track_csv.h"
 #include "core/io/vehicle_toml.h"
-#include "core/odometry/prediction.h"
 
 namespace odolab {
 
 namespace {
 
 struct PredictOptions {
-  std::string vehicle, recording, out;
+  std::string vehicle, model, recording, out;
 };
 
 int execute(const PredictOptions& options) {
@@ -18,7 +19,16 @@ int execute(const PredictOptions& options) {
   if (!vehicle) return bad_input(vehicle.error());
   const Result<ImportedRecording> loaded = load_recording(options.recording);
   if (!loaded) return bad_input(loaded.error());
-  const Result<Track> track = predicted_track(loaded->recording, *vehicle);
+  FittedModel model{*vehicle, {}, {}};
+  if (!options.model.empty()) {
+    Result<FittedModel> read = read_model(options.model);
+    if (!read) return bad_input(read.error());
+    if (Result<Done> same = fits(*read, *vehicle); !same)
+      return bad_input({options.model + ": " + same.error().where, same.error().found, same.error().expected});
+    model = std::move(*read);
+  }
+  const Recording& recording = loaded->recording;
+  const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
   std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(), track->back().time_s - track->front().time_s);
@@ -35,9 +45,10 @@ Command predict_command() {
   Command command;
   command.name = "predict";
   command.about = "Writes the track that a vehicle file predicts from a recording's encoders or commands alone";
-  command.example = "odolab predict --vehicle labmate.toml run.csv --out track.csv";
+  command.example = "odolab predict --vehicle labmate.toml --model fitted.toml run.csv --out track.csv";
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle (TOML)", true);
+    arguments.option("--model", options->model, "calibration and effects that diagnose found on it (TOML)");
     arguments.file("RECORDING", options->recording, "the recording");
     arguments.option("--out", options->out, "the track to write (CSV)", true);
   };

@@ -49,4 +49,8 @@ int parallel_for(int count, const std::function<void(int, const std::atomic<bool
   return in_order;
 }
 
+int parallel_for(int count, const std::function<void(int)>& work, const std::function<void(int)>& done, const Progress& progress) {
+  return parallel_for(count, [&work](int i, const std::atomic<bool>&) { work(i); }, done, progress);
+}
+
 }  // namespace odolab

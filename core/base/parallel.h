@@ -15,4 +15,8 @@ namespace odolab {
 int parallel_for(int count, const std::function<void(int, const std::atomic<bool>& stopped)>& work, const std::function<void(int)>& done = {},
                  const Progress& progress = {});
 
+// The same for work that is too short to need stopping.
+int parallel_for(int count, const std::function<void(int)>& work, const std::function<void(int)>& done = {},
+                 const Progress& progress = {});
+
 }  // namespace odolab

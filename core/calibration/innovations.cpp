@@ -351,6 +351,7 @@ class PoseFilter {
       if (options_.gate <= 0.0 && run_.set_aside[k]) {
         refused = run_.set_aside[k] == kRestartHere ? 0 : refused;
         if (run_.set_aside[k] == kRestartHere) begin_at(k);
+        if (run_.set_aside[k] != kRestartHere) report_step(k);
         continue;
       }
       if (update(k)) {
@@ -376,6 +377,24 @@ class PoseFilter {
 
   // README, Eq. 7: the start is the truth sample itself, with its error.
   void begin_at(int k) {
+    place_at(k);
+    if (!options_.on_step) return;
+    step_ = FilterStep{};
+    step_.starts = true;
+    step_.heading_before_rad = step_.heading_rad = state_.heading_rad;
+    step_.arm = rotated(model_.truth.axle_T_tracked.position(), state_.heading_rad);
+    report_step(k);
+  }
+
+  void report_step(int k) {
+    if (!options_.on_step) return;
+    step_.truth_index = k;
+    step_.pose = state_;
+    options_.on_step(step_);
+    step_ = FilterStep{};
+  }
+
+  void place_at(int k) {
     const TruthSample& truth = run_.truth[k];
     const Pose& m = model_.truth.axle_T_tracked;
     Vector3d error = reading_;
@@ -422,7 +441,12 @@ class PoseFilter {
     Matrix3d turn;
     turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
     covariance_ = f * covariance_ * f.transpose() + turn * symmetric(noise) * turn.transpose();
+    if (options_.on_step) {
+      step_.moved = {dx, dy};
+      step_.heading_before_rad = state_.heading_rad;
+    }
     state_ = {state_.x_m + dx, state_.y_m + dy, state_.heading_rad + step.motion.heading_rad};
+    step_.heading_rad = state_.heading_rad;
   }
 
   // README, Eqs. 8 and 9. False where the gate refuses the sample.
@@ -474,6 +498,7 @@ class PoseFilter {
     }
     if (refused) {
       sums_.set_aside[k] = 1;
+      report_step(k);
       return false;
     }
     sums_.chi2 += squared;
@@ -521,6 +546,23 @@ class PoseFilter {
       derivative_.noalias() -= gain_white * jacobian_;
     }
     state_ = {state_.x_m + moved(0), state_.y_m + moved(1), state_.heading_rad + moved(2)};
+    if (options_.on_step) {
+      step_.used = true;
+      step_.size = n;
+      step_.arm = arm;
+      for (int j = 0; j < 3; ++j) step_.residual[j] = residual(j);
+      add_symmetric(s, step_.covariance);
+      // K = gain_white l^-1, column by column from the last.
+      for (int r = 0; r < 3; ++r) {
+        const double g2 = gain_white(r, 2) / l22;
+        const double g1 = (gain_white(r, 1) - g2 * l21) / l11;
+        const double g0 = (gain_white(r, 0) - g1 * l10 - g2 * l20) / l00;
+        step_.gain[3 * r] = g0;
+        step_.gain[3 * r + 1] = g1;
+        step_.gain[3 * r + 2] = g2;
+      }
+      report_step(k);
+    }
     return true;
   }
 
@@ -538,6 +580,7 @@ class PoseFilter {
   Eigen::MatrixXd information_;
   Eigen::VectorXd score_;
   InnovationSums sums_;
+  FilterStep step_;
 };
 
 }  // namespace

@@ -110,12 +110,29 @@ struct Innovation {
   bool set_aside = false;
 };
 
+// What the filter did to arrive at one truth sample: enough to carry further derivatives through it afterwards.
+struct FilterStep {
+  int truth_index = 0;
+  bool starts = false;  // begins anew here, from the sample itself
+  bool used = false;    // the sample corrected the pose
+  int size = 0;         // 3, or 2 where the truth has no heading
+  Vec2 moved;           // predicted motion since the sample before, in the room
+  double heading_before_rad = 0.0;
+  double heading_rad = 0.0;   // predicted here
+  Vec2 arm;                   // from the axle to the tracked point, in the room
+  double residual[3] = {};    // truth minus prediction
+  double covariance[6] = {};  // of the residual: xx, xy, xh, yy, yh, hh
+  double gain[9] = {};        // of the pose by the residual, row by row
+  Pose pose;                  // corrected
+};
+
 struct FilterOptions {
   bool derivatives = true;   // also information and score
   double gate = 0.0;         // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
   int first = 0, last = -1;  // truth samples to use; -1: to the end
   int batch = 0;             // above 0: scores are also summed over batches of so many truth samples
   std::function<void(const Innovation&)> on_innovation;
+  std::function<void(const FilterStep&)> on_step;
 };
 
 // Sums over innovations. With p columns: `information` is sum J' S^-1 J (p by p, row by row), `score` sum J' S^-1 nu,

@@ -90,6 +90,8 @@ struct Residuals {
 struct Diagnosis {
   Verdict verdict = Verdict::cannot_say;
   LeastSquaresCalibration calibration;
+  std::optional<Vehicle> fitted_vehicle;  // calibrated anew together with the findings: what predicts with them
+  std::vector<std::pair<std::string, double>> truth_clock_s;  // the offset of the truth's clock in each recording fitted on
   std::vector<Finding> findings;  // strongest first; data faults (truth_frozen, encoder_data_fault) among them
   FitTable train, held_out;
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics

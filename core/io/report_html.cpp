@@ -15,10 +15,13 @@ p { margin: .6em 0; max-width: 46em; }
 table { border-collapse: collapse; margin: 1em 0; font-size: .92em; font-variant-numeric: tabular-nums; }
 th, td { padding: .3em .9em .3em 0; text-align: right; vertical-align: top; }
 th:first-child, td:first-child { text-align: left; }
+.words th, .words td { text-align: left; }
 thead th { border-bottom: 1.5px solid #1a1a1a; font-weight: 600; }
 tbody tr + tr td { border-top: 1px solid #eee; }
 figure { margin: 1.4em 0; }
 figure svg { max-width: 100%; height: auto; display: block; }
+.pair { display: grid; grid-template-columns: 1fr 1fr; gap: .8em; }
+.sentence { font-weight: 600; margin-top: 1.4em; }
 figcaption { color: #555; font-size: .9em; margin-top: .4em; }
 @media print { body { margin: 0; max-width: none; font-size: 11pt; } figure, table { break-inside: avoid; } h2 { break-after: avoid; } }
 )";
@@ -30,6 +33,15 @@ void append_row(std::string& html, const std::vector<std::string>& cells, std::s
   html += "</tr>\n";
 }
 
+void append_table(std::string& html, const char* tag, const std::vector<std::string>& header,
+                  const std::vector<std::vector<std::string>>& rows) {
+  html += std::string(tag) + "<thead>\n";
+  append_row(html, header, header.size(), "th");
+  html += "</thead><tbody>\n";
+  for (const std::vector<std::string>& row : rows) append_row(html, row, header.size(), "td");
+  html += "</tbody></table>\n";
+}
+
 }  // namespace
 
 HtmlReport::HtmlReport(std::string title) : title_(std::move(title)) {}
@@ -38,11 +50,11 @@ void HtmlReport::heading(const std::string& text) { body_ += "<h2>" + escaped(te
 void HtmlReport::paragraph(const std::string& text) { body_ += "<p>" + escaped(text) + "</p>\n"; }
 
 void HtmlReport::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<table><thead>\n";
-  append_row(body_, header, header.size(), "th");
-  body_ += "</thead><tbody>\n";
-  for (const std::vector<std::string>& row : rows) append_row(body_, row, header.size(), "td");
-  body_ += "</tbody></table>\n";
+  append_table(body_, "<table>", header, rows);
+}
+
+void HtmlReport::word_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  append_table(body_, "<table class=\"words\">", header, rows);
 }
 
 void HtmlReport::picture(const std::string& svg, const std::string& caption) {
@@ -50,6 +62,16 @@ void HtmlReport::picture(const std::string& svg, const std::string& caption) {
   if (!caption.empty()) body_ += "<figcaption>" + escaped(caption) + "</figcaption>\n";
   body_ += "</figure>\n";
 }
+
+void HtmlReport::pictures(const std::vector<std::string>& svgs, const std::string& caption) {
+  body_ += "<figure>\n<div class=\"pair\">\n";
+  for (const std::string& svg : svgs) body_ += svg;
+  body_ += "</div>\n";
+  if (!caption.empty()) body_ += "<figcaption>" + escaped(caption) + "</figcaption>\n";
+  body_ += "</figure>\n";
+}
+
+void HtmlReport::sentence(const std::string& text) { body_ += "<p class=\"sentence\">" + escaped(text) + "</p>\n"; }
 
 void HtmlReport::append(const HtmlReport& other) { body_ += other.body_; }
 

@@ -22,6 +22,18 @@ struct WheelSpeedsAt {
 };
 using SpeedProfile = std::function<WheelSpeedsAt(double time_s)>;
 
+// One step of the drive, open to be altered: what the wheels roll on the floor and what is added to it.
+struct InjectedStep {
+  double time_s = 0.0, dt_s = 0.0;
+  Pose pose;                                   // at its start
+  double left_rad = 0.0, right_rad = 0.0;      // true rotation at its start
+  double left_radps = 0.0, right_radps = 0.0;  // as the encoders turn
+  double left_m = 0.0, right_m = 0.0;          // rolled on the floor
+  double left_read_rad = 0.0, right_read_rad = 0.0;  // what the encoders make of the rotation
+  double sideways_m = 0.0, turn_rad = 0.0;     // added to the body's motion
+  Vec2 room_m;                                 // added in the room
+};
+
 struct GeneratorSettings {
   DifferentialDrive drive;  // the true one
   TruthMounting truth;      // the true one
@@ -36,6 +48,7 @@ struct GeneratorSettings {
   double truth_position_noise_m = 0.0;
   double truth_heading_noise_rad = 0.0;
   Pose start;
+  std::function<void(InjectedStep&)> inject;  // may be empty
 };
 
 inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profile, Random& random) {
@@ -43,14 +56,19 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
   const long steps = std::lround(g.duration_s / dt);
   std::vector<double> left_path{0.0}, right_path{0.0};
   std::vector<Pose> poses{g.start};
-  double left = 0.0, right = 0.0;
+  double left = 0.0, right = 0.0, left_read = 0.0, right_read = 0.0;
   Pose pose = g.start;
   for (long i = 0; i < steps; ++i) {
     const WheelSpeedsAt w = profile((static_cast<double>(i) + 0.5) * dt);
+    InjectedStep step{static_cast<double>(i) * dt, dt, pose, left, right, w.left_radps, w.right_radps,
+                      g.drive.wheel_radius_left_m * w.left_radps * dt, g.drive.wheel_radius_right_m * w.right_radps * dt,
+                      w.left_radps * dt, w.right_radps * dt, 0.0, 0.0, {}};
+    if (g.inject) g.inject(step);
     left += w.left_radps * dt;
     right += w.right_radps * dt;
-    const double l = g.drive.wheel_radius_left_m * w.left_radps * dt,
-                 r = g.drive.wheel_radius_right_m * w.right_radps * dt;
+    left_read += step.left_read_rad;
+    right_read += step.right_read_rad;
+    const double l = step.left_m, r = step.right_m;
     const double slip_l = g.wheel_noise > 0.0 ? g.wheel_noise * std::sqrt(std::abs(l)) * random.normal() : 0.0;
     const double slip_r = g.wheel_noise > 0.0 ? g.wheel_noise * std::sqrt(std::abs(r)) * random.normal() : 0.0;
     const double floor_l = l + slip_l, floor_r = r + slip_r;
@@ -63,8 +81,11 @@ inline Recording generated(const GeneratorSettings& g, const SpeedProfile& profi
       pose = {pose.x_m + radius * (std::sin(h + turn) - std::sin(h)),
               pose.y_m - radius * (std::cos(h + turn) - std::cos(h)), h + turn};
     }
-    left_path.push_back(left);
-    right_path.push_back(right);
+    const double across = h + 0.5 * turn;
+    pose = {pose.x_m - step.sideways_m * std::sin(across) + step.room_m.x_m,
+            pose.y_m + step.sideways_m * std::cos(across) + step.room_m.y_m, pose.heading_rad + step.turn_rad};
+    left_path.push_back(left_read);
+    right_path.push_back(right_read);
     poses.push_back(pose);
   }
   const double count_rad = 2.0 * kPi / g.drive.counts_per_wheel_turn();

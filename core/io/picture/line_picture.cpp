@@ -38,7 +38,30 @@ std::vector<std::vector<Point>> stretches(const DrawnLine& line, const Axis& x, 
 }
 
 // Dashes would make fur of a noisy signal: here the colours alone tell the lines apart.
+// A tint of a line's colour, for what lies under it.
+std::string pale(Look look) {
+  const std::string colour = stroke_of(look).colour;
+  std::string tint = "#";
+  for (std::size_t i = 1; i < 7; i += 2) {
+    const int value = 255 - (255 - std::stoi(colour.substr(i, 2), nullptr, 16)) / 4;
+    tint += "0123456789abcdef"[value / 16];
+    tint += "0123456789abcdef"[value % 16];
+  }
+  return tint;
+}
+
 Stroke solid(Look look) { return {stroke_of(look).colour, 1.5, ""}; }
+
+constexpr const char* kMarked = "#fbf3b4";  // a pale yellow, as of a text marker
+
+std::vector<Point> outline(const DrawnBand& band, const Axis& x, const Axis& y) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < band.x.size(); ++i)
+    if (std::isfinite(band.x[i]) && std::isfinite(band.high[i])) points.push_back({x.px(band.x[i]), y.px(band.high[i])});
+  for (std::size_t i = band.x.size(); i-- > 0;)
+    if (std::isfinite(band.x[i]) && std::isfinite(band.low[i])) points.push_back({x.px(band.x[i]), y.px(band.low[i])});
+  return points;
+}
 
 }  // namespace
 
@@ -46,15 +69,20 @@ std::string line_picture(const LinePicture& picture) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double left = 78.0, right = picture.width_px - 20.0, top = 64.0, bottom = picture.height_px - 48.0;
   double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
+  const auto include = [&](double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    low_x = std::min(low_x, x);
+    high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y);
+    high_y = std::max(high_y, y);
+  };
   for (const DrawnLine& line : picture.lines) {
     assert(line.x.size() == line.y.size());
-    for (std::size_t i = 0; i < line.x.size(); ++i) {
-      if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) continue;
-      low_x = std::min(low_x, line.x[i]);
-      high_x = std::max(high_x, line.x[i]);
-      low_y = std::min(low_y, line.y[i]);
-      high_y = std::max(high_y, line.y[i]);
-    }
+    for (std::size_t i = 0; i < line.x.size(); ++i) include(line.x[i], line.y[i]);
+  }
+  for (const DrawnBand& band : picture.bands) {
+    assert(band.x.size() == band.low.size() && band.x.size() == band.high.size());
+    for (std::size_t i = 0; i < band.x.size(); ++i) include(band.x[i], band.low[i]), include(band.x[i], band.high[i]);
   }
   Axis x = axis_over(low_x, high_x, left, right);
   if (high_x > low_x) x = {low_x, high_x, left, right};  // time needs no air
@@ -63,6 +91,13 @@ std::string line_picture(const LinePicture& picture) {
   Svg svg(picture.width_px, picture.height_px, picture.title);
   svg.text({18.0, 28.0}, picture.title, Anchor::start, 16.0, ink::kText, true);
   svg.rectangle({left, top}, right - left, bottom - top, "#ffffff");
+  svg.begin_clip({left, top}, right - left, bottom - top);
+  for (const auto& [from, to] : picture.marked) {  // an instant is two pixels wide
+    const double from_px = x.px(from), width_px = std::max(2.0, x.px(to) - from_px);
+    svg.rectangle({from_px, top}, width_px, bottom - top, kMarked);
+  }
+  for (const DrawnBand& band : picture.bands) svg.polygon(outline(band, x, y), pale(band.look), {});
+  svg.end_clip();
   const double x_step = round_step(x.high - x.low, 10), y_step = round_step(y.high - y.low, 6);
   for (double tick : x.ticks(10)) {
     svg.line({x.px(tick), top}, {x.px(tick), bottom}, {ink::kGrid, 1.0, ""});
@@ -87,6 +122,16 @@ std::string line_picture(const LinePicture& picture) {
     svg.line({legend_x, 48.0}, {legend_x + 30.0, 48.0}, solid(line.look));
     svg.text({legend_x + 36.0, 52.0}, line.label);
     legend_x += 54.0 + 7.4 * static_cast<double>(line.label.size());
+  }
+  for (const DrawnBand& band : picture.bands) {
+    if (band.label.empty()) continue;
+    svg.rectangle({legend_x, 41.0}, 30.0, 14.0, pale(band.look));
+    svg.text({legend_x + 36.0, 52.0}, band.label);
+    legend_x += 54.0 + 7.4 * static_cast<double>(band.label.size());
+  }
+  if (!picture.marked.empty() && !picture.marked_label.empty()) {
+    svg.rectangle({legend_x, 41.0}, 30.0, 14.0, kMarked);
+    svg.text({legend_x + 36.0, 52.0}, picture.marked_label);
   }
   return svg.finished();
 }

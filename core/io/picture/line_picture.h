@@ -1,7 +1,8 @@
-// Values over time, one or several lines.
+// Values over time or another variable, one or several lines, with bands and marked stretches.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/picture/svg.h"
@@ -15,6 +16,13 @@ struct DrawnLine {
   Look look = Look::truth;
 };
 
+// Between which values something may lie; under the lines.
+struct DrawnBand {
+  std::string label;
+  std::vector<double> x, low, high;  // as many of each
+  Look look = Look::truth;
+};
+
 struct LinePicture {
   std::string title;
   std::string x_label = "time [s]";
@@ -22,6 +30,9 @@ struct LinePicture {
   std::vector<DrawnLine> lines;
   double width_px = 900.0;
   double height_px = 360.0;
+  std::vector<DrawnBand> bands = {};
+  std::vector<std::pair<double, double>> marked = {};  // stretches of x with something to see in them
+  std::string marked_label = {};
 };
 
 // An SVG file's text. Each column of pixels keeps the lowest and the highest value that falls into it.

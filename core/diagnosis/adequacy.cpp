@@ -1,0 +1,145 @@
+#include "core/diagnosis/adequacy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+// Functions of one variable: hats on its quantiles, the last of which are left out where they add up to a constant that
+// calibration has already.
+struct Group {
+  std::string variable;
+  std::vector<double> at;
+  std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
+};
+
+Group hats_of(const std::string& name, const std::vector<DriveView>& views,
+              const std::function<double(const EffectStep&)>& variable, int count) {
+  std::vector<double> seen;
+  for (const DriveView& v : views)
+    for (std::size_t i = 0; i < v.steps.size(); i += 7)
+      if (std::abs(v.steps[i].speed_mps) + 0.1 * std::abs(v.steps[i].yaw_rate_radps) > 0.005)
+        seen.push_back(variable(v.steps[i]));
+  Group g;
+  g.variable = name;
+  if (seen.size() < 50) return g;
+  std::sort(seen.begin(), seen.end());
+  const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
+  if (high - low < 1e-6) return g;
+  // Half by quantile, half even: rare regimes are heard too.
+  for (int k = 0; k < count; ++k) {
+    const double share = static_cast<double>(k) / (count - 1);
+    const double q = seen[static_cast<std::size_t>(share * static_cast<double>(seen.size() - 1))];
+    const double x = 0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low));
+    if (g.at.empty() || x > g.at.back() + 0.02 * (high - low)) g.at.push_back(x);
+  }
+  const std::vector<double> at = g.at;
+  g.values = [at, variable](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(at.size(), std::vector<double>(view.steps.size(), 0.0));
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const double x = std::clamp(variable(view.steps[i]), at.front(), at.back());
+      std::size_t k = 0;
+      while (k + 2 < at.size() && at[k + 1] < x) ++k;
+      if (at.size() == 1) {
+        out[0][i] = 1.0;
+        continue;
+      }
+      const double share = (x - at[k]) / (at[k + 1] - at[k]);
+      out[k][i] = 1.0 - share;
+      out[k + 1][i] = share;
+    }
+  };
+  return g;
+}
+
+}  // namespace
+
+std::vector<GenericTest> generic_tests(const JointModel& joint) {
+  const std::vector<DriveView>& views = joint.views();
+  std::vector<Group> groups;
+  groups.push_back(hats_of("speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6));
+  groups.push_back(hats_of("yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7));
+  groups.push_back(hats_of("lateral acceleration [m/s2]", views,
+                           [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6));
+  groups.push_back(
+      hats_of("acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6));
+  groups.push_back(hats_of("time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8));
+  Group heading;
+  heading.variable = "heading [rad]";
+  heading.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(4, std::vector<double>(view.steps.size()));
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const double h = view.steps[i].heading_rad;
+      out[0][i] = std::cos(h), out[1][i] = std::sin(h), out[2][i] = std::cos(2 * h), out[3][i] = std::sin(2 * h);
+    }
+  };
+  groups.push_back(heading);
+  Group memory;
+  memory.variable = "turn before, forgotten over metres";
+  memory.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(2, std::vector<double>(view.steps.size()));
+    for (int k = 0; k < 2; ++k) {
+      const double length_m = k == 0 ? 0.1 : 0.5;
+      double m = 0.0;
+      for (std::size_t i = 0; i < view.steps.size(); ++i) {
+        m = m * std::exp(-std::abs(view.steps[i].forward_m()) / length_m) + view.steps[i].turn_rad;
+        m = std::clamp(m, -2.0, 2.0);
+        out[k][i] = m;
+      }
+    }
+  };
+  groups.push_back(memory);
+  Group phases;
+  phases.variable = "wheel rotation [rad]";
+  phases.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(4, std::vector<double>(view.steps.size()));
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      out[0][i] = std::cos(s.left_rad), out[1][i] = std::sin(s.left_rad), out[2][i] = std::cos(s.right_rad),
+      out[3][i] = std::sin(s.right_rad);
+    }
+  };
+  groups.push_back(phases);
+  groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
+
+  static const char* const kChannels[3] = {"forward per metre [1]", "sideways per metre [1]", "turn per metre [rad/m]"};
+  const int n = static_cast<int>(groups.size()) * 3;
+  std::vector<GenericTest> tests(n);
+  parallel_for(n, [&](int i) {
+    const Group& g = groups[i / 3];
+    const int channel = i % 3;
+    std::vector<std::vector<Motions>> per_run(views.size());
+    std::vector<std::vector<double>> values;
+    for (std::size_t r = 0; r < views.size(); ++r) {
+      g.values(views[r], values);
+      per_run[r].resize(values.size());
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        per_run[r][k].resize(views[r].steps.size());
+        for (std::size_t j = 0; j < values[k].size(); ++j) {
+          const EffectStep& s = views[r].steps[j];
+          const double v = values[k][j];
+          // Turning on the spot counts as way too, by the way of the wheels.
+          const double way = std::abs(s.forward_m()) + (channel == 0 ? 0.0 : 0.5 * views[r].drive.wheelbase_m * std::abs(s.turn_rad));
+          BodyMotion& m = per_run[r][k][j];
+          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = v * way;
+        }
+      }
+    }
+    tests[i].variable = g.variable;
+    tests[i].channel = kChannels[channel];
+    tests[i].at = g.at;
+    tests[i].test = joint.test(joint.columns_of(per_run), -1, true);
+    tests[i].p_value = std::min(1.0, n * chi_square_tail(tests[i].test.judged(), tests[i].test.freedom));
+  });
+  std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
+    return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
+  });
+  return tests;
+}
+
+}  // namespace odolab

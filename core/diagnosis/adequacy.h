@@ -1,0 +1,21 @@
+// Whether anything is left that the model does not describe, whatever its name: a generic basis in each channel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/joint_model.h"
+
+namespace odolab {
+
+struct GenericTest {
+  std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
+  CandidateTest test;
+  double p_value = 1.0;           // over all groups
+  std::vector<double> at;         // where the hats stand, in units of the variable; empty where it has no axis
+};
+
+// Best first.
+std::vector<GenericTest> generic_tests(const JointModel& joint);
+
+}  // namespace odolab

@@ -1,0 +1,392 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/diagnosis/adequacy.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/proof.h"
+#include "core/diagnosis/quality.h"
+#include "core/diagnosis/select.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kMostLeft = 0.15;         // of the evidence may stay without a name beside names that stand
+constexpr double kTestable = 30.0;         // chi-square that a medium effect must reach to count as testable
+constexpr int kFewestInnovations = 40;     // beyond the parameters: fewer cannot judge a model
+
+std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
+  char buffer[300];
+  std::snprintf(buffer, sizeof buffer, format, a, b, c);
+  return buffer;
+}
+
+InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset_s) {
+  for (const auto& [from, to] : c.break_s) {
+    bool behind = false;
+    for (std::size_t i = 0; i < run.truth.size(); ++i) {
+      const double t = run.truth[i].time_s - offset_s;
+      if (t >= from && t <= to) run.set_aside[i] = 1;
+      if (t > to && !behind) {
+        run.set_aside[i] = 2;
+        behind = true;
+      }
+    }
+  }
+  return run;
+}
+
+WhereFound where_of(const AcceptedEffect& a, const std::vector<std::string>& names) {
+  WhereFound w;
+  w.regime = a.effect->regime;
+  const bool event = a.effect->of_one_recording;
+  if (event) {
+    w.recording = names[static_cast<std::size_t>(a.shape[0])];
+    w.time_s.push_back({a.shape[1] - (a.effect->local ? 0.1 : 0.0), a.shape[1] + (a.effect->local ? 0.1 : 0.0)});
+  }
+  if (a.effect->name == "slip_zone") w.zone = WhereFound::Zone{a.shape[0], a.shape[1], a.shape[2]};
+  return w;
+}
+
+std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, double inflation) {
+  std::vector<double> se = a.stderr_value;
+  for (double& s : se) s *= std::sqrt(inflation);
+  std::vector<FoundParameter> out;
+  if (a.effect->to_parameters) {
+    out = a.effect->to_parameters(a.value, se);
+  } else {
+    for (std::size_t k = 0; k < a.value.size(); ++k)
+      out.push_back({a.effect->amplitudes[k].name, a.value[k], se[k], a.effect->amplitudes[k].unit});
+  }
+  if (!a.effect->shape_follows_amplitude)
+    for (std::size_t k = a.effect->of_one_recording ? 1 : 0; k < a.shape.size(); ++k) {
+      const double width = a.effect->local ? 0.1 : 0.1 * std::abs(a.shape[k]);
+      out.push_back({a.effect->shapes[k].name, a.shape[k], width, a.effect->shapes[k].unit});
+    }
+  return out;
+}
+
+std::string in_words(const Finding& f) {
+  std::string s = f.sentence;
+  for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
+    const FoundParameter& p = f.parameters[k];
+    s += (k == 0 ? " (" : ", ") + p.name + text(" %.4g +- %.2g", p.value, p.stderr_value) +
+         (p.unit == "1" ? "" : " " + p.unit);
+  }
+  if (!f.parameters.empty()) s += ")";
+  return s;
+}
+
+Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const ScoredCandidate& evidence,
+                   const std::vector<ScoredCandidate>& alternatives, const std::vector<std::string>& names) {
+  (void)joint;
+  Finding f;
+  f.effect = a.effect->name;
+  f.component = a.effect->component;
+  f.parameters = parameters_of(a, evidence.test.inflation);
+  f.where = where_of(a, names);
+  f.log_likelihood_gain = 0.5 * evidence.test.statistic;
+  f.p_value = evidence.p_value;
+  f.sentence = a.effect->sentence;
+  for (const ScoredCandidate& c : alternatives)
+    f.alternatives.push_back({c.effect->name, c.effect->component, 0.5 * c.test.statistic, c.effect->told_apart_by});
+  return f;
+}
+
+// Mounting and clock of the truth, where they are not where the vehicle's file says.
+void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+                        const Vehicle& nominal, bool from_commands) {
+  const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
+    for (const ParameterEstimate& p : fit.parameters)
+      if (p.name == name && p.determined) return &p;
+    return nullptr;
+  };
+  const char* const keys[3] = {"truth_mounting.x_m", "truth_mounting.y_m", "truth_mounting.heading_rad"};
+  const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
+  const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
+  const double value[3] = {now.x_m, now.y_m, now.heading_rad};
+  const double least[3] = {0.004, 0.004, 0.01};
+  Finding mounting;
+  double gain = 0.0;
+  bool material = false;
+  for (int k = 0; k < 3; ++k) {
+    const ParameterEstimate* p = determined(keys[k]);
+    if (!p) continue;
+    const double se = std::max(p->stderr_value, joint.stderr_of_nuisance(3 + k));
+    const double z = by[k] / se;
+    mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
+    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
+  }
+  if (material) {
+    mounting.effect = "truth_mounting_offset";
+    mounting.component = "truth";
+    mounting.log_likelihood_gain = gain;
+    mounting.p_value = chi_square_tail(2.0 * gain, 3);
+    mounting.sentence = "the tracked point is not where the vehicle's file has it";
+    findings.push_back(mounting);
+  }
+  if (const ParameterEstimate* p = determined("truth_mounting.time_offset_s")) {
+    double mean = 0.0;
+    for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
+    const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
+    if (std::abs(z) > 6.0 && std::abs(off) > 0.004) {
+      Finding f;
+      const bool delay = from_commands && off > 0.0;
+      f.effect = delay ? "actuator_delay" : "truth_time_offset";
+      f.component = delay ? "vehicle" : "truth";
+      f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : mean, p->stderr_value, "s"}};
+      f.log_likelihood_gain = 0.5 * z * z;
+      f.p_value = chi_square_tail(z * z, 1);
+      f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
+      if (delay)
+        f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
+                                  "one clock for commands and truth: on their own the two are the same"});
+      findings.push_back(f);
+    }
+  }
+}
+
+Response response_of(const GenericTest& g) {
+  Response r;
+  r.variable = g.variable;
+  r.channel = g.channel;
+  for (std::size_t k = 0; k < g.at.size() && k < g.test.value.size(); ++k) {
+    const double se = g.test.stderr_value[k] * std::sqrt(g.test.inflation);
+    if (se > 1e3) continue;
+    r.at.push_back(g.at[k]);
+    r.value.push_back(g.test.value[k]);
+    r.low.push_back(g.test.value[k] - 2.0 * se);
+    r.high.push_back(g.test.value[k] + 2.0 * se);
+  }
+  return r;
+}
+
+std::vector<Residuals> residuals_of(const JointModel& joint) {
+  std::vector<Residuals> all;
+  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
+    Residuals out;
+    out.recording = joint.runs()[r].name;
+    for (const FilterStep& s : joint.linearised()[r].steps()) {
+      if (s.truth_index < 0 || !s.used) continue;
+      const Vec2 body = rotated({s.residual[0], s.residual[1]}, -s.heading_rad);
+      out.time_s.push_back(joint.runs()[r].truth[s.truth_index].time_s);
+      out.x_m.push_back(s.pose.x_m);
+      out.y_m.push_back(s.pose.y_m);
+      out.along_m.push_back(body.x_m);
+      out.across_m.push_back(body.y_m);
+      out.heading_rad.push_back(s.size == 3 ? s.residual[2] : 0.0);
+      const Whitened& w = joint.linearised()[r].residual();
+      double squared = 0.0;
+      for (int k = 0; k < 3; ++k) squared += w[3 * s.truth_index + k] * w[3 * s.truth_index + k];
+      out.squared.push_back(squared / s.size);
+    }
+    all.push_back(std::move(out));
+  }
+  return all;
+}
+
+void add_not_testable(Diagnosis& d, const std::vector<ScoredCandidate>& looks) {
+  std::vector<std::string> seen;
+  for (const Finding& f : d.findings) seen.push_back(f.effect);
+  for (const ScoredCandidate& first : looks) {
+    const std::string& name = first.effect->name;
+    if (std::find(seen.begin(), seen.end(), name) != seen.end() || first.effect->only_commands) continue;
+    seen.push_back(name);
+    double best = 0.0, survives = 0.0;
+    for (const ScoredCandidate& c : looks) {
+      if (c.effect->name != name) continue;
+      double least = 1e300;
+      for (std::size_t k = 0; k < c.test.value.size(); ++k)
+        least = std::min(least, std::pow(c.effect->amplitudes[k].medium / c.test.stderr_value[k], 2) / c.test.inflation);
+      if (c.test.value.empty()) least = 0.0;
+      best = std::max(best, least);
+      survives = std::max(survives, c.test.survives);
+    }
+    if (best >= kTestable) continue;
+    NotTestable n;
+    n.effect = name;
+    n.because = survives < 0.05
+                    ? text("on these drives calibration absorbs %.0f %% of what it would do", 100.0 * (1.0 - survives))
+                    : text("an effect of common size would show with %.1f standard deviations only", std::sqrt(best));
+    n.drive_this = first.effect->told_apart_by;
+    d.not_testable.push_back(n);
+  }
+}
+
+}  // namespace
+
+ActiveEffect Finding::as_active() const {
+  ActiveEffect a;
+  a.effect = effect;
+  a.component = component;
+  for (const FoundParameter& p : parameters) a.parameters.push_back({p.name, p.value});
+  return a;
+}
+
+Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vector<Recording>& held_out_given,
+                           const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  if (!drive) return Error{nominal.name, "another kind of vehicle", "a differential drive"};
+  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
+    return Error{nominal.name, "", problems.front()};
+  if (given.empty()) return Error{"recordings", "none", "one or more"};
+
+  // By run, before anything is looked at: of four recordings or more every fourth is kept back.
+  std::vector<Recording> train, held_out = held_out_given;
+  for (std::size_t r = 0; r < given.size(); ++r)
+    (held_out_given.empty() && given.size() >= 4 && r % 4 == 2 ? held_out : train).push_back(given[r]);
+
+  Diagnosis d;
+  std::vector<CheckedRecording> ready, ready_held_out;
+  std::vector<Recording> clean;
+  std::vector<std::string> names;
+  bool from_commands = false;
+  for (const Recording& r : train) {
+    if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
+      return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
+    ready.push_back(checked(r, nominal));
+    clean.push_back(ready.back().recording);
+    names.push_back(r.name);
+    from_commands = from_commands || ready.back().from_commands;
+  }
+  for (const Recording& r : held_out) {
+    if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
+      return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
+    ready_held_out.push_back(checked(r, nominal));
+  }
+  const Error stopped{"diagnosis", "stopped before its end", ""};
+  const Progress calibrating = [&](double share) { return goes_on(progress, 0.25 * share); };
+  Result<LeastSquaresCalibration> calibration = calibrate_least_squares(clean, nominal, {}, calibrating);
+  if (!calibration) return calibration.error();
+  d.calibration = *calibration;
+  d.warnings = calibration->warnings;
+
+  std::vector<InnovationRun> runs;
+  std::vector<char> commands;
+  for (const CheckedRecording& c : ready) {
+    Result<InnovationRun> run = innovation_run(c.recording, nominal);
+    if (!run) return run.error();
+    runs.push_back(run_of(c, std::move(*run), nominal.truth.time_offset_s));
+    commands.push_back(c.from_commands);
+  }
+  JointModel joint(std::move(runs), commands, *calibration, nominal);
+  joint.linearise();
+  joint.gate();
+  joint.fit(3);
+  joint.fit_noise();
+  joint.fit(2);
+  const JointModel calibrated = joint;
+  if (!goes_on(progress, 0.3)) return stopped;
+
+  const Selected selected = select_effects(joint, options.family_wise_error, progress);
+  if (!goes_on(progress, 0.75)) return stopped;
+
+  std::vector<Finding> named;
+  double explained = 0.0;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    named.push_back(finding_of(joint, joint.accepted[k], selected.evidence[k], selected.alternatives[k], names));
+    explained += selected.evidence[k].test.statistic;
+  }
+  add_truth_findings(named, joint, d.calibration, nominal, from_commands);
+
+  // Adequacy.
+  const std::vector<GenericTest> generic = generic_tests(joint);
+  const GenericTest* left = nullptr;
+  for (const GenericTest& g : generic)
+    if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 && (!left || g.test.judged() > left->test.judged()))
+      left = &g;
+  const double remaining = left ? left->test.judged() - left->test.freedom : 0.0;
+  const bool inadequate = left && remaining > kMostLeft * explained;
+  for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
+    if (!generic[k].at.empty()) d.responses.push_back(response_of(generic[k]));
+
+  const double all = std::max(1e-9, explained + (inadequate ? remaining : 0.0));
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+    named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
+  std::sort(named.begin(), named.end(),
+            [](const Finding& a, const Finding& b) { return a.log_likelihood_gain > b.log_likelihood_gain; });
+  bool ambiguous = false;
+  for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
+
+  if (inadequate) {
+    Finding unknown;
+    unknown.effect = "unknown";
+    unknown.component = "vehicle";
+    unknown.where.regime = left->channel + " that depends on " + left->variable;
+    unknown.log_likelihood_gain = 0.5 * left->test.statistic;
+    unknown.p_value = left->p_value;
+    unknown.share_of_mismatch = std::clamp(remaining / all, 0.0, 1.0);
+    unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
+    // Names that did not suffice are said as what it resembles, not as what it is.
+    for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+      unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
+                                      0.5 * selected.evidence[k].test.statistic, joint.accepted[k].effect->told_apart_by});
+    named.erase(std::remove_if(named.begin(), named.end(),
+                               [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0; }),
+                named.end());
+    named.insert(named.begin(), unknown);
+    d.verdict = Verdict::unknown_effect;
+  } else if (!named.empty()) {
+    d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
+  } else {
+    const double freedom = joint.scalars() - 7.0;
+    d.verdict = freedom < kFewestInnovations ? Verdict::cannot_say : Verdict::nothing_missing;
+  }
+  d.findings = named;
+  for (const CheckedRecording& c : ready)
+    for (const DataFault& fault : c.faults) {
+      Finding f;
+      f.effect = fault.effect;
+      f.component = fault.component;
+      f.where.recording = fault.recording;
+      f.where.time_s = fault.time_s;
+      f.p_value = 0.0;
+      f.sentence = fault.sentence;
+      d.findings.push_back(f);
+    }
+  if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
+  add_not_testable(d, selected.first_look);
+  int testable = 0, entries = 0;
+  {
+    std::vector<std::string> seen;
+    for (const Effect& e : catalogue())
+      if (!e.only_commands && std::find(seen.begin(), seen.end(), e.name) == seen.end()) seen.push_back(e.name);
+    entries = static_cast<int>(seen.size());
+    testable = entries - static_cast<int>(d.not_testable.size());
+  }
+  if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
+
+  prove(d, joint, calibrated, train, held_out, ready_held_out, nominal);
+  d.residuals_before = residuals_of(calibrated);
+  d.residuals_after = residuals_of(joint);
+
+  for (const Finding& f : d.findings)
+    if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;
+  if (d.next_drive.empty() && !d.not_testable.empty()) d.next_drive = d.not_testable.front().drive_this;
+
+  switch (d.verdict) {
+    case Verdict::found: d.sentences.push_back("Something is missing from the model, and it has a name:"); break;
+    case Verdict::nothing_missing:
+      d.sentences.push_back("Nothing is missing: calibration leaves nothing but noise.");
+      break;
+    case Verdict::unknown_effect:
+      d.sentences.push_back("Something is missing that no entry of the catalogue describes.");
+      break;
+    case Verdict::ambiguous:
+      d.sentences.push_back("Something is missing; these recordings do not decide between the names given.");
+      break;
+    case Verdict::cannot_say:
+      d.sentences.push_back("These recordings are too poor to judge whether anything is missing.");
+      break;
+  }
+  for (const Finding& f : d.findings) {
+    d.sentences.push_back(in_words(f));
+    for (const Alternative& a : f.alternatives)
+      d.sentences.push_back("  or " + a.effect + " (" + a.component + "); told apart by " + a.told_apart_by);
+  }
+  if (!d.next_drive.empty()) d.sentences.push_back("Drive next: " + d.next_drive + ".");
+  return d;
+}
+
+}  // namespace odolab

@@ -1,0 +1,112 @@
+#include "core/diagnosis/effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace odolab {
+
+const char* component_of(Wheel wheel) {
+  return wheel == Wheel::left ? "left_wheel" : wheel == Wheel::right ? "right_wheel" : "both_wheels";
+}
+
+BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m) {
+  if (wheel == Wheel::both) return {extra_m, 0.0, 0.0};
+  return {0.5 * extra_m, 0.0, (wheel == Wheel::right ? extra_m : -extra_m) / wheelbase_m};
+}
+
+DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
+                     const Track& truth_poses) {
+  DriveView view;
+  view.number = number;
+  view.drive = drive;
+  view.from_commands = from_commands;
+  const std::vector<DriveStep> steps = drive_steps(run, drive);
+  const int n = static_cast<int>(steps.size());
+  view.steps.resize(n);
+  std::size_t k = 0;
+  for (int i = 0; i < n; ++i) {
+    const DriveStep& d = steps[i];
+    const WheelSample &a = run.wheels[i], &b = run.wheels[i + 1], &first = run.wheels.front();
+    EffectStep& s = view.steps[i];
+    s.time_s = d.time_s;
+    s.duration_s = d.duration_s;
+    s.since_start_s = d.time_s - first.time_s;
+    s.left_m = d.left_m;
+    s.right_m = d.right_m;
+    s.turn_rad = d.turn_rad;
+    s.left_rad = 0.5 * (a.left_rad + b.left_rad) - first.left_rad;
+    s.right_rad = 0.5 * (a.right_rad + b.right_rad) - first.right_rad;
+    s.left_by_rad = b.left_rad - a.left_rad;
+    s.right_by_rad = b.right_rad - a.right_rad;
+    s.heading_rad = d.heading_rad;
+    s.position = d.position;
+    if (!truth_poses.empty()) {
+      while (k + 2 < truth_poses.size() && truth_poses[k + 1].time_s <= s.time_s) ++k;
+      const TimedPose &p = truth_poses[k], &q = truth_poses[std::min(k + 1, truth_poses.size() - 1)];
+      const double gap = q.time_s - p.time_s;
+      const double share = gap > 0.0 ? std::clamp((s.time_s - p.time_s) / gap, 0.0, 1.0) : 0.0;
+      s.position = p.pose.position() + share * (q.pose.position() - p.pose.position());
+      s.heading_rad = p.pose.heading_rad + share * wrapped(q.pose.heading_rad - p.pose.heading_rad);
+    }
+  }
+  // Speeds over about 0.1 s: single counts would drown them.
+  const auto smoothed = [&](int i, double half_s, double* left, double* right) {
+    const double t = view.steps[i].time_s;
+    int lo = i, hi = i;
+    while (lo > 0 && t - view.steps[lo - 1].time_s < half_s) --lo;
+    while (hi + 1 < n && view.steps[hi + 1].time_s - t < half_s) ++hi;
+    double span = 0.0, l = 0.0, r = 0.0;
+    for (int j = lo; j <= hi; ++j) {
+      span += view.steps[j].duration_s;
+      l += view.steps[j].left_by_rad;
+      r += view.steps[j].right_by_rad;
+    }
+    *left = l / span;
+    *right = r / span;
+  };
+  const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
+  for (int i = 0; i < n; ++i) {
+    EffectStep& s = view.steps[i];
+    smoothed(i, 0.06, &s.left_radps, &s.right_radps);
+    s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
+    s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
+  }
+  for (int i = 0; i < n; ++i) {
+    int lo = i, hi = i;
+    const double t = view.steps[i].time_s;
+    while (lo > 0 && t - view.steps[lo].time_s < 0.1) --lo;
+    while (hi + 1 < n && view.steps[hi].time_s - t < 0.1) ++hi;
+    const double span = view.steps[hi].time_s - view.steps[lo].time_s;
+    if (span <= 0.0) continue;
+    view.steps[i].acceleration_mps2 = (view.steps[hi].speed_mps - view.steps[lo].speed_mps) / span;
+    view.steps[i].yaw_acceleration_radps2 = (view.steps[hi].yaw_rate_radps - view.steps[lo].yaw_rate_radps) / span;
+  }
+  return view;
+}
+
+const std::vector<Effect>& catalogue() {
+  static const std::vector<Effect> all = [] {
+    std::vector<Effect> list;
+    for (auto entry : {effects::wheel_eccentricity, effects::encoder_missed_counts, effects::drivetrain_backlash,
+                       effects::wheel_toe, effects::castor_reversal_kick, effects::radius_drift,
+                       effects::tyre_compression, effects::speed_dependent_radius, effects::payload_radius_change,
+                       effects::lateral_slip, effects::traction_slip, effects::turn_scrub, effects::one_sided_drag,
+                       effects::bump, effects::slip_zone, effects::floor_slope_creep, effects::collision,
+                       effects::turn_speed_loss, effects::clock_rate, effects::actuator_lag})
+      for (Effect& e : entry()) list.push_back(std::move(e));
+    return list;
+  }();
+  return all;
+}
+
+const Effect* catalogue_entry(const std::string& name, const std::string& component) {
+  const Effect* fallback = nullptr;
+  for (const Effect& e : catalogue()) {
+    if (e.name != name) continue;
+    if (e.component == component) return &e;
+    if (!fallback) fallback = &e;
+  }
+  return fallback;
+}
+
+}  // namespace odolab

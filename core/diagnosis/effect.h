@@ -1,0 +1,106 @@
+// What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/calibration/innovations.h"
+#include "core/diagnosis/active_effect.h"
+#include "core/diagnosis/diagnosis.h"
+
+namespace odolab {
+
+// One wheel interval as an effect sees it. Places and headings are those of the truth where there is one.
+struct EffectStep {
+  double time_s = 0.0, duration_s = 0.0;
+  double since_start_s = 0.0;
+  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;   // as the wheels say
+  double left_rad = 0.0, right_rad = 0.0;               // rotation since the start, at the middle
+  double left_by_rad = 0.0, right_by_rad = 0.0;         // rotation during the interval
+  double speed_mps = 0.0, yaw_rate_radps = 0.0;         // smoothed over a few intervals
+  double left_radps = 0.0, right_radps = 0.0;           // smoothed wheel speeds
+  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
+  double heading_rad = 0.0;
+  Vec2 position;
+
+  double forward_m() const { return 0.5 * (left_m + right_m); }
+};
+
+struct DriveView {
+  int number = 0;  // of the recording
+  DifferentialDrive drive;
+  bool from_commands = false;
+  std::vector<EffectStep> steps;
+};
+
+// `truth_poses`: the axle's poses at those times, from the filter; empty where the place is dead reckoned.
+DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
+                     const Track& truth_poses);
+
+using Motions = std::vector<BodyMotion>;
+
+enum class Wheel { left, right, both };
+const char* component_of(Wheel wheel);
+// The motion of a body whose wheel goes `extra_m` further.
+BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m);
+
+struct Effect {
+  std::string name, component;
+  struct Amplitude {
+    std::string name, unit;
+    double medium = 0.0;             // a size that matters in practice: what "not testable" is judged by
+    double low = -1e9, high = 1e9;   // physical bounds
+  };
+  std::vector<Amplitude> amplitudes;     // the motion is linear in these
+  std::vector<Amplitude> shapes;         // and not in these
+  std::string sentence;                  // what it is, in words
+  std::string regime;                    // where it acts, in words
+  std::vector<std::string> looks_like;   // effects that it is easily taken for
+  std::string told_apart_by;             // and the drive that decides
+  // One for each amplitude: the motion for a value of 1 at this shape.
+  std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
+  // Shapes to try; empty function: there is no shape.
+  std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
+  bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement
+  bool local = false;                    // acts at a moment or place: its evidence lies in few samples
+  bool of_one_recording = false;         // shape[0] is the recording's number
+  bool clock_rate = false;               // acts on the wheels' clock instead of the motion
+  bool only_commands = false;            // needs a base that is driven from commands
+
+  // How the amplitudes read as the catalogue's parameters, with standard errors, and back. Left empty where they are
+  // the same.
+  std::function<std::vector<FoundParameter>(const std::vector<double>& value, const std::vector<double>& stderr_value)>
+      to_parameters;
+  std::function<std::vector<double>(const ActiveEffect&)> from_parameters;
+};
+
+// Every entry, once for each component that it can act on.
+const std::vector<Effect>& catalogue();
+const Effect* catalogue_entry(const std::string& name, const std::string& component);
+
+// The entries, one file each.
+namespace effects {
+std::vector<Effect> wheel_eccentricity();
+std::vector<Effect> encoder_missed_counts();
+std::vector<Effect> drivetrain_backlash();
+std::vector<Effect> wheel_toe();
+std::vector<Effect> castor_reversal_kick();
+std::vector<Effect> radius_drift();
+std::vector<Effect> tyre_compression();
+std::vector<Effect> speed_dependent_radius();
+std::vector<Effect> payload_radius_change();
+std::vector<Effect> lateral_slip();
+std::vector<Effect> traction_slip();
+std::vector<Effect> turn_scrub();
+std::vector<Effect> one_sided_drag();
+std::vector<Effect> bump();
+std::vector<Effect> slip_zone();
+std::vector<Effect> floor_slope_creep();
+std::vector<Effect> collision();
+std::vector<Effect> turn_speed_loss();
+std::vector<Effect> clock_rate();
+std::vector<Effect> actuator_lag();
+}  // namespace effects
+
+}  // namespace odolab

@@ -1,0 +1,62 @@
+// A patch of floor on which wheels slip: there a wheel travels (1 - slip) of what it turns.
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/effect.h"
+
+namespace odolab::effects {
+
+std::vector<Effect> slip_zone() {
+  Effect e;
+  e.name = "slip_zone";
+  e.component = "floor";
+  e.amplitudes = {{"slip", "1", 0.05, 0.0, 1.0}};
+  e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m"}};
+  e.sentence = "there is a patch of floor on which the wheels slip";
+  e.regime = "on a patch of the floor";
+  e.looks_like = {"bump", "collision"};
+  e.told_apart_by = "the same patch crossed again on another line and at another speed";
+  e.local = true;
+  e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    Motions m(view.steps.size());
+    const Vec2 centre{shape[0], shape[1]};
+    const double b = view.drive.wheelbase_m, r2 = shape[2] * shape[2];
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const Vec2 to = s.position - centre;
+      if (dot(to, to) > (shape[2] + b) * (shape[2] + b)) continue;
+      const Vec2 side{-0.5 * b * std::sin(s.heading_rad), 0.5 * b * std::cos(s.heading_rad)};
+      const Vec2 left = to + side, right = to - side;
+      const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;
+      m[i] = {0.5 * (l + r), 0.0, (r - l) / b};
+    }
+    return std::vector<Motions>{m};
+  };
+  e.scan = [](const std::vector<DriveView>& views) {
+    double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+    for (const DriveView& v : views)
+      for (const EffectStep& s : v.steps) {
+        x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
+        y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
+      }
+    std::vector<std::vector<double>> shapes;
+    if (x1 < x0) return shapes;
+    for (double radius : {0.25, 0.5, 0.9}) {
+      const double stride = std::max(0.7 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / 150.0));
+      for (double x = x0; x <= x1 + 0.5 * stride; x += stride)
+        for (double y = y0; y <= y1 + 0.5 * stride; y += stride) {
+          bool visited = false;
+          for (const DriveView& v : views) {
+            for (std::size_t i = 0; i < v.steps.size() && !visited; i += 10)
+              visited = length(v.steps[i].position - Vec2{x, y}) < radius + 0.5 * v.drive.wheelbase_m;
+            if (visited) break;
+          }
+          if (visited) shapes.push_back({x, y, radius});
+        }
+    }
+    return shapes;
+  };
+  return {e};
+}
+
+}  // namespace odolab::effects

@@ -1,0 +1,68 @@
+#include "core/diagnosis/fitted_model.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace odolab {
+
+namespace {
+
+bool has_parameter(const ActiveEffect& active, const std::string& name) {
+  for (const auto& [key, value] : active.parameters)
+    if (key == name) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<ActiveEffect> FittedModel::effects_in(const std::string& recording) const {
+  std::vector<ActiveEffect> active;
+  for (const FittedEffect& effect : effects)
+    if (effect.recording.empty() || effect.recording == recording) active.push_back(effect.active);
+  return active;
+}
+
+Vehicle FittedModel::vehicle_in(const std::string& recording) const {
+  Vehicle result = vehicle;
+  for (const auto& [name, offset_s] : truth_clock_s)
+    if (name == recording) result.truth.time_offset_s = offset_s;
+  return result;
+}
+
+FittedModel model_of(const Diagnosis& diagnosis) {
+  FittedModel model{diagnosis.fitted_vehicle.value_or(diagnosis.calibration.vehicle), {}, diagnosis.truth_clock_s};
+  for (const Finding& finding : diagnosis.findings) {
+    if (finding.effect == "unknown" || finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault") continue;
+    FittedEffect effect{finding.as_active(), {}, ""};
+    for (const FoundParameter& p : finding.parameters) effect.stderr_values.emplace_back(p.name, p.stderr_value);
+    // what is tied to a time and not to a place happened once
+    if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m")) effect.recording = finding.where.recording;
+    model.effects.push_back(effect);
+  }
+  return model;
+}
+
+FittedModel calibrated_model_of(const Diagnosis& diagnosis) {
+  FittedModel model{diagnosis.calibration.vehicle, {}, {}};
+  const std::vector<double>& clocks = diagnosis.calibration.time_offset_s;
+  for (std::size_t r = 0; r < std::min(clocks.size(), diagnosis.truth_clock_s.size()); ++r)
+    model.truth_clock_s.emplace_back(diagnosis.truth_clock_s[r].first, clocks[r]);
+  return model;
+}
+
+Result<Done> fits(const FittedModel& model, const Vehicle& nominal) {
+  if (model.vehicle.kind.index() != nominal.kind.index())
+    return Error{"vehicle.kind", "another kind than the vehicle's", "the kind of the vehicle that is given beside the model"};
+  const auto* fitted = std::get_if<DifferentialDrive>(&model.vehicle.kind);
+  const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  if (!fitted || !drive) return Done{};
+  if (fitted->counts_per_wheel_turn() != drive->counts_per_wheel_turn() || fitted->counter_bits != drive->counter_bits) {
+    char found[96], expected[96];
+    std::snprintf(found, sizeof found, "%g counts per wheel turn, %d bits", fitted->counts_per_wheel_turn(), fitted->counter_bits);
+    std::snprintf(expected, sizeof expected, "the vehicle's %g counts, %d bits", drive->counts_per_wheel_turn(), drive->counter_bits);
+    return Error{"vehicle.differential_drive", found, expected};
+  }
+  return Done{};
+}
+
+}  // namespace odolab

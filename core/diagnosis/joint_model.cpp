@@ -1,0 +1,441 @@
+#include "core/diagnosis/joint_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/calibration/minimise.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kBatches = 60;
+constexpr int kNoiseSamples = 5000;
+
+double& entry(InnovationModel& m, int c) {
+  switch (c) {
+    case 0: return m.drive.wheel_radius_left_m;
+    case 1: return m.drive.wheel_radius_right_m;
+    case 2: return m.drive.wheelbase_m;
+    case 3: return m.truth.axle_T_tracked.x_m;
+    case 4: return m.truth.axle_T_tracked.y_m;
+    default: return m.truth.axle_T_tracked.heading_rad;
+  }
+}
+
+}  // namespace
+
+double chi_square_tail(double x, int freedom) {
+  if (x <= 0.0) return 1.0;
+  // Regularised incomplete gamma by recurrence from freedom 1 or 2.
+  double tail = freedom % 2 == 0 ? std::exp(-0.5 * x) : std::erfc(std::sqrt(0.5 * x));
+  double term = freedom % 2 == 0 ? std::exp(-0.5 * x) : std::sqrt(2.0 * x / kPi) * std::exp(-0.5 * x);
+  for (int k = freedom % 2 == 0 ? 2 : 1; k < freedom; k += 2) {
+    if (freedom % 2 == 0) term *= 0.5 * x / (0.5 * k);
+    tail += term;
+    if (freedom % 2 == 1) term *= x / (k + 2);
+  }
+  return std::min(1.0, tail);
+}
+
+JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands,
+                       const LeastSquaresCalibration& start, const Vehicle& nominal)
+    : runs_(std::move(runs)), from_commands_(std::move(from_commands)), nominal_(nominal) {
+  model.drive = std::get<DifferentialDrive>(start.vehicle.kind);
+  model.truth = start.vehicle.truth;
+  model.noise = start.noise;
+  if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
+  clock_s = start.time_offset_s;
+  clock_s.resize(runs_.size(), model.truth.time_offset_s);
+  clock_active.assign(runs_.size(), 1);
+  for (const InnovationRun& run : runs_) masked_.push_back(run.set_aside);
+}
+
+InnovationModel JointModel::model_of(int run) const {
+  InnovationModel m = model;
+  m.truth.time_offset_s = clock_s[run];
+  return m;
+}
+
+InnovationRun JointModel::prepared(int r) const {
+  InnovationRun run = runs_[r];
+  ExtraColumn sum;
+  sum.name = "effects";
+  sum.value = 1.0;
+  sum.per_step.resize(run.wheels.size() - 1);
+  bool any = false;
+  for (const AcceptedEffect& a : accepted) {
+    if (a.effect->clock_rate) {
+      const double t0 = run.truth[0].time_s - clock_s[r];
+      for (WheelSample& w : run.wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.value[0]);
+      continue;
+    }
+    const std::vector<Motions> motions = a.effect->motions(views_[r], a.shape);
+    any = true;
+    for (std::size_t k = 0; k < motions.size(); ++k)
+      for (std::size_t i = 0; i < sum.per_step.size(); ++i) {
+        sum.per_step[i].forward_m += a.value[k] * motions[k][i].forward_m;
+        sum.per_step[i].sideways_m += a.value[k] * motions[k][i].sideways_m;
+        sum.per_step[i].turn_rad += a.value[k] * motions[k][i].turn_rad;
+      }
+  }
+  if (any) run.extra = {std::move(sum)};
+  return run;
+}
+
+int JointModel::columns() const {
+  int n = 6 + static_cast<int>(runs_.size());
+  for (const AcceptedEffect& a : accepted) n += static_cast<int>(a.value.size());
+  return n;
+}
+
+void JointModel::linearise() {
+  const int n = static_cast<int>(runs_.size());
+  std::vector<Track> track(n);
+  if (linear_.size() == runs_.size())
+    for (int r = 0; r < n; ++r) track[r] = poses(r);
+  views_.resize(n);
+  std::vector<std::vector<LinearisedRun>> made(n);
+  z_.assign(n, {});
+  residual_.assign(n, {});
+  const int q = columns();
+  parallel_for(n, [&](int r) {
+    const InnovationModel m = model_of(r);
+    if (track[r].empty()) {  // the places come from the filter itself
+      LinearisedRun first(runs_[r], m);
+      for (const FilterStep& s : first.steps())
+        if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
+    }
+    views_[r] = drive_view(r, runs_[r], m.drive, from_commands_[r] != 0, track[r]);
+    made[r].emplace_back(prepared(r), m);
+    const LinearisedRun& linear = made[r][0];
+    const int rows = 3 * linear.samples();
+    MatrixXd& z = z_[r];
+    z = MatrixXd::Zero(rows, q);
+    for (int c = 0; c < 6; ++c)
+      if (nuisance_active[c]) linear.of_parameter(c, z.col(c).data());
+    if (clock_active[r]) linear.of_parameter(column::truth_clock, z.col(clock_column(r)).data());
+    int k = 6 + n;
+    for (const AcceptedEffect& a : accepted) {
+      if (a.effect->clock_rate) {
+        linear.of_clock_rate(z.col(k++).data());
+        continue;
+      }
+      for (const Motions& m_k : a.effect->motions(views_[r], a.shape)) linear.of_motion(m_k, z.col(k++).data());
+    }
+    residual_[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);
+  });
+  linear_.clear();
+  for (auto& one : made) linear_.push_back(std::move(one[0]));
+  gram_ = MatrixXd::Zero(q, q);
+  zr_ = VectorXd::Zero(q);
+  chi2_ = log_determinant_ = 0.0;
+  scalars_ = 0;
+  for (int r = 0; r < n; ++r) {
+    gram_.noalias() += z_[r].transpose() * z_[r];
+    zr_.noalias() += z_[r].transpose() * residual_[r];
+    chi2_ += linear_[r].sums().chi2;
+    log_determinant_ += linear_[r].sums().log_determinant;
+    scalars_ += linear_[r].sums().scalars;
+  }
+  // Priors as in calibration: wide, so that what these runs do not determine stays where it was.
+  const DifferentialDrive& d = std::get<DifferentialDrive>(nominal_.kind);
+  const double size[6] = {0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
+  InnovationModel nominal{d, nominal_.truth, {}}, now = model;
+  for (int c = 0; c < 6; ++c) {
+    gram_(c, c) += 1.0 / (size[c] * size[c]);
+    zr_(c) += nuisance_active[c] ? (entry(nominal, c) - entry(now, c)) / (size[c] * size[c]) : 0.0;
+  }
+  for (int r = 0; r < n; ++r) {
+    gram_(6 + r, 6 + r) += 25.0;
+    zr_(6 + r) += clock_active[r] ? 25.0 * (nominal_.truth.time_offset_s - clock_s[r]) : 0.0;
+  }
+  for (int k = 6 + n; k < q; ++k) gram_(k, k) += 1e-12;
+}
+
+void JointModel::fit(int iterations) {
+  linearise();
+  for (int i = 0; i < iterations; ++i) {
+    const VectorXd step = gram_.ldlt().solve(zr_);
+    if (!step.allFinite()) return;
+    const double size = step.dot(zr_);
+    const auto saved_accepted = accepted;
+    const InnovationModel saved = model;
+    const std::vector<double> saved_clock = clock_s;
+    const double before = chi2_;
+    double scale = 1.0;
+    for (int attempt = 0; attempt < 3; ++attempt, scale *= 0.3) {
+      model = saved;
+      clock_s = saved_clock;
+      accepted = saved_accepted;
+      for (int c = 0; c < 6; ++c) entry(model, c) += scale * step(c);
+      for (std::size_t r = 0; r < runs_.size(); ++r) clock_s[r] += scale * step(6 + r);
+      int k = 6 + static_cast<int>(runs_.size());
+      for (AcceptedEffect& a : accepted) {
+        for (std::size_t j = 0; j < a.value.size(); ++j, ++k)
+          a.value[j] = std::clamp(a.value[j] + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
+        if (a.effect->shape_follows_amplitude) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
+      }
+      linearise();
+      if (std::isfinite(chi2_) && chi2_ < before * 1.02 + 20.0) break;
+    }
+    if (size < 0.01) break;
+  }
+  const MatrixXd cov = covariance();
+  int k = 6 + static_cast<int>(runs_.size());
+  for (AcceptedEffect& a : accepted) {
+    a.stderr_value.resize(a.value.size());
+    for (std::size_t j = 0; j < a.value.size(); ++j, ++k) a.stderr_value[j] = std::sqrt(std::max(0.0, cov(k, k)));
+  }
+}
+
+void JointModel::fit_noise() {
+  int samples = 0;
+  for (const InnovationRun& run : runs_) samples += static_cast<int>(run.truth.size());
+  std::vector<SummedRun> summed;
+  bool any_heading = false;
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    summed.push_back(summed_up(linear_[r].run(), model_of(r)));
+    any_heading = any_heading || runs_[r].truth_has_heading;
+  }
+  const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
+  const double parameters = columns();
+  const auto noise_of = [&](const std::vector<double>& logs) {
+    return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
+                       any_heading ? std::exp(logs[2]) : model.noise.truth_heading_rad};
+  };
+  const auto value = [&](const std::vector<double>& logs) {
+    double sum = 0.0;
+    int scalars = 0;
+    for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+      InnovationModel m = model_of(r);
+      m.noise = noise_of(logs);
+      FilterOptions options;
+      options.derivatives = false;
+      const int n = static_cast<int>(runs_[r].truth.size());
+      for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
+        if (number % every != 0) continue;
+        options.first = first;
+        options.last = every == 1 ? n : std::min(n, first + stretch);
+        const InnovationSums s = filtered(linear_[r].run(), summed[r], m, options);
+        sum += s.chi2 + s.log_determinant;
+        scalars += s.scalars;
+      }
+    }
+    // The freedom that the parameters took, as an average: exact where all scales move together.
+    if (every == 1 && scalars > 2 * parameters) sum -= parameters * 2.0 * (logs[0] + logs[1]) / 2.0;
+    const double usual[3] = {0.003, 0.002, 0.005};
+    for (std::size_t k = 0; k < logs.size(); ++k) sum += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
+    return sum;
+  };
+  std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m)};
+  if (any_heading) logs.push_back(std::log(model.noise.truth_heading_rad));
+  model.noise = noise_of(minimised(value, logs, 0.15, 0.05, 60));
+}
+
+void JointModel::gate() {
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = 30.0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const InnovationModel m = model_of(static_cast<int>(r));
+    const InnovationRun run = prepared(static_cast<int>(r));
+    std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
+    // More than a few in a row are no outliers: something happened there that is to be explained.
+    for (std::size_t i = 0; i < aside.size();) {
+      std::size_t j = i;
+      while (j < aside.size() && aside[j]) ++j;
+      if (j - i > 4) std::fill(aside.begin() + i, aside.begin() + j, 0);
+      i = std::max(j, i + 1);
+    }
+    for (std::size_t i = 0; i < aside.size(); ++i) aside[i] = std::max(aside[i] ? char{1} : char{0}, masked_[r][i]);
+    runs_[r].set_aside = std::move(aside);
+  }
+}
+
+MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Identity(gram_.rows(), gram_.cols())); }
+
+double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
+
+Track JointModel::poses(int run) const {
+  Track track;
+  for (const FilterStep& s : linear_[run].steps())
+    if (s.truth_index >= 0) track.push_back({runs_[run].truth[s.truth_index].time_s - clock_s[run], s.pose});
+  return track;
+}
+
+CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<double>& shape) const {
+  CandidateColumns out;
+  out.of_run.resize(runs_.size());
+  out.stretch.resize(runs_.size());
+  std::vector<double> buffer;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
+    const int n = linear_[r].samples(), k = static_cast<int>(effect.amplitudes.size());
+    buffer.resize(3 * static_cast<std::size_t>(n));
+    if (effect.clock_rate) {
+      linear_[r].of_clock_rate(buffer.data());
+      out.stretch[r] = {0, n};
+      out.of_run[r] = Eigen::Map<VectorXd>(buffer.data(), 3 * n);
+      continue;
+    }
+    const std::vector<Motions> motions = effect.motions(views_[r], shape);
+    std::vector<Stretch> parts(k);
+    std::vector<VectorXd> made(k);
+    Stretch all{n, 0};
+    for (int j = 0; j < k; ++j) {
+      parts[j] = linear_[r].of_motion(motions[j], buffer.data());
+      const int rows = 3 * (parts[j].last - parts[j].first);
+      if (rows <= 0) continue;
+      made[j] = Eigen::Map<VectorXd>(buffer.data() + 3 * parts[j].first, rows);
+      all = {std::min(all.first, parts[j].first), std::max(all.last, parts[j].last)};
+    }
+    if (all.last <= all.first) continue;
+    out.stretch[r] = all;
+    out.of_run[r] = MatrixXd::Zero(3 * (all.last - all.first), k);
+    for (int j = 0; j < k; ++j)
+      if (made[j].size() > 0) out.of_run[r].col(j).segment(3 * (parts[j].first - all.first), made[j].size()) = made[j];
+  }
+  return out;
+}
+
+CandidateColumns JointModel::columns_of(const std::vector<std::vector<Motions>>& per_run) const {
+  CandidateColumns out;
+  out.of_run.resize(runs_.size());
+  out.stretch.resize(runs_.size());
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const int n = linear_[r].samples();
+    out.stretch[r] = {0, n};
+    out.of_run[r] = MatrixXd::Zero(3 * n, static_cast<Eigen::Index>(per_run[r].size()));
+    for (std::size_t j = 0; j < per_run[r].size(); ++j)
+      linear_[r].of_motion(per_run[r][j], out.of_run[r].col(static_cast<Eigen::Index>(j)).data());
+  }
+  return out;
+}
+
+CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+  CandidateTest out;
+  int k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
+  out.freedom = k;
+  if (k == 0) return out;
+  const int q = static_cast<int>(gram_.rows());
+  // Columns that stay, and those of the effect that is taken out.
+  std::vector<int> kept, removed;
+  VectorXd taken = VectorXd::Zero(q);
+  {
+    int at = 6 + static_cast<int>(runs_.size());
+    for (int j = 0; j < at; ++j) kept.push_back(j);
+    for (std::size_t a = 0; a < accepted.size(); ++a)
+      for (double v : accepted[a].value) {
+        if (static_cast<int>(a) == without) {
+          removed.push_back(at);
+          taken(at) = v;
+        } else {
+          kept.push_back(at);
+        }
+        ++at;
+      }
+  }
+  MatrixXd info = MatrixXd::Zero(k, k), cross = MatrixXd::Zero(q, k);
+  VectorXd score = VectorXd::Zero(k);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (c.of_run[r].size() == 0) continue;
+    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
+    info.noalias() += c.of_run[r].transpose() * c.of_run[r];
+    cross.noalias() += z_[r].middleRows(from, rows).transpose() * c.of_run[r];
+    score.noalias() += c.of_run[r].transpose() * residual_[r].segment(from, rows);
+  }
+  score += cross.transpose() * taken;
+  const VectorXd zr = zr_ + gram_ * taken;
+  MatrixXd gram(kept.size(), kept.size()), b(kept.size(), k);
+  VectorXd zk(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t j = 0; j < kept.size(); ++j) gram(i, j) = gram_(kept[i], kept[j]);
+    b.row(i) = cross.row(kept[i]);
+    zk(i) = zr(kept[i]);
+  }
+  const Eigen::LDLT<MatrixXd> solver(gram);
+  const MatrixXd beta = solver.solve(b);  // the part that calibration absorbs
+  const VectorXd base = solver.solve(zk);
+  const MatrixXd effective = info - b.transpose() * beta;
+  const VectorXd s = score - b.transpose() * base;
+  if (info.trace() <= 0.0) return out;
+  out.survives = 1.0;
+  for (int j = 0; j < k; ++j) out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
+  // Directions that do not survive are left out of the test.
+  VectorXd scale(k);
+  for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * effective * scale.asDiagonal());
+  const VectorXd su = eig.eigenvectors().transpose() * (scale.asDiagonal() * s);
+  VectorXd w = VectorXd::Zero(k);
+  MatrixXd cov = MatrixXd::Zero(k, k);
+  int freedom = 0;
+  for (int j = 0; j < k; ++j) {
+    const double e = eig.eigenvalues()(j);
+    if (e < 1e-3) {
+      cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
+      continue;
+    }
+    ++freedom;
+    w += su(j) / e * eig.eigenvectors().col(j);
+    cov += eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose() / e;
+    out.statistic += su(j) * su(j) / e;
+  }
+  out.freedom = std::max(1, freedom);
+  const VectorXd value = scale.asDiagonal() * w;
+  out.value.assign(value.data(), value.data() + k);
+  for (int j = 0; j < k; ++j) out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+  if (!thorough || out.statistic <= 0.0) return out;
+
+  // The score along the fitted direction, batch by batch.
+  const VectorXd on_z_kept = beta * value;
+  VectorXd on_z = VectorXd::Zero(q);
+  for (std::size_t i = 0; i < kept.size(); ++i) on_z(kept[i]) = on_z_kept(static_cast<Eigen::Index>(i));
+  VectorXd base_z = -taken;  // residual = r + Z taken - Z_kept base
+  for (std::size_t i = 0; i < kept.size(); ++i) base_z(kept[i]) += base(static_cast<Eigen::Index>(i));
+  int samples = 0;
+  for (const LinearisedRun& l : linear_) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches);
+  std::vector<double> u, i;
+  double square_all = 0.0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    VectorXd column = -(z_[r] * on_z);
+    if (c.of_run[r].size() > 0)
+      column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
+    const VectorXd res = residual_[r] - z_[r] * base_z;
+    const int n = linear_[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      if (3 * from + rows < 3 * n && n - (from + batch) < batch / 2) {}
+      u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
+      i.push_back(column.segment(3 * from, rows).squaredNorm());
+      square_all += i.back() * i.back();
+    }
+  }
+  double sum_u = 0.0, sum_i = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) sum_u += u[n], sum_i += i[n];
+  if (sum_i <= 0.0) return out;
+  const double a = sum_u / sum_i;
+  double scatter = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
+  const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
+  const double own = count > 1.5 ? scatter / sum_i * count / (count - 1.0) : 1.0;
+  const double prior_count = 6.0;
+  out.inflation = std::max(1.0, (prior_count + count * own) / (prior_count + count));
+  for (int half = 0; half < 2; ++half) {
+    double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
+    for (std::size_t n = 0; n < u.size(); ++n)
+      (static_cast<int>(n % 2) == half ? fu : tu) += u[n], (static_cast<int>(n % 2) == half ? fi : ti) += i[n];
+    if (fi <= 0.0) continue;
+    const double fitted = fu / fi;
+    out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
+  }
+  return out;
+}
+
+}  // namespace odolab

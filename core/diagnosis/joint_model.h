@@ -1,0 +1,90 @@
+// All runs under one model: calibration, noise and the effects let in so far; and the tests of what is not in it yet.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "core/diagnosis/effect.h"
+#include "core/diagnosis/linearised.h"
+
+namespace odolab {
+
+struct AcceptedEffect {
+  const Effect* effect = nullptr;
+  std::vector<double> shape, value, stderr_value;
+};
+
+// The efficient score of a candidate: its signature with everything that is in the model projected off.
+struct CandidateTest {
+  double statistic = 0.0;   // twice the gain of log-likelihood, chi-square with `freedom` under the null
+  int freedom = 0;
+  double inflation = 1.0;   // 1 or more: how much wider than the model says its score scatters
+  double survives = 0.0;    // share of the signature's information that the projection leaves
+  std::vector<double> value, stderr_value;
+  double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
+  std::vector<double> shape;
+  double judged() const { return statistic / inflation; }
+};
+
+// Columns of a candidate over all runs: rows as the whitened innovations of that run, empty where it does not act.
+struct CandidateColumns {
+  std::vector<Eigen::MatrixXd> of_run;  // rows of the stretch only
+  std::vector<Stretch> stretch;
+};
+
+class JointModel {
+ public:
+  JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands, const LeastSquaresCalibration& start,
+             const Vehicle& nominal);
+
+  // Gauss-Newton on calibration and amplitudes, shapes that follow their amplitude with them.
+  void fit(int iterations = 4);
+  void fit_noise();
+  void gate();  // isolated contradictions only; longer ones are left to be explained
+  void linearise();
+
+  std::vector<AcceptedEffect> accepted;
+  InnovationModel model;          // without the clocks
+  std::vector<double> clock_s;
+  std::vector<char> clock_active;
+  std::vector<char> nuisance_active = std::vector<char>(6, 1);
+
+  const std::vector<DriveView>& views() const { return views_; }
+  const std::vector<InnovationRun>& runs() const { return runs_; }
+  const std::vector<LinearisedRun>& linearised() const { return linear_; }
+  double chi2() const { return chi2_; }
+  double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
+  int scalars() const { return scalars_; }
+  Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, amplitudes
+  double stderr_of_nuisance(int c) const;
+  Track poses(int run) const;          // corrected, at the wheels' times
+
+  CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
+  CandidateColumns columns_of(const std::vector<std::vector<Motions>>& per_run_columns) const;
+  // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
+  CandidateTest test(const CandidateColumns& columns, int without = -1, bool thorough = false) const;
+  InnovationModel model_of(int run) const;
+  InnovationRun prepared(int run) const;  // with the accepted effects put in
+
+ private:
+  int columns() const;
+  int clock_column(int run) const { return 6 + run; }
+
+  std::vector<InnovationRun> runs_;
+  std::vector<char> from_commands_;
+  std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
+  Vehicle nominal_;
+  std::vector<DriveView> views_;
+  std::vector<LinearisedRun> linear_;
+  std::vector<Eigen::MatrixXd> z_;  // of each run
+  std::vector<Eigen::VectorXd> residual_;
+  Eigen::MatrixXd gram_;            // with priors
+  Eigen::VectorXd zr_;
+  double chi2_ = 0.0, log_determinant_ = 0.0;
+  int scalars_ = 0;
+};
+
+// P(chi-square with that freedom > x).
+double chi_square_tail(double x, int freedom);
+
+}  // namespace odolab

@@ -1,0 +1,18 @@
+// How well runs are predicted before and after: by what was only calibrated, with the findings, with a flexible spline,
+// and with a term of equal freedom that means nothing.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/quality.h"
+
+namespace odolab {
+
+// Fills in `train` and `held_out`; nothing is fitted to the held-out runs but the truth's clock of each.
+void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, const std::vector<Recording>& train,
+           const std::vector<Recording>& held_out, const std::vector<CheckedRecording>& ready_held_out,
+           const Vehicle& nominal);
+
+}  // namespace odolab

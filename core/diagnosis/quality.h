@@ -1,0 +1,31 @@
+// Faults of the data themselves, found before any physics is looked for: truth that repeats itself, encoders that stand
+// still or jump while the vehicle drives on.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+struct DataFault {
+  std::string effect;     // "truth_frozen" or "encoder_data_fault"
+  std::string component;  // "truth", "left_wheel", "right_wheel", "both_wheels"
+  std::string recording;
+  std::vector<std::pair<double, double>> time_s;
+  std::string sentence;
+};
+
+struct CheckedRecording {
+  Recording recording;  // without the frozen truth; with wheels in place of commands where there are only commands
+  bool from_commands = false;
+  std::vector<DataFault> faults;
+  std::vector<std::pair<double, double>> break_s;  // no motion across these may be trusted
+};
+
+CheckedRecording checked(const Recording& recording, const Vehicle& vehicle);
+
+}  // namespace odolab

@@ -1,0 +1,198 @@
+#include "core/diagnosis/select.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kMostEffects = 4;
+
+double quantile(std::vector<double> v, double share) {
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), v.begin() + k, v.end());
+  return v[static_cast<std::size_t>(k)];
+}
+
+// Median and 90 % quantile of chi-square for freedom 1 to 3.
+constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.706, 4.605, 6.251};
+
+bool physical(const Effect& e, const std::vector<double>& value) {
+  for (std::size_t k = 0; k < value.size(); ++k)
+    if (value[k] < e.amplitudes[k].low || value[k] > e.amplitudes[k].high) return false;
+  return true;
+}
+
+std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<double>& shape, double scale) {
+  std::vector<std::vector<double>> near;
+  for (std::size_t k = e.of_one_recording ? 1 : 0; k < shape.size(); ++k)
+    for (double side : {-1.0, 1.0}) {
+      std::vector<double> s = shape;
+      const std::string& unit = e.shapes[k].unit;
+      if (unit == "s" && !e.shape_follows_amplitude)
+        s[k] += side * scale * (e.local ? 0.1 : 3.0);
+      else if (e.shapes[k].name == "radius_m")
+        s[k] *= 1.0 + side * 0.25 * scale;
+      else if (unit == "m")
+        s[k] += side * scale * 0.2;
+      else
+        s[k] *= 1.0 + side * 0.15 * scale;
+      near.push_back(s);
+    }
+  return near;
+}
+
+ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, int tests) {
+  ScoredCandidate best;
+  best.effect = &e;
+  std::vector<std::vector<double>> shapes;
+  if (e.scan)
+    shapes = e.scan(joint.views());
+  else
+    shapes.push_back({});
+  std::vector<double> statistics;
+  const auto consider = [&](const std::vector<double>& shape, bool count) {
+    CandidateTest t = joint.test(joint.columns_of(e, shape), without);
+    if (count && t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
+    if (t.value.empty() || !physical(e, t.value)) return false;
+    if (t.statistic <= best.test.statistic) return false;
+    t.shape = shape;
+    best.test = t;
+    return true;
+  };
+  for (const std::vector<double>& s : shapes) consider(s, true);
+  if (best.test.statistic <= 0.0) return best;
+  const double log_tests = std::log(static_cast<double>(tests)) + std::log(static_cast<double>(std::max<std::size_t>(1, shapes.size())));
+  // Refined only where there is something to refine.
+  if (e.scan && best.test.statistic > 15.0)
+    for (double scale : {1.0, 0.5, 0.25})
+      for (int round = 0; round < 3; ++round) {
+        bool moved = false;
+        for (const std::vector<double>& s : shapes_near(e, best.test.shape, scale)) moved = consider(s, false) || moved;
+        if (!moved) break;
+      }
+  const std::vector<double> shape = best.test.shape;
+  best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
+  best.test.shape = shape;
+  if (e.local && statistics.size() >= 20) {
+    const int k = std::min(3, best.test.freedom);
+    best.test.inflation =
+        std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
+    best.test.cross_validated = best.test.statistic;
+  }
+  const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
+  best.p_value = std::min(1.0, tail * std::exp(log_tests));
+  return best;
+}
+
+bool stands(const ScoredCandidate& c, double family_wise_error) {
+  return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
+}
+
+void let_in(JointModel& joint, const ScoredCandidate& c) {
+  AcceptedEffect a;
+  a.effect = c.effect;
+  a.shape = c.test.shape;
+  if (c.effect->shape_follows_amplitude) a.shape = {std::max(c.test.value[0], 1e-4)};
+  a.value = c.test.value;
+  joint.accepted.push_back(a);
+  joint.fit(3);
+  joint.fit_noise();
+  joint.fit(2);
+}
+
+}  // namespace
+
+std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
+  (void)family_wise_error;
+  const std::vector<Effect>& all = catalogue();
+  bool commands = false;
+  for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
+  std::vector<ScoredCandidate> scored(all.size());
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    const Effect& e = all[i];
+    scored[i].effect = &e;
+    if (e.only_commands && !commands) return;
+    // What reads the encoders does not exist where there are none.
+    if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
+    scored[i] = best_of(joint, e, without, static_cast<int>(all.size()));
+  });
+  std::sort(scored.begin(), scored.end(),
+            [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.test.judged() > b.test.judged(); });
+  return scored;
+}
+
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
+  Selected out;
+  double share = 0.3;
+  for (int step = 0; step < kMostEffects; ++step) {
+    std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
+    if (step == 0) out.first_look = scored;
+    const ScoredCandidate* best = nullptr;
+    for (const ScoredCandidate& c : scored)
+      if (stands(c, family_wise_error) && (!best || c.p_value < best->p_value ||
+                                           (c.p_value <= 1e-290 && c.test.judged() > best->test.judged())))
+        best = &c;
+    if (!best) break;
+    const auto before = joint.accepted;
+    const double value_before = joint.minus_two_log_likelihood();
+    let_in(joint, *best);
+    if (joint.minus_two_log_likelihood() > value_before - 8.0) {  // the nonlinear fit does not keep what the score promised
+      joint.accepted = before;
+      joint.fit(3);
+      joint.fit_noise();
+      joint.fit(2);
+      break;
+    }
+    if (!goes_on(progress, share += 0.08)) return out;
+    // A name may have been the best only while another was missing.
+    if (joint.accepted.size() > 1)
+      for (std::size_t k = 0; k + 1 < joint.accepted.size(); ++k) {
+        const std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
+        const ScoredCandidate* own = nullptr;
+        for (const ScoredCandidate& c : instead)
+          if (c.effect == joint.accepted[k].effect) own = &c;
+        const ScoredCandidate& top = instead.front();
+        const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                                       [&](const AcceptedEffect& a) { return a.effect == top.effect; });
+        if (own && !taken && stands(top, family_wise_error) &&
+            top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
+          joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+          let_in(joint, top);
+        }
+      }
+  }
+  // Backward, and what else could have been said in the place of each.
+  for (std::size_t k = 0; k < joint.accepted.size();) {
+    std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
+    ScoredCandidate own;
+    for (const ScoredCandidate& c : instead)
+      if (c.effect == joint.accepted[k].effect) own = c;
+    if (!own.effect || !stands(own, family_wise_error)) {
+      joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+      joint.fit(3);
+      joint.fit_noise();
+      joint.fit(2);
+      out.evidence.clear();
+      out.alternatives.clear();
+      k = 0;
+      continue;
+    }
+    std::vector<ScoredCandidate> alternatives;
+    for (const ScoredCandidate& c : instead) {
+      const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                                     [&](const AcceptedEffect& a) { return a.effect == c.effect; });
+      if (taken || c.p_value > family_wise_error) continue;
+      if (own.test.judged() - c.test.statistic / own.test.inflation < 2.0 * kClearlyBeaten) alternatives.push_back(c);
+    }
+    out.evidence.push_back(own);
+    out.alternatives.push_back(alternatives);
+    ++k;
+  }
+  return out;
+}
+
+}  // namespace odolab

@@ -1,0 +1,31 @@
+// Which effects of the catalogue are missing: forward with refit, swapped, backward, with what is not clearly beaten
+// kept beside each.
+#pragma once
+
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/diagnosis/joint_model.h"
+
+namespace odolab {
+
+struct ScoredCandidate {
+  const Effect* effect = nullptr;
+  CandidateTest test;
+  double p_value = 1.0;  // family-wise
+};
+
+// Every entry's best shape, judged against the model as it is; best first.
+std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without = -1);
+
+struct Selected {
+  std::vector<ScoredCandidate> evidence;                   // of each accepted effect of the model, in its order
+  std::vector<std::vector<ScoredCandidate>> alternatives;  // not clearly beaten
+  std::vector<ScoredCandidate> first_look;                 // all candidates before any was let in
+};
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress);
+
+// A log-likelihood ratio below which two names are not told apart.
+constexpr double kClearlyBeaten = 5.0;
+
+}  // namespace odolab

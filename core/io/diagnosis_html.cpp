@@ -1,0 +1,303 @@
+#include "core/io/diagnosis_html.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "core/geometry/angles.h"
+#include "core/io/diagnosis_text.h"
+#include "core/io/picture/bar_picture.h"
+#include "core/io/picture/coloured_track_picture.h"
+#include "core/io/picture/line_picture.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::size_t kMostRecordings = 4;  // drawn; more make a page that nobody reads
+constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides: short enough for a bump, long enough for what is faint
+
+std::string with_blanks(std::string words) {
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+// The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
+double size_of(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
+  if (values.empty()) return 0.0;
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return 1.4826 * *middle;
+}
+
+struct Sizes {
+  double along, across, heading;
+};
+
+Sizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
+
+// How many times larger than noise would leave it the residual is, gathered over a while around each sample. What lies far
+// below the noise of one sample shows here as soon as it keeps its direction.
+void gather(const Residuals& r, const Sizes& noise, double half_s, std::vector<double>& largest) {
+  std::vector<double> sum[3] = {{0.0}, {0.0}, {0.0}};
+  const std::vector<double>* channels[3] = {&r.along_m, &r.across_m, &r.heading_rad};
+  const double sizes[3] = {noise.along, noise.across, noise.heading};
+  for (int c = 0; c < 3; ++c)
+    for (double v : *channels[c]) sum[c].push_back(sum[c].back() + (std::isfinite(v) ? v : 0.0));
+  std::size_t from = 0, to = 0;
+  for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+    while (to < r.time_s.size() && r.time_s[to] <= r.time_s[i] + half_s) ++to;
+    while (r.time_s[from] < r.time_s[i] - half_s) ++from;
+    double squares = 0.0;
+    int used = 0;
+    for (int c = 0; c < 3; ++c) {
+      if (!(sizes[c] > 0.0) || sum[c].size() != r.time_s.size() + 1) continue;
+      const double gathered = (sum[c][to] - sum[c][from]) / (sizes[c] * std::sqrt(static_cast<double>(to - from)));
+      squares += gathered * gathered;
+      ++used;
+    }
+    if (used > 0) largest[i] = std::max(largest[i], std::sqrt(squares / used));
+  }
+}
+
+std::vector<double> times_noise(const Residuals& r, const Sizes& noise) {
+  std::vector<double> result(r.time_s.size(), 0.0);
+  for (double half_s : kGathered_s) gather(r, noise, half_s, result);
+  return result;
+}
+
+double mean_square(const Residuals& r) {
+  double sum = 0.0;
+  int count = 0;
+  for (double s : r.squared)
+    if (std::isfinite(s)) sum += s, ++count;
+  return count > 0 ? sum / count : 0.0;
+}
+
+// Where the mismatch is largest comes first.
+std::vector<const Residuals*> drawn_first(const std::vector<Residuals>& all) {
+  std::vector<const Residuals*> order;
+  for (const Residuals& r : all)
+    if (!r.time_s.empty()) order.push_back(&r);
+  std::stable_sort(order.begin(), order.end(), [](const Residuals* a, const Residuals* b) { return mean_square(*a) > mean_square(*b); });
+  if (order.size() > kMostRecordings) order.resize(kMostRecordings);
+  return order;
+}
+
+const Residuals* of_recording(const std::vector<Residuals>& all, const std::string& recording) {
+  for (const Residuals& r : all)
+    if (r.recording == recording) return &r;
+  return nullptr;
+}
+
+std::string track_of(const Diagnosis& d, const Residuals& r, const Sizes& noise, const std::string& title, bool with_discs) {
+  ColouredTrackPicture picture;
+  picture.title = title;
+  picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
+  for (const Finding& f : d.findings)
+    if (with_discs && f.where.zone) picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, with_blanks(f.effect)});
+  return coloured_track_picture(picture);
+}
+
+void add_findings(HtmlReport& report, const Diagnosis& d) {
+  if (d.findings.empty()) return;
+  report.heading("What was found");
+  int count = 0;
+  for (const Finding& f : d.findings) {
+    const std::string name = number("%.0f. ", ++count) + effect_text(f.effect, f.component);
+    report.sentence(f.sentence.empty() ? name : name + ": " + f.sentence);
+    std::vector<std::vector<std::string>> rows;
+    for (const FoundParameter& p : f.parameters) rows.push_back({name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
+    const std::string where = where_text(f.where);
+    if (!where.empty()) rows.push_back({"where", where});
+    if (f.share_of_mismatch > 0.0) rows.push_back({"share of the mismatch that calibration leaves", number("%.0f %%", 100.0 * f.share_of_mismatch)});
+    if (f.log_likelihood_gain > 0.0)
+      rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number("%.1g", f.p_value)});
+    if (!rows.empty()) report.table({"", f.parameters.empty() ? "" : "estimate and standard error"}, rows);
+    for (const Alternative& a : f.alternatives) {
+      const std::string gains = number("a log-likelihood gain of %.1f", a.log_likelihood_gain) + number(" where this one has %.1f", f.log_likelihood_gain);
+      std::string text = f.effect == "unknown"
+                             ? "It resembles " + effect_text(a.effect, a.component) + ", which does not suffice: " + gains + "."
+                             : "Instead of it, " + effect_text(a.effect, a.component) + " would explain the data with " + gains + ".";
+      if (!a.told_apart_by.empty()) text += " The two are told apart by " + a.told_apart_by + ".";
+      report.paragraph(text);
+    }
+  }
+}
+
+void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
+  const std::vector<const Residuals*> drawn = drawn_first(d.residuals_before);
+  if (drawn.empty()) return;
+  report.heading("Where the model and the recordings differ");
+  if (d.residuals_before.size() > drawn.size())
+    report.paragraph(number("The %.0f recordings with the largest mismatch", static_cast<double>(drawn.size())) +
+                     number(" of %.0f are drawn.", static_cast<double>(d.residuals_before.size())));
+  for (const Residuals* before : drawn) {
+    const Residuals* after = of_recording(d.residuals_after, before->recording);
+    const Sizes noise = sizes_of(after ? *after : *before);
+    std::vector<std::string> tracks{track_of(d, *before, noise, before->recording + ": calibrated only", true)};
+    if (after && !d.findings.empty()) tracks.push_back(track_of(d, *after, noise, before->recording + ": with what was found", false));
+    report.pictures(tracks, "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
+                            "would leave it the error of the prediction is, gathered over up to a second.");
+    LinePicture line;
+    line.title = before->recording + ": error of the prediction, gathered over up to a second";
+    line.y_label = "times the noise";
+    line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
+    line.lines.push_back({"calibrated only", before->time_s, times_noise(*before, noise), Look::estimate});
+    if (after && !d.findings.empty()) line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
+    for (const Finding& f : d.findings)
+      if (f.where.recording.empty() || f.where.recording == before->recording)
+        line.marked.insert(line.marked.end(), f.where.time_s.begin(), f.where.time_s.end());
+    line.marked_label = "located";
+    line.height_px = 300.0;
+    report.picture(line_picture(line));
+  }
+}
+
+void add_responses(HtmlReport& report, const Diagnosis& d) {
+  if (d.responses.empty()) return;
+  report.heading("What the mismatch depends on");
+  for (const Response& r : d.responses) {
+    LinePicture picture;
+    picture.title = "Mismatch left by calibration against " + r.variable;
+    picture.x_label = r.variable;
+    picture.y_label = r.channel;
+    picture.bands.push_back({"95 % band", r.at, r.low, r.high, Look::estimate});
+    picture.lines.push_back({"mismatch", r.at, r.value, Look::estimate});
+    picture.height_px = 320.0;
+    report.picture(line_picture(picture), "Where the band leaves zero, the mismatch follows this variable.");
+  }
+}
+
+void add_evidence(HtmlReport& report, const Diagnosis& d) {
+  BarPicture picture;
+  double largest = 0.0, least = 1e300;
+  for (const Finding& f : d.findings) {
+    if (!(f.log_likelihood_gain > 0.0)) continue;
+    BarGroup group;
+    group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain, number("%.4g", f.log_likelihood_gain), ink::kBlue});
+    for (const Alternative& a : f.alternatives)
+      group.bars.push_back({"or " + effect_text(a.effect, a.component), std::max(0.0, a.log_likelihood_gain),
+                            number("%.4g", a.log_likelihood_gain), ink::kSky});
+    for (const DrawnBar& bar : group.bars) {
+      largest = std::max(largest, bar.value);
+      if (bar.value > 0.0) least = std::min(least, bar.value);
+    }
+    picture.groups.push_back(group);
+  }
+  if (picture.groups.empty()) return;
+  report.heading("The evidence");
+  picture.logarithmic = largest > 100.0 * least;
+  picture.title = "How much better each effect makes the recordings fit";
+  picture.x_label = picture.logarithmic ? "gain in log-likelihood, each line ten times the one before" : "gain in log-likelihood";
+  report.picture(bar_picture(picture), "Dark: what is named. Light: what would explain the same in its stead. A gain of 10 is decisive; "
+                                       "two that differ by less than about 3 are not told apart.");
+}
+
+struct FitRow {
+  const char* name;
+  const std::optional<FitFigures>& figures;
+  const char* colour;
+};
+
+std::vector<FitRow> rows_of(const FitTable& t) {
+  return {{"as drawn", t.nominal, "#b9c4cc"},
+          {"calibrated", t.calibrated, ink::kOrange},
+          {"calibrated, and a flexible curve", t.spline, "#e3c9a8"},
+          {"calibrated, and a meaningless term of equal freedom", t.placebo, "#e3c9a8"},
+          {"calibrated, and what was found", t.with_findings, ink::kBlue}};
+}
+
+void add_proof(HtmlReport& report, const Diagnosis& d) {
+  std::vector<std::vector<std::string>> table;
+  BarPicture bars;
+  const auto add = [&](const std::string& part, const FitTable& fit) {
+    BarGroup group{part, {}};
+    const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
+      if (!figures) return;
+      table.push_back({part + ": " + name, number("%.2f", 1e3 * figures->position_rms_m), number("%.3f", degrees(figures->heading_rms_rad)),
+                       number("%.2f", figures->normalised_chi2)});
+      group.bars.push_back({name, 1e3 * figures->position_rms_m, number("%.2f mm", 1e3 * figures->position_rms_m), colour});
+    };
+    for (const FitRow& row : rows_of(fit)) add_row(row.name, row.figures, row.colour);
+    add_row("what noise alone would leave", fit.noise_floor, ink::kGreen);
+    if (!group.bars.empty()) bars.groups.push_back(group);
+  };
+  add("Fitted on", d.train);
+  add("Held out", d.held_out);
+  BarGroup simulated{"Physics simulator, driven by the recordings", {}};
+  const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
+    if (!figures) return;
+    table.push_back({std::string("Simulator: ") + name, number("%.2f", 1e3 * figures->position_rms_m),
+                     number("%.3f", degrees(figures->heading_rms_rad)), number("%.2f", figures->normalised_chi2)});
+    simulated.bars.push_back({name, 1e3 * figures->position_rms_m, number("%.2f mm", 1e3 * figures->position_rms_m), colour});
+  };
+  add_simulated("calibrated", d.simulation.calibrated, ink::kOrange);
+  add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
+  if (!simulated.bars.empty()) bars.groups.push_back(simulated);
+  if (table.empty()) return;
+  report.heading("The proof: before and after");
+  report.paragraph("The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, root mean "
+                   "square. Held-out recordings were not looked at until everything was fixed.");
+  bars.title = "Position error over each metre or radian";
+  bars.x_label = "position error [mm]";
+  report.picture(bar_picture(bars));
+  report.table({"", "position [mm]", "heading [\xC2\xB0]", "normalised chi2"}, table);
+}
+
+void add_limits(HtmlReport& report, const Diagnosis& d) {
+  if (!d.not_testable.empty()) {
+    report.heading("What these recordings could not show");
+    report.paragraph("Each of these may be there or not: the way that was driven leaves no trace of it beside the calibration.");
+    std::vector<std::vector<std::string>> rows;
+    for (const NotTestable& n : d.not_testable) rows.push_back({with_blanks(n.effect), n.because, n.drive_this});
+    report.word_table({"effect", "because", "this drive would show it"}, rows);
+  }
+  if (!d.next_drive.empty()) {
+    report.heading("What to drive next");
+    report.sentence(d.next_drive);
+  }
+}
+
+void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
+  if (c.parameters.empty()) return;
+  report.heading("Calibration");
+  std::vector<std::vector<std::string>> rows;
+  for (const ParameterEstimate& p : c.parameters)
+    rows.push_back({name_text(p.name), quantity_text(p.nominal, 0.0, p.unit),
+                    p.determined ? quantity_text(p.value, p.stderr_value, p.unit) : "not determined"});
+  report.table({"parameter", "as drawn", "estimate and standard error"}, rows);
+  for (const std::string& sentence : c.cannot_tell) report.paragraph("Cannot tell: " + sentence);
+  report.paragraph(number("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
+                   number(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
+                   (c.noise.truth_heading_rad > 0.0 ? number(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad)) : std::string()) + ".");
+}
+
+}  // namespace
+
+HtmlReport diagnosis_report(const Diagnosis& diagnosis) {
+  HtmlReport report(verdict_sentence(diagnosis));
+  add_findings(report, diagnosis);
+  add_place_and_time(report, diagnosis);
+  add_responses(report, diagnosis);
+  add_evidence(report, diagnosis);
+  add_proof(report, diagnosis);
+  add_limits(report, diagnosis);
+  add_calibration(report, diagnosis.calibration);
+  if (!diagnosis.warnings.empty()) {
+    report.heading("To be aware of");
+    for (const std::string& warning : diagnosis.warnings) report.paragraph(warning);
+  }
+  return report;
+}
+
+}  // namespace odolab

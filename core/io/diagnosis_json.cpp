@@ -1,0 +1,124 @@
+#include "core/io/diagnosis_json.h"
+
+namespace odolab {
+
+namespace {
+
+Json calibration_json(const LeastSquaresCalibration& calibration) {
+  Json json = Json::object();
+  for (const ParameterEstimate& p : calibration.parameters) {
+    Json& entry = json[p.name];
+    entry["value"] = p.value;
+    entry["stderr"] = p.determined ? Json(p.stderr_value) : Json();
+    entry["unit"] = p.unit;
+    if (!p.determined) entry["determined"] = false;
+  }
+  return json;
+}
+
+Json where_json(const WhereFound& where) {
+  Json json = Json::object();
+  for (const auto& [from_s, to_s] : where.time_s) json["time_s"].push_back(std::vector<double>{from_s, to_s});
+  if (!where.recording.empty()) json["recording"] = where.recording;
+  if (where.zone) {
+    Json& zone = json["zone"];
+    zone["x_m"] = where.zone->x_m;
+    zone["y_m"] = where.zone->y_m;
+    zone["radius_m"] = where.zone->radius_m;
+  }
+  if (!where.regime.empty()) json["regime"] = where.regime;
+  return json;
+}
+
+Json finding_json(const Finding& finding) {
+  Json json = Json::object();
+  json["effect"] = finding.effect;
+  json["component"] = finding.component;
+  Json& parameters = json["parameters"] = Json::object();
+  for (const FoundParameter& p : finding.parameters) {
+    Json& entry = parameters[p.name];
+    entry["value"] = p.value;
+    entry["stderr"] = p.stderr_value;
+    entry["unit"] = p.unit;
+  }
+  json["where"] = where_json(finding.where);
+  Json& evidence = json["evidence"];
+  evidence["log_likelihood_gain"] = finding.log_likelihood_gain;
+  evidence["p_value"] = finding.p_value;
+  Json& alternatives = json["alternatives"] = Json::array();
+  for (const Alternative& a : finding.alternatives) {
+    Json& entry = alternatives.push_back(Json::object());
+    entry["effect"] = a.effect;
+    entry["component"] = a.component;
+    entry["log_likelihood_gain"] = a.log_likelihood_gain;
+    entry["told_apart_by"] = a.told_apart_by;
+  }
+  json["share_of_mismatch"] = finding.share_of_mismatch;
+  if (!finding.sentence.empty()) json["sentence"] = finding.sentence;
+  return json;
+}
+
+void put(Json& json, const char* key, const std::optional<FitFigures>& figures) {
+  if (!figures) return;
+  Json& entry = json[key];
+  entry["position_rms_m"] = figures->position_rms_m;
+  entry["heading_rms_rad"] = figures->heading_rms_rad;
+  entry["normalised_chi2"] = figures->normalised_chi2;
+}
+
+Json fit_json(const FitTable& fit) {
+  Json json = Json::object();
+  put(json, "nominal", fit.nominal);
+  put(json, "calibrated", fit.calibrated);
+  put(json, "with_findings", fit.with_findings);
+  put(json, "noise_floor", fit.noise_floor);
+  put(json, "spline", fit.spline);
+  put(json, "placebo", fit.placebo);
+  return json;
+}
+
+}  // namespace
+
+std::string word_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::found:
+      return "found";
+    case Verdict::nothing_missing:
+      return "nothing_missing";
+    case Verdict::unknown_effect:
+      return "unknown_effect";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::cannot_say:
+      break;
+  }
+  return "cannot_say";
+}
+
+Json diagnosis_json(const Diagnosis& diagnosis) {
+  Json json = Json::object();
+  json["schema"] = "odolab.diagnosis/1";
+  json["verdict"] = word_of(diagnosis.verdict);
+  json["calibration"] = calibration_json(diagnosis.calibration);
+  Json& findings = json["findings"] = Json::array();
+  for (const Finding& finding : diagnosis.findings) findings.push_back(finding_json(finding));
+  Json& fit = json["fit"] = Json::object();
+  fit["train"] = fit_json(diagnosis.train);
+  fit["held_out"] = fit_json(diagnosis.held_out);
+  Json& simulation = json["simulation"] = Json::object();
+  put(simulation, "before", diagnosis.simulation.calibrated);
+  put(simulation, "after", diagnosis.simulation.with_findings);
+  Json& not_testable = json["not_testable_here"] = Json::array();
+  for (const NotTestable& n : diagnosis.not_testable) {
+    Json& entry = not_testable.push_back(Json::object());
+    entry["effect"] = n.effect;
+    entry["because"] = n.because;
+    entry["drive_this"] = n.drive_this;
+  }
+  json["next_drive"] = diagnosis.next_drive;
+  Json& warnings = json["warnings"] = Json::array();
+  for (const std::string& warning : diagnosis.warnings) warnings.push_back(warning);
+  return json;
+}
+
+}  // namespace odolab

@@ -1,0 +1,266 @@
+#include "core/io/diagnosis_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/geometry/angles.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr const char* kPlusMinus = " \xC2\xB1 ";
+
+std::string with_blanks(std::string words) {
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string decimals_of(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", std::clamp(decimals, 0, 9), value);
+  return text;
+}
+
+int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6)); }  // 0.0999999 is 0.1
+
+// What a unit becomes on the screen, and by what its numbers are multiplied.
+struct Shown {
+  double factor;
+  std::string unit;
+};
+
+bool begins_with_unit(const std::string& unit, const std::string& with) {
+  return unit == with || unit.rfind(with + "/", 0) == 0 || unit.rfind(with + " ", 0) == 0;
+}
+
+Shown shown_as(const std::string& unit) {
+  if (unit.empty()) return {1.0, ""};
+  if (begins_with_unit(unit, "m")) return {1e3, " mm" + unit.substr(1)};
+  if (begins_with_unit(unit, "rad")) return {degrees(1.0), "\xC2\xB0" + unit.substr(3)};
+  if (unit == "1") return {100.0, " %"};
+  if (unit.rfind("1/", 0) == 0) return {100.0, " % per " + unit.substr(2)};
+  return {1.0, " " + unit};
+}
+
+std::string list_of(const std::vector<std::string>& words, const char* last_word) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? std::string(" ") + last_word + " " : ", ") + words[i];
+  return text;
+}
+
+bool is_data_fault(const Finding& finding) {
+  return finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault";
+}
+
+std::string figures_text(const FitFigures& f) {
+  return number("%.2f mm", 1e3 * f.position_rms_m) + number(", %.3f\xC2\xB0", degrees(f.heading_rms_rad));
+}
+
+// Broken between words; every line but the first is indented by `indent`.
+void append_wrapped(std::vector<std::string>& lines, const std::string& text, std::size_t columns, const std::string& indent) {
+  std::size_t from = std::min(text.find_first_not_of(' '), text.size());
+  std::string line = text.substr(0, from);
+  bool empty = true;
+  while (from < text.size()) {
+    std::size_t to = text.find(' ', from);
+    if (to == std::string::npos) to = text.size();
+    const std::string word = text.substr(from, to - from);
+    if (!empty && line.size() + 1 + word.size() > columns) {
+      lines.push_back(line);
+      line = indent + word;
+    } else {
+      line += (empty ? "" : " ") + word;
+    }
+    empty = false;
+    from = to + 1;
+  }
+  if (!empty) lines.push_back(line);
+}
+
+std::string p_value_text(double p) { return p < 1e-15 ? "p < 1e-15" : number("p = %.1g", p); }
+
+std::string finding_line(const Finding& f) {
+  std::string line = effect_text(f.effect, f.component);
+  if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
+  std::string parameters;
+  for (const FoundParameter& p : f.parameters)
+    parameters += (parameters.empty() ? "; " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+  line += parameters;
+  const std::string where = where_text(f.where);
+  if (!where.empty()) line += "; " + where;
+  if (f.log_likelihood_gain > 0.0) line += number("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
+  if (f.share_of_mismatch > 0.0) line += number(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
+  return line;
+}
+
+std::string fit_line(const char* name, const FitTable& table) {
+  std::string line;
+  const auto add = [&](const char* what, const std::optional<FitFigures>& f) {
+    if (f) line += (line.empty() ? "" : "  ->  ") + std::string(what) + " " + figures_text(*f);
+  };
+  add("nominal", table.nominal);
+  add("calibrated", table.calibrated);
+  add("with findings", table.with_findings);
+  if (table.noise_floor) line += "   (noise " + figures_text(*table.noise_floor) + ")";
+  return line.empty() ? "" : name + line;
+}
+
+}  // namespace
+
+std::string name_text(const std::string& key) {
+  const std::size_t end = key.rfind('_');
+  const bool is_rate = key.find("per_") != std::string::npos;
+  for (const char* unit : {"m", "rad", "s", "mps"})
+    if (!is_rate && end != std::string::npos && end > 0 && key.compare(end + 1, std::string::npos, unit) == 0)
+      return with_blanks(key.substr(0, end));
+  return with_blanks(key);
+}
+
+std::string component_text(const std::string& component) {
+  const std::size_t dot = component.find('.');
+  if (dot != std::string::npos) return component_text(component.substr(dot + 1)) + " of " + with_blanks(component.substr(0, dot));
+  if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0) return with_blanks(component);
+  return "the " + with_blanks(component);
+}
+
+std::string effect_text(const std::string& effect, const std::string& component) {
+  if (effect == "unknown") return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_text(component);
+  std::string text = with_blanks(effect);
+  // "truth frozen of the truth" says it twice
+  if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_text(component);
+  return text;
+}
+
+std::string verdict_sentence(const Diagnosis& diagnosis) {
+  std::vector<std::string> names, faults;
+  for (const Finding& f : diagnosis.findings) {
+    std::vector<std::string>& list = is_data_fault(f) ? faults : names;
+    const std::string name = effect_text(f.effect, f.component);
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  }
+  std::string sentence;
+  switch (diagnosis.verdict) {
+    case Verdict::found:
+      if (names.empty() && !faults.empty()) return "The data are at fault: " + list_of(faults, "and") + ".";
+      sentence = "What the model lacks: " + list_of(names, "and") + ".";
+      break;
+    case Verdict::nothing_missing:
+      sentence = "Nothing is missing: calibration explains these recordings down to their noise.";
+      break;
+    case Verdict::unknown_effect:
+      sentence = "Something is missing that no known effect describes.";
+      names.erase(std::remove_if(names.begin(), names.end(), [](const std::string& n) { return n.rfind("an effect in no list", 0) == 0; }),
+                  names.end());
+      if (!names.empty()) sentence += " Beside it: " + list_of(names, "and") + ".";
+      break;
+    case Verdict::ambiguous: {
+      std::vector<std::string> sets;
+      for (const Finding& f : diagnosis.findings) {
+        if (is_data_fault(f)) continue;
+        std::vector<std::string> either{effect_text(f.effect, f.component)};
+        for (const Alternative& a : f.alternatives) either.push_back(effect_text(a.effect, a.component));
+        if (either.size() > 3) {
+          either.resize(3);
+          either.push_back("others");
+        }
+        sets.push_back(list_of(either, "or"));
+      }
+      sentence = "Something is missing, and these recordings cannot tell what: " + list_of(sets, "and") + ".";
+      break;
+    }
+    case Verdict::cannot_say:
+      sentence = "These recordings cannot say whether anything is missing.";
+      break;
+  }
+  if (!faults.empty()) sentence += " The data are at fault too: " + list_of(faults, "and") + ".";
+  return sentence;
+}
+
+std::string quantity_text(double value, double stderr_value, const std::string& unit) {
+  const Shown shown = shown_as(unit);
+  value *= shown.factor;
+  const double error = std::abs(stderr_value * shown.factor);
+  const bool has_error = std::isfinite(error) && error > 0.0;
+  const int value_exponent = value != 0.0 ? exponent_of(value) : has_error ? exponent_of(error) : 0;
+  // two digits of the error, or four of a value that has none
+  const int decimals = has_error ? 1 - exponent_of(error) : 3 - value_exponent;
+  if (std::max(value_exponent, has_error ? exponent_of(error) : value_exponent) < -4) {
+    std::string text = number("%.3g", value);
+    if (has_error) text += kPlusMinus + number("%.1e", error);
+    return text + shown.unit;
+  }
+  std::string text = decimals_of(value, decimals);
+  if (has_error) text += kPlusMinus + decimals_of(error, decimals);
+  return text + shown.unit;
+}
+
+std::string where_text(const WhereFound& where) {
+  std::vector<std::string> parts;
+  std::string when = where.recording.empty() ? "" : "in " + where.recording;
+  const std::size_t shown = std::min<std::size_t>(where.time_s.size(), 3);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto [from_s, to_s] = where.time_s[i];
+    when += (when.empty() ? "" : i == 0 ? " at " : ", ") + (to_s > from_s ? number("%.2f to ", from_s) : std::string()) + number("%.2f s", to_s);
+  }
+  if (where.time_s.size() > shown) when += number(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
+  if (!when.empty()) parts.push_back(when);
+  if (where.zone)
+    parts.push_back(number("within %.2f m", where.zone->radius_m) + number(" of x %.2f", where.zone->x_m) + number(", y %.2f m", where.zone->y_m));
+  if (!where.regime.empty()) parts.push_back(where.regime);
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+  return text;
+}
+
+std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines, std::size_t columns) {
+  std::vector<std::string> lines;
+  append_wrapped(lines, verdict_sentence(diagnosis), columns, "");
+  constexpr std::size_t kMostFindings = 4;
+  for (std::size_t i = 0; i < diagnosis.findings.size() && i < kMostFindings; ++i) {
+    const Finding& f = diagnosis.findings[i];
+    append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
+    if (f.alternatives.empty()) continue;
+    const Alternative& a = f.alternatives.front();
+    std::string other = (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) + effect_text(a.effect, a.component) + number(" (gain %.1f)", a.log_likelihood_gain);
+    if (f.alternatives.size() > 1) other += number(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
+    if (!a.told_apart_by.empty()) other += "; told apart by " + a.told_apart_by;
+    append_wrapped(lines, other, columns, "   ");
+  }
+  if (diagnosis.findings.size() > kMostFindings)
+    lines.push_back(number("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
+
+  std::vector<std::string> end;
+  std::string calibration;
+  for (const ParameterEstimate& p : diagnosis.calibration.parameters)
+    if (p.determined && p.name.find('.') == std::string::npos)
+      calibration += (calibration.empty() ? "" : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+  if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
+  if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
+  for (const std::string& line : {fit_line("   fitted on: ", diagnosis.train), fit_line("   held out:  ", diagnosis.held_out)})
+    if (!line.empty()) end.push_back(line);
+  if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings)
+    end.push_back("   simulator:  before " + figures_text(*diagnosis.simulation.calibrated) + "  ->  after " +
+                  figures_text(*diagnosis.simulation.with_findings));
+  if (!diagnosis.not_testable.empty()) {
+    std::vector<std::string> names;
+    for (const NotTestable& n : diagnosis.not_testable) names.push_back(with_blanks(n.effect));
+    append_wrapped(end, "could not show here: " + list_of(names, "and"), columns, "   ");
+  }
+  if (!diagnosis.next_drive.empty()) append_wrapped(end, "drive next: " + diagnosis.next_drive, columns, "   ");
+
+  if (lines.size() + end.size() > most_lines) lines.resize(most_lines > end.size() ? most_lines - end.size() : 1);
+  lines.insert(lines.end(), end.begin(), end.end());
+  if (lines.size() > most_lines) lines.resize(most_lines);
+  return lines;
+}
+
+}  // namespace odolab

@@ -1,0 +1,109 @@
+#include "physics/model_replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "core/base/parallel.h"
+#include "core/scenario/effect_catalogue.h"
+#include "physics/replay.h"
+
+namespace odolab {
+
+namespace {
+
+bool has(const ActiveEffect& active, const std::string& name) {
+  return std::any_of(active.parameters.begin(), active.parameters.end(), [&](const auto& p) { return p.first == name; });
+}
+
+// Where the truth was at a time.
+std::optional<Pose> truth_at(const Recording& recording, double time_s) {
+  Track track;
+  for (const TruthSample& t : truth_samples(recording))
+    track.push_back({t.time_s, {t.position.x_m, t.position.y_m, t.heading_rad.value_or(0.0)}});
+  return pose_at(track, time_s);
+}
+
+// The effect with those of its parameters that a scenario knows. Mounting and clock of the truth are in the calibrated
+// vehicle already, and would act twice.
+std::optional<ActiveEffect> for_scenario(const ActiveEffect& fitted, const Recording& recording) {
+  const EffectEntry* entry = effect_entry(fitted.effect);
+  if (!entry) return std::nullopt;
+  ActiveEffect active{fitted.effect, fitted.component, {}};
+  for (const auto& given : fitted.parameters)
+    if (std::any_of(entry->parameters.begin(), entry->parameters.end(), [&](const EffectParameter& p) { return p.name == given.first; }))
+      active.parameters.push_back(given);
+  if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
+    if (const auto place = truth_at(recording, fitted.parameter("at_s"))) {
+      active.parameters.emplace_back("x_m", place->x_m);
+      active.parameters.emplace_back("y_m", place->y_m);
+    }
+  if (!problems_in(std::vector<ActiveEffect>{active}).empty()) return std::nullopt;
+  return active;
+}
+
+bool is_of_the_truth(const ActiveEffect& active) {
+  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
+}
+
+// Mean over all windows of all recordings.
+std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& errors, const std::optional<FitFigures>& noise_floor) {
+  double position = 0.0, heading = 0.0;
+  int windows = 0;
+  for (const std::optional<TrackError>& e : errors) {
+    if (!e) continue;
+    position += e->windows * e->position_rms_m * e->position_rms_m;
+    heading += e->windows * e->heading_rms_rad * e->heading_rms_rad;
+    windows += e->windows;
+  }
+  if (windows == 0) return std::nullopt;
+  position /= windows;
+  heading /= windows;
+  FitFigures figures{std::sqrt(position), std::sqrt(heading), std::numeric_limits<double>::quiet_NaN()};
+  if (noise_floor && noise_floor->position_rms_m > 0.0 && noise_floor->heading_rms_rad > 0.0)
+    figures.normalised_chi2 = (2.0 * position / (noise_floor->position_rms_m * noise_floor->position_rms_m) +
+                               heading / (noise_floor->heading_rms_rad * noise_floor->heading_rms_rad)) / 3.0;
+  return figures;
+}
+
+}  // namespace
+
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before, const FittedModel& after,
+                                 const std::optional<FitFigures>& noise_floor, const Progress& progress) {
+  ModelReplay result;
+  const auto switched_on = [&](const FittedEffect& effect) {
+    return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
+      return (effect.recording.empty() || effect.recording == recording.name) && for_scenario(effect.active, recording);
+    });
+  };
+  for (const FittedEffect& effect : after.effects)
+    if (!is_of_the_truth(effect.active) && !switched_on(effect))
+      result.not_switched_on.push_back(effect.active.effect + " of " + effect.active.component + " could not be switched on in the simulator");
+
+  const std::size_t count = recordings.size();
+  std::vector<std::optional<TrackError>> errors(2 * count);  // before, then after
+  std::vector<std::optional<Error>> failures(2 * count);
+  const auto drive = [&](int job) {
+    const std::size_t i = static_cast<std::size_t>(job) % count;
+    const FittedModel& model = static_cast<std::size_t>(job) < count ? before : after;
+    const Recording& recording = recordings[i];
+    Scenario scenario = replay_scenario(model.vehicle_in(recording.name), recording);
+    for (const ActiveEffect& fitted : model.effects_in(recording.name))
+      if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted)) scenario.effects.push_back(*active);
+    const Result<Replay> replayed = replay(scenario, std::make_shared<const Recording>(recording));
+    if (replayed)
+      errors[static_cast<std::size_t>(job)] = replayed->simulated_error;
+    else
+      failures[static_cast<std::size_t>(job)] = replayed.error();
+  };
+  const int jobs = static_cast<int>(2 * count);
+  if (parallel_for(jobs, drive, {}, progress) < jobs) return Error{"the simulation", "a stop by its user", "to come to the end"};
+  for (const std::optional<Error>& failure : failures)
+    if (failure) return *failure;
+  result.fit.calibrated = joined({errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count)}, noise_floor);
+  result.fit.with_findings = joined({errors.begin() + static_cast<std::ptrdiff_t>(count), errors.end()}, noise_floor);
+  return result;
+}
+
+}  // namespace odolab

@@ -1,0 +1,83 @@
+#include "core/io/diagnosis_json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "test/support/diagnosis_by_hand.h"
+
+namespace odolab {
+namespace {
+
+nlohmann::json parsed(const Diagnosis& diagnosis) { return nlohmann::json::parse(to_text(diagnosis_json(diagnosis))); }
+
+// The example of the published schema, shortened to the values that stand in it.
+TEST(DiagnosisJson, SaysWhatTheSchemasExampleSays) {
+  const nlohmann::json json = parsed(test::diagnosis_by_hand());
+  EXPECT_EQ(json["schema"], "odolab.diagnosis/1");
+  EXPECT_EQ(json["verdict"], "found");
+  EXPECT_EQ(json["calibration"]["wheel_radius_left_m"]["value"], 0.0751);
+  EXPECT_EQ(json["calibration"]["wheel_radius_left_m"]["stderr"], 2e-6);
+  EXPECT_TRUE(json["calibration"].contains("wheel_radius_right_m"));
+  EXPECT_TRUE(json["calibration"].contains("wheelbase_m"));
+  ASSERT_EQ(json["findings"].size(), 2u);
+  const nlohmann::json& eccentric = json["findings"][0];
+  EXPECT_EQ(eccentric["effect"], "wheel_eccentricity");
+  EXPECT_EQ(eccentric["component"], "left_wheel");
+  EXPECT_EQ(eccentric["parameters"]["amplitude"], (nlohmann::json{{"value", 0.006}, {"stderr", 0.0001}, {"unit", "1"}}));
+  EXPECT_EQ(eccentric["evidence"], (nlohmann::json{{"log_likelihood_gain", 412.0}, {"p_value", 1e-12}}));
+  EXPECT_EQ(eccentric["alternatives"][0]["log_likelihood_gain"], 3.1);
+  EXPECT_EQ(eccentric["alternatives"][0]["effect"], "wheel_eccentricity");
+  EXPECT_EQ(eccentric["alternatives"][0]["told_apart_by"], "arcs, which de-phase the wheels");
+  EXPECT_EQ(eccentric["share_of_mismatch"], 0.83);
+  for (const char* part : {"train", "held_out"})
+    for (const char* step : {"nominal", "calibrated", "with_findings", "noise_floor"})
+      for (const char* figure : {"position_rms_m", "heading_rms_rad", "normalised_chi2"})
+        EXPECT_TRUE(json["fit"][part][step][figure].is_number()) << part << " " << step << " " << figure;
+  EXPECT_EQ(json["fit"]["held_out"]["with_findings"]["position_rms_m"], 0.0019);
+  EXPECT_EQ(json["simulation"]["before"]["normalised_chi2"], 8.8);
+  EXPECT_EQ(json["simulation"]["after"]["normalised_chi2"], 1.2);
+  EXPECT_EQ(json["not_testable_here"][0]["effect"], "lateral_slip");
+  EXPECT_TRUE(json["not_testable_here"][0]["because"].is_string());
+  EXPECT_TRUE(json["not_testable_here"][0]["drive_this"].is_string());
+  EXPECT_TRUE(json["next_drive"].is_string());
+}
+
+TEST(DiagnosisJson, WhereHoldsOnlyWhatApplies) {
+  const nlohmann::json json = parsed(test::diagnosis_by_hand());
+  EXPECT_EQ(json["findings"][0]["where"], (nlohmann::json{{"regime", "once in each turn of the wheel, at every speed"}}));
+  EXPECT_EQ(json["findings"][1]["where"], (nlohmann::json::parse(R"({"time_s": [[3.75, 7.25]], "recording": "run_3.csv",
+                                           "zone": {"x_m": 2.2, "y_m": 0.1, "radius_m": 0.7}})")));
+}
+
+TEST(DiagnosisJson, KnowsEveryVerdictByTheSchemasWord) {
+  const std::pair<Verdict, const char*> words[] = {{Verdict::found, "found"},
+                                                   {Verdict::nothing_missing, "nothing_missing"},
+                                                   {Verdict::unknown_effect, "unknown_effect"},
+                                                   {Verdict::ambiguous, "ambiguous"},
+                                                   {Verdict::cannot_say, "cannot_say"}};
+  for (const auto& [verdict, word] : words) {
+    Diagnosis diagnosis;
+    diagnosis.verdict = verdict;
+    EXPECT_EQ(parsed(diagnosis)["verdict"], word);
+  }
+}
+
+TEST(DiagnosisJson, AnEmptyDiagnosisHasEveryKey) {
+  const nlohmann::json json = parsed(Diagnosis{});
+  for (const char* key : {"schema", "verdict", "calibration", "findings", "fit", "simulation", "not_testable_here", "next_drive"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  EXPECT_TRUE(json["findings"].is_array());
+  EXPECT_TRUE(json["not_testable_here"].is_array());
+  EXPECT_TRUE(json["fit"]["held_out"].is_object());
+  EXPECT_TRUE(json["simulation"].is_object());
+}
+
+TEST(DiagnosisJson, WhatIsNotDeterminedHasNoError) {
+  const nlohmann::json json = parsed(test::diagnosis_by_hand());
+  EXPECT_TRUE(json["calibration"]["truth_mounting.x_m"]["stderr"].is_null());
+  EXPECT_EQ(json["calibration"]["truth_mounting.x_m"]["value"], 0.0);
+}
+
+}  // namespace
+}  // namespace odolab
