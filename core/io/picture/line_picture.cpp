@@ -92,8 +92,8 @@ std::string line_picture(const LinePicture& picture) {
   svg.text({18.0, 28.0}, picture.title, Anchor::start, 16.0, ink::kText, true);
   svg.rectangle({left, top}, right - left, bottom - top, "#ffffff");
   svg.begin_clip({left, top}, right - left, bottom - top);
-  for (const auto& [from, to] : picture.marked) {  // an instant is two pixels wide
-    const double from_px = x.px(from), width_px = std::max(2.0, x.px(to) - from_px);
+  for (const auto& [from, to] : picture.marked) {  // an instant is to be seen too
+    const double width_px = std::max(8.0, x.px(to) - x.px(from)), from_px = 0.5 * (x.px(from) + x.px(to) - width_px);
     svg.rectangle({from_px, top}, width_px, bottom - top, kMarked);
   }
   for (const DrawnBand& band : picture.bands) svg.polygon(outline(band, x, y), pale(band.look), {});
