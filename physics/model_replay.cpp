@@ -1,6 +1,7 @@
 #include "physics/model_replay.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -84,16 +85,17 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   const std::size_t count = recordings.size();
   std::vector<std::optional<TrackError>> errors(2 * count);  // before, then after
   std::vector<std::optional<Error>> failures(2 * count);
-  const auto drive = [&](int job) {
+  const auto drive = [&](int job, const std::atomic<bool>& stopped) {
     const std::size_t i = static_cast<std::size_t>(job) % count;
     const FittedModel& model = static_cast<std::size_t>(job) < count ? before : after;
     const Recording& recording = recordings[i];
     Scenario scenario = replay_scenario(model.vehicle_in(recording.name), recording);
     for (const ActiveEffect& fitted : model.effects_in(recording.name))
       if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted)) scenario.effects.push_back(*active);
-    const Result<Replay> replayed = replay(scenario, std::make_shared<const Recording>(recording));
+    const Result<Replay> replayed =
+        replay(scenario, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
-      errors[static_cast<std::size_t>(job)] = replayed->simulated_error;
+      errors[static_cast<std::size_t>(job)] = replayed->truth_has_headings ? replayed->simulated_error : std::nullopt;
     else
       failures[static_cast<std::size_t>(job)] = replayed.error();
   };

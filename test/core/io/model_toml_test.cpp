@@ -1,5 +1,6 @@
 #include "core/io/model_toml.h"
 
+#include "core/diagnosis/effect.h"
 #include "test/core/io/files.h"
 
 namespace odolab {
@@ -74,6 +75,27 @@ TEST(ModelToml, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(message_with("\"wheel_eccentricity\"", "\"wheel_excentricity\"").find("m.toml:"), std::string::npos);
   EXPECT_NE(message_with("component = \"left_wheel\"\n", "").find("component"), std::string::npos);
   EXPECT_NE(message_with("[vehicle]", "[vehicles]").find("no key 'kind'"), std::string::npos);
+}
+
+TEST(ModelToml, HoldsEveryEffectThatADiagnosisCanName) {
+  const ScratchFolder folder;
+  for (const Effect& entry : catalogue()) {
+    FittedEffect effect{{entry.name, entry.component, {}}, {}, ""};
+    const std::vector<double> ones(entry.amplitudes.size(), 0.01);
+    if (entry.to_parameters)
+      for (const FoundParameter& p : entry.to_parameters(ones, ones)) effect.active.parameters.emplace_back(p.name, p.value);
+    else
+      for (const Effect::Amplitude& a : entry.amplitudes) effect.active.parameters.emplace_back(a.name, 0.01);
+    if (!entry.shape_follows_amplitude)
+      for (std::size_t k = entry.of_one_recording ? 1 : 0; k < entry.shapes.size(); ++k)
+        effect.active.parameters.emplace_back(entry.shapes[k].name, 0.5);
+    FittedModel model;
+    model.effects = {effect};
+    ASSERT_TRUE(write_model(folder.path("m.toml"), model));
+    const Result<FittedModel> read = read_model(folder.path("m.toml"));
+    ASSERT_TRUE(read) << entry.name << " of " << entry.component << ": " << read.error().message();
+    EXPECT_EQ(read->effects[0].active.parameters.size(), effect.active.parameters.size()) << entry.name;
+  }
 }
 
 TEST(FittedModel, KeepsAnEventToItsRecording) {
