@@ -1,4 +1,4 @@
-// A load that is put on or off squeezes the wheels: a step of both radii, in metres, at a time of one recording.
+// A load that is put on or off squeezes the wheels: a step of both radii, in shares of them, at a time of one recording.
 #include <cmath>
 
 #include "core/diagnosis/effect.h"
@@ -9,7 +9,7 @@ std::vector<Effect> payload_radius_change() {
   Effect e;
   e.name = "payload_radius_change";
   e.component = "both_wheels";
-  e.amplitudes = {{"left", "m", 0.0003, -0.02, 0.02}, {"right", "m", 0.0003, -0.02, 0.02}};
+  e.amplitudes = {{"left", "1", 0.004, -0.25, 0.25}, {"right", "1", 0.004, -0.25, 0.25}};
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.sentence = "the wheel radii step at one time, as when a load is put on or off";
   e.regime = "from one time on";
@@ -22,8 +22,8 @@ std::vector<Effect> payload_radius_change() {
       for (std::size_t i = 0; i < view.steps.size(); ++i) {
         const EffectStep& s = view.steps[i];
         if (s.time_s < shape[1]) continue;
-        left[i] = by_wheel(Wheel::left, s.left_by_rad, view.drive.wheelbase_m);
-        right[i] = by_wheel(Wheel::right, s.right_by_rad, view.drive.wheelbase_m);
+        left[i] = by_wheel(Wheel::left, view.drive.wheel_radius_left_m * s.left_by_rad, view.drive.wheelbase_m);
+        right[i] = by_wheel(Wheel::right, view.drive.wheel_radius_right_m * s.right_by_rad, view.drive.wheelbase_m);
       }
     return std::vector<Motions>{left, right};
   };
