@@ -13,14 +13,15 @@ constexpr double kPatience = 3.0;
 
 // One square: absolute minus calculated pose (Eq. 3.1), seen from the absolute pose at the start.
 ReturnError return_error(const Simulation& simulation, const Scenario& scenario) {
-  const Pose driven = between(scenario.start, simulation.state().estimated_pose);       // by dead reckoning
+  const Pose driven = between(scenario.start, simulation.state().estimated_pose);         // by dead reckoning
   const Pose measured = between(simulation.measured_start(), simulation.measured_end());  // by the sonar corner
   return {measured.x_m - driven.x_m, measured.y_m - driven.y_m, wrapped(measured.heading_rad - driven.heading_rad)};
 }
 
 }  // namespace
 
-UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run, const Progress& progress) {
+UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run,
+                        const Progress& progress) {
   const int runs = 2 * scenario.benchmark.value_or(Benchmark{}).runs_each_way;
   UmbmarkRuns result;
   result.side_m = std::get<SquarePath>(scenario.path).side_m;
@@ -34,8 +35,8 @@ UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBe
         Simulation simulation(run, seed_of_stream(seed, 1000 + static_cast<std::uint64_t>(i)));
         const double longest_s = kPatience * simulation.expected_duration_s();
         while (!simulation.state().finished && simulation.state().time_s < longest_s && !stopped) simulation.step();
-        driven[static_cast<std::size_t>(i)] = {i % 2 == 0, i / 2 + 1, return_error(simulation, run), simulation.state().finished,
-                                               simulation.recording()};
+        driven[static_cast<std::size_t>(i)] = {i % 2 == 0, i / 2 + 1, return_error(simulation, run),
+                                               simulation.state().finished, simulation.recording()};
       },
       [&](int i) {
         const BenchmarkRun& run = driven[static_cast<std::size_t>(i)];
@@ -46,8 +47,8 @@ UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBe
   return result;
 }
 
-std::vector<UmbmarkStage> run_umbmark_calibration(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run,
-                                                  const Progress& progress) {
+std::vector<UmbmarkStage> run_umbmark_calibration(const Scenario& scenario, std::uint64_t seed,
+                                                  const OnBenchmarkRun& on_run, const Progress& progress) {
   constexpr int kMostStages = 3;
   std::vector<UmbmarkStage> stages;
   Scenario next = scenario;

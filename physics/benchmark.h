@@ -15,7 +15,7 @@ namespace odolab {
 // A return position error with the run it belongs to.
 struct BenchmarkRun {
   bool clockwise = false;
-  int number = 0;         // from 1 in each direction
+  int number = 0;  // from 1 in each direction
   ReturnError error;
   bool finished = false;  // false: the robot never arrived, and the error means nothing
   Recording recording;    // encoders, and the absolute pose at the start and the end
@@ -26,7 +26,8 @@ using OnBenchmarkRun = std::function<void(const BenchmarkRun&)>;
 
 // Drives the scenario's square `runs_each_way` times in each direction, every run on its own stretch of random floor.
 // Stops early where `progress` says so; then the sets are shorter.
-UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run = {}, const Progress& progress = {});
+UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run = {},
+                        const Progress& progress = {});
 
 // One round of the experiment: the squares as driven with a nominal drive, and what they say about it.
 struct UmbmarkStage {
@@ -36,9 +37,9 @@ struct UmbmarkStage {
   std::optional<UmbmarkCalibration> calibration;  // that the next stage is driven with
 };
 
-// Section 6.3 of the report: drives uncalibrated, calibrates, drives again, and compensates a second time where the rule
-// of 3 SEM says that this is worth while. Two or three stages; fewer where `progress` stopped it.
-std::vector<UmbmarkStage> run_umbmark_calibration(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run = {},
-                                                  const Progress& progress = {});
+// Section 6.3 of the report: drives uncalibrated, calibrates, drives again, and compensates a second time where the
+// rule of 3 SEM says that this is worth while. Two or three stages; fewer where `progress` stopped it.
+std::vector<UmbmarkStage> run_umbmark_calibration(const Scenario& scenario, std::uint64_t seed,
+                                                  const OnBenchmarkRun& on_run = {}, const Progress& progress = {});
 
 }  // namespace odolab

@@ -9,11 +9,12 @@ namespace odolab {
 
 namespace {
 
-// A wheel of radius R over the top of an object of height h, whose top is `u` ahead of or behind the contact: the height
-// of the wheel's centre above the flat, and how much of the rolled distance is horizontal. The higher centre decides.
+// A wheel of radius R over the top of an object of height h, whose top is `u` ahead of or behind the contact: the
+// height of the wheel's centre above the flat, and how much of the rolled distance is horizontal. The higher centre
+// decides.
 struct Climb {
   double radius_m;
-  double centre_height_m;       // of the highest object so far; R on the flat
+  double centre_height_m;  // of the highest object so far; R on the flat
   double horizontal_share = 1.0;
 
   bool meet(double u_m, double height_m) {
@@ -29,7 +30,8 @@ struct Climb {
 }  // namespace
 
 double extra_roll_m(double radius_m, double height_m) {
-  return 2.0 * (radius_m * std::acos(1.0 - height_m / radius_m) - std::sqrt(2.0 * radius_m * height_m - height_m * height_m));
+  return 2.0 *
+         (radius_m * std::acos(1.0 - height_m / radius_m) - std::sqrt(2.0 * radius_m * height_m - height_m * height_m));
 }
 
 Ground::Ground(const Floor& floor, Side inside, std::uint64_t seed) : floor_(floor), seed_(seed) {
@@ -41,8 +43,10 @@ Ground::Ground(const Floor& floor, Side inside, std::uint64_t seed) : floor_(flo
     placed.half_length_m = 0.5 * bump.length_m;
     placed.height_m = bump.height_m;
     placed.round = bump.round;
-    placed.left = bump.under == Under::any_wheel || bump.under == Under::left_wheel || (on_inside && inside == Side::left);
-    placed.right = bump.under == Under::any_wheel || bump.under == Under::right_wheel || (on_inside && inside == Side::right);
+    placed.left =
+        bump.under == Under::any_wheel || bump.under == Under::left_wheel || (on_inside && inside == Side::left);
+    placed.right =
+        bump.under == Under::any_wheel || bump.under == Under::right_wheel || (on_inside && inside == Side::right);
     if (bump.height_m > 0.0) bumps_.push_back(placed);
   }
 }

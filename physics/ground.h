@@ -12,20 +12,20 @@ enum class Side { left, right };
 
 struct Contact {
   double friction = 0.8;
-  double slip = 0.0;          // share of the rolled distance that is lost
+  double slip = 0.0;  // share of the rolled distance that is lost
   // Horizontal travel per rolled distance: 1 on the flat, the cosine of the climb on a bump (README, Eq. 5).
   double horizontal_share = 1.0;
-  bool on_bump = false;       // a bump of the floor's list; roughness does not count
+  bool on_bump = false;  // a bump of the floor's list; roughness does not count
   bool in_slip_zone = false;
 };
 
 // Where and how a wheel stands.
 struct WheelStance {
   Side side = Side::left;
-  Vec2 contact;                 // on the floor
-  double heading_rad = 0.0;     // rolling direction
+  Vec2 contact;              // on the floor
+  double heading_rad = 0.0;  // rolling direction
   double radius_m = 0.075;
-  double travelled_m = 0.0;     // signed way of the contact along the wheel since the start: it selects the roughness
+  double travelled_m = 0.0;  // signed way of the contact along the wheel since the start: it selects the roughness
 };
 
 class Ground {

@@ -15,7 +15,8 @@ namespace odolab {
 namespace {
 
 bool has(const ActiveEffect& active, const std::string& name) {
-  return std::any_of(active.parameters.begin(), active.parameters.end(), [&](const auto& p) { return p.first == name; });
+  return std::any_of(active.parameters.begin(), active.parameters.end(),
+                     [&](const auto& p) { return p.first == name; });
 }
 
 // Where the truth was at a time.
@@ -33,7 +34,8 @@ std::optional<ActiveEffect> for_scenario(const ActiveEffect& fitted, const Recor
   if (!entry) return std::nullopt;
   ActiveEffect active{fitted.effect, fitted.component, {}};
   for (const auto& given : fitted.parameters)
-    if (std::any_of(entry->parameters.begin(), entry->parameters.end(), [&](const EffectParameter& p) { return p.name == given.first; }))
+    if (std::any_of(entry->parameters.begin(), entry->parameters.end(),
+                    [&](const EffectParameter& p) { return p.name == given.first; }))
       active.parameters.push_back(given);
   if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
     if (const auto place = truth_at(recording, fitted.parameter("at_s"))) {
@@ -49,7 +51,8 @@ bool is_of_the_truth(const ActiveEffect& active) {
 }
 
 // Mean over all windows of all recordings.
-std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& errors, const std::optional<FitFigures>& noise_floor) {
+std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& errors,
+                                 const std::optional<FitFigures>& noise_floor) {
   double position = 0.0, heading = 0.0;
   int windows = 0;
   for (const std::optional<TrackError>& e : errors) {
@@ -64,14 +67,16 @@ std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& e
   FitFigures figures{std::sqrt(position), std::sqrt(heading), std::numeric_limits<double>::quiet_NaN()};
   if (noise_floor && noise_floor->position_rms_m > 0.0 && noise_floor->heading_rms_rad > 0.0)
     figures.normalised_chi2 = (2.0 * position / (noise_floor->position_rms_m * noise_floor->position_rms_m) +
-                               heading / (noise_floor->heading_rms_rad * noise_floor->heading_rms_rad)) / 3.0;
+                               heading / (noise_floor->heading_rms_rad * noise_floor->heading_rms_rad)) /
+                              3.0;
   return figures;
 }
 
 }  // namespace
 
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before, const FittedModel& after,
-                                 const std::optional<FitFigures>& noise_floor, const Progress& progress) {
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
+                                 const FittedModel& after, const std::optional<FitFigures>& noise_floor,
+                                 const Progress& progress) {
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
@@ -80,7 +85,8 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   };
   for (const FittedEffect& effect : after.effects)
     if (!is_of_the_truth(effect.active) && !switched_on(effect))
-      result.not_switched_on.push_back(effect.active.effect + " of " + effect.active.component + " could not be switched on in the simulator");
+      result.not_switched_on.push_back(effect.active.effect + " of " + effect.active.component +
+                                       " could not be switched on in the simulator");
 
   const std::size_t count = recordings.size();
   std::vector<std::optional<TrackError>> errors(2 * count);  // before, then after
@@ -91,7 +97,8 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const Recording& recording = recordings[i];
     Scenario scenario = replay_scenario(model.vehicle_in(recording.name), recording);
     for (const ActiveEffect& fitted : model.effects_in(recording.name))
-      if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted)) scenario.effects.push_back(*active);
+      if (const auto active = for_scenario(fitted, recording); active && !is_of_the_truth(fitted))
+        scenario.effects.push_back(*active);
     const Result<Replay> replayed =
         replay(scenario, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
@@ -100,7 +107,8 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
       failures[static_cast<std::size_t>(job)] = replayed.error();
   };
   const int jobs = static_cast<int>(2 * count);
-  if (parallel_for(jobs, drive, {}, progress) < jobs) return Error{"the simulation", "a stop by its user", "to come to the end"};
+  if (parallel_for(jobs, drive, {}, progress) < jobs)
+    return Error{"the simulation", "a stop by its user", "to come to the end"};
   for (const std::optional<Error>& failure : failures)
     if (failure) return *failure;
   result.fit.calibrated = joined({errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count)}, noise_floor);

@@ -22,7 +22,8 @@ struct ModelReplay {
 
 // Drives the planar vehicle by each recording's own wheels or commands. The normalised chi2 of a replay is its squared
 // error, mean over the two coordinates and the heading, over that which `noise_floor` leaves; not a number without one.
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before, const FittedModel& after,
-                                 const std::optional<FitFigures>& noise_floor, const Progress& progress = {});
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
+                                 const FittedModel& after, const std::optional<FitFigures>& noise_floor,
+                                 const Progress& progress = {});
 
 }  // namespace odolab

@@ -106,7 +106,8 @@ void PlanarWorld::add_spring(const SpringDefinition& d) {
   joint.minLength = 0.0f;
   joint.maxLength = static_cast<float>(10.0 * d.rest_length_m);
   joint.collideConnected = true;
-  b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz), static_cast<float>(d.damping_ratio), a, b);
+  b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz),
+                    static_cast<float>(d.damping_ratio), a, b);
   solver_->world.CreateJoint(&joint);
 }
 
@@ -172,7 +173,8 @@ void PlanarWorld::step() {
   for (Body& body : bodies) {
     const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
     const double rate = frame_rate + body.solved->GetAngularVelocity();
-    const double correction_rad = 0.5 * h * (rate - body.yaw_rate_radps);  // to the middle heading as it came out (Eq. 4)
+    const double correction_rad =
+        0.5 * h * (rate - body.yaw_rate_radps);  // to the middle heading as it came out (Eq. 4)
     body.velocity_mps = turned(velocity, c, s);
     body.yaw_rate_radps = rate;
     const Vec2 travel = h * turned(body.velocity_mps, 1.0, correction_rad);

@@ -12,7 +12,7 @@
 namespace odolab {
 
 struct BodyDefinition {
-  Pose pose;                       // of the centre of mass on the floor
+  Pose pose;  // of the centre of mass on the floor
   double mass_kg = 50.0;
   double moment_of_inertia_kgm2 = 3.0;
 };
@@ -21,7 +21,7 @@ struct BodyDefinition {
 struct SpringDefinition {
   int body_a = 0;
   int body_b = 1;
-  Vec2 anchor_a, anchor_b;         // in the frame of each body
+  Vec2 anchor_a, anchor_b;  // in the frame of each body
   double rest_length_m = 1.0;
   double frequency_hz = 2.0;
   double damping_ratio = 0.7;
@@ -50,7 +50,7 @@ class PlanarWorld {
   void step();
 
   const Pose& pose(int body) const;
-  Vec2 velocity_mps(int body) const;       // in the floor's frame
+  Vec2 velocity_mps(int body) const;  // in the floor's frame
   double yaw_rate_radps(int body) const;
   // Force of the floor on the body through this tread, mean over the last step, in the body's frame.
   Vec2 tread_force_n(int tread) const;

@@ -44,26 +44,32 @@ Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
 Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress) {
   const bool by_wheels = std::get<ReplayPath>(scenario.path).by == ReplayPath::By::wheels;
   if (by_wheels && wheel_samples(*recording, std::get<DifferentialDrive>(scenario.vehicle.kind)).size() < 2)
-    return Error{recording->name + ": path.by", "'wheels', but the recording has no wheel rotation", "'commands', or another recording"};
+    return Error{recording->name + ": path.by", "'wheels', but the recording has no wheel rotation",
+                 "'commands', or another recording"};
   if (!by_wheels && command_samples(*recording).size() < 2)
-    return Error{recording->name + ": path.by", "'commands', but the recording has none", "'wheels', or another recording"};
+    return Error{recording->name + ": path.by", "'commands', but the recording has none",
+                 "'wheels', or another recording"};
   Result<Track> reckoned = predicted_track(*recording, scenario.vehicle);
   if (!reckoned) return reckoned.error();
   Scenario aligned = scenario;
   Replay result;
   result.truth = truth_track(*recording);
-  if (const std::vector<TruthSample> samples = truth_samples(*recording); result.truth.size() < 2 && samples.size() >= 2) {
+  if (const std::vector<TruthSample> samples = truth_samples(*recording);
+      result.truth.size() < 2 && samples.size() >= 2) {
     result.truth_has_headings = false;
     aligned.start.heading_rad = turn_onto(*reckoned, samples);
     const Pose origin{samples[0].position.x_m, samples[0].position.y_m, 0.0};
-    for (TimedPose& p : *reckoned) p.pose = origin * Pose{0.0, 0.0, aligned.start.heading_rad} * between(origin, p.pose);
+    for (TimedPose& p : *reckoned)
+      p.pose = origin * Pose{0.0, 0.0, aligned.start.heading_rad} * between(origin, p.pose);
     result.truth.clear();
     for (const TruthSample& s : samples)
-      if (const auto pose = pose_at(*reckoned, s.time_s)) result.truth.push_back({s.time_s, {s.position.x_m, s.position.y_m, pose->heading_rad}});
+      if (const auto pose = pose_at(*reckoned, s.time_s))
+        result.truth.push_back({s.time_s, {s.position.x_m, s.position.y_m, pose->heading_rad}});
   }
   Simulation simulation(aligned, scenario.seed, recording);
   const double begin_s = simulation.state().time_s, duration_s = simulation.expected_duration_s();
-  if (duration_s > 1e5) return Error{recording->name, "more than a day between truth and wheels", "one recording on one clock"};
+  if (duration_s > 1e5)
+    return Error{recording->name, "more than a day between truth and wheels", "one recording on one clock"};
   for (int k = 0; !simulation.state().finished; ++k) {
     simulation.step();
     if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / duration_s))

@@ -15,10 +15,10 @@ namespace odolab {
 // What a replay shows. All tracks are those of the point that the truth measures, on the truth's clock.
 struct Replay {
   Track truth;
-  Track simulated;       // the planar vehicle, driven by the recorded wheel rotation or commands
-  Track dead_reckoned;   // the vehicle file's odometry from the same start, without any physics
-  // A truth without headings lends its first metres to find the heading of the start; its headings here are those of dead
-  // reckoning, and only the position at the end and the largest on the way can be judged.
+  Track simulated;      // the planar vehicle, driven by the recorded wheel rotation or commands
+  Track dead_reckoned;  // the vehicle file's odometry from the same start, without any physics
+  // A truth without headings lends its first metres to find the heading of the start; its headings here are those of
+  // dead reckoning, and only the position at the end and the largest on the way can be judged.
   bool truth_has_headings = true;
   // Against the truth; none where it has fewer than two samples.
   std::optional<TrackError> simulated_error;
@@ -29,6 +29,7 @@ struct Replay {
 Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording);
 
 // Runs the scenario, whose path is a ReplayPath. An error where the recording holds nothing to drive by.
-Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress = {});
+Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording,
+                      const Progress& progress = {});
 
 }  // namespace odolab

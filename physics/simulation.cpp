@@ -21,7 +21,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Streams of random numbers, one for each thing that draws.
 enum Stream : std::uint64_t { kFloorStream = 1, kEncoderStream = 2, kTruthStream = 3 };
 
-const DifferentialDrive& nominal_drive(const Scenario& scenario) { return std::get<DifferentialDrive>(scenario.vehicle.kind); }
+const DifferentialDrive& nominal_drive(const Scenario& scenario) {
+  return std::get<DifferentialDrive>(scenario.vehicle.kind);
+}
 
 Side inside_of(const Path& path) {
   const auto* square = std::get_if<SquarePath>(&path);
@@ -31,19 +33,23 @@ Side inside_of(const Path& path) {
 // The wheel speeds that a base speed and turn rate ask for, by the nominal geometry.
 WheelPair wheel_speeds(const BaseCommand& command, const DifferentialDrive& drive) {
   const double half_base = 0.5 * drive.wheelbase_m * command.yaw_rate_radps;
-  return {(command.speed_mps - half_base) / drive.wheel_radius_left_m, (command.speed_mps + half_base) / drive.wheel_radius_right_m};
+  return {(command.speed_mps - half_base) / drive.wheel_radius_left_m,
+          (command.speed_mps + half_base) / drive.wheel_radius_right_m};
 }
 
 Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
   if (!replayed) return scenario.start;
   const std::vector<TruthSample> truth = truth_samples(*replayed);
   if (truth.empty()) return scenario.start;
-  const Pose tracked{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(scenario.start.heading_rad)};
+  const Pose tracked{truth[0].position.x_m, truth[0].position.y_m,
+                     truth[0].heading_rad.value_or(scenario.start.heading_rad)};
   return tracked * inverse(mounting.axle_T_tracked);
 }
 
 // Steps between two readings of a sensor.
-std::int64_t steps_in(double period_s, double step_s) { return std::max<std::int64_t>(1, std::llround(period_s / step_s)); }
+std::int64_t steps_in(double period_s, double step_s) {
+  return std::max<std::int64_t>(1, std::llround(period_s / step_s));
+}
 
 }  // namespace
 
@@ -63,7 +69,8 @@ struct Simulation::Parts {
         rotation(replays(ReplayPath::By::wheels) ? wheel_samples(*replayed, drive) : std::vector<WheelSample>{}),
         commands(replays(ReplayPath::By::commands) ? command_samples(*replayed) : std::vector<CommandSample>{}),
         encoder_steps(steps_in(scenario.sensors.encoder_period_s, scenario.step_s)),
-        truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s) : 0),
+        truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s)
+                                                          : 0),
         encoder_phases(seed_of_stream(seed, kEncoderStream)),
         left_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
         right_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
@@ -82,7 +89,9 @@ struct Simulation::Parts {
     return replay && replayed && replay->by == by;
   }
 
-  AbsolutePoseSensor sonar() const { return {scenario.sensors.truth_position_noise_m, scenario.sensors.truth_heading_noise_rad}; }
+  AbsolutePoseSensor sonar() const {
+    return {scenario.sensors.truth_position_noise_m, scenario.sensors.truth_heading_noise_rad};
+  }
 
   void plan_duration() {
     if (const auto* speeds = std::get_if<WheelSpeedPath>(&scenario.path)) {
@@ -115,7 +124,8 @@ struct Simulation::Parts {
     double begin = 0.0;
     for (std::size_t i = 0; i <= table.phases.size(); ++i) {
       const bool ending = i == table.phases.size();
-      const WheelPair speeds = ending ? WheelPair{} : WheelPair{table.phases[i].left_radps, table.phases[i].right_radps};
+      const WheelPair speeds =
+          ending ? WheelPair{} : WheelPair{table.phases[i].left_radps, table.phases[i].right_radps};
       const double phase_s = ending ? table.ramp_s + 1.0 : table.phases[i].duration_s;
       if (time_s < begin + phase_s || ending) {
         const double u = table.ramp_s > 0.0 ? std::min(1.0, (time_s - begin) / table.ramp_s) : 1.0;
@@ -134,21 +144,24 @@ struct Simulation::Parts {
   }
 
   WheelPair set_speeds() {
-    if (std::holds_alternative<WheelSpeedPath>(scenario.path)) return tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * scenario.step_s);
+    if (std::holds_alternative<WheelSpeedPath>(scenario.path))
+      return tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * scenario.step_s);
     if (!commands.empty()) {
       const CommandSample c = commands.at(recorded_s(static_cast<double>(steps) + 0.5));
       return wheel_speeds({c.speed_mps, c.yaw_rate_radps}, drive);
     }
     // Between two commands the set speeds move evenly: a jump would make the wheels slip.
     const double u = (static_cast<double>(steps % encoder_steps) + 0.5) / static_cast<double>(encoder_steps);
-    return {set_before.left + u * (set_next.left - set_before.left), set_before.right + u * (set_next.right - set_before.right)};
+    return {set_before.left + u * (set_next.left - set_before.left),
+            set_before.right + u * (set_next.right - set_before.right)};
   }
 
   void drive_one_step() {
     const double h = scenario.step_s;
     if (!rotation.empty()) {
       const WheelPair next = rotation.at(recorded_s(static_cast<double>(steps + 1)));
-      vehicle.turn_wheels(ground, scenario.floor, {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
+      vehicle.turn_wheels(ground, scenario.floor,
+                          {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
       rotation_now = next;
       return;
     }
@@ -179,7 +192,8 @@ struct Simulation::Parts {
       effect->read_encoder(Side::right, state.time_s, right);
     }
     if (!wheels.empty()) {
-      state.estimated_pose = dead_reckoned(state.estimated_pose, left - wheels.back().left_rad, right - wheels.back().right_rad, drive);
+      state.estimated_pose =
+          dead_reckoned(state.estimated_pose, left - wheels.back().left_rad, right - wheels.back().right_rad, drive);
       estimated.push_back({state.time_s, state.estimated_pose});
       exact.push_back({state.time_s, state.true_pose});
     } else {
@@ -203,7 +217,8 @@ struct Simulation::Parts {
   void record_command() {
     if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
       const WheelPair speeds = tabled_speeds(state.time_s + 0.5 * scenario.sensors.encoder_period_s);
-      const double left_mps = speeds.left * drive.wheel_radius_left_m, right_mps = speeds.right * drive.wheel_radius_right_m;
+      const double left_mps = speeds.left * drive.wheel_radius_left_m,
+                   right_mps = speeds.right * drive.wheel_radius_right_m;
       given_now = {0.5 * (left_mps + right_mps), (right_mps - left_mps) / drive.wheelbase_m};
     } else if (!commands.empty()) {
       const CommandSample c = commands.at(recorded_s(static_cast<double>(steps)));
@@ -217,9 +232,11 @@ struct Simulation::Parts {
   // A hand's command, reached at no more than the driver's accelerations.
   BaseCommand by_hand() {
     const double period_s = scenario.sensors.encoder_period_s;
-    const double dv = scenario.driving.acceleration_mps2 * period_s, dw = scenario.driving.turn_acceleration_radps2 * period_s;
+    const double dv = scenario.driving.acceleration_mps2 * period_s,
+                 dw = scenario.driving.turn_acceleration_radps2 * period_s;
     hand_now.speed_mps = std::clamp(hand.speed_mps, hand_now.speed_mps - dv, hand_now.speed_mps + dv);
-    hand_now.yaw_rate_radps = std::clamp(hand.yaw_rate_radps, hand_now.yaw_rate_radps - dw, hand_now.yaw_rate_radps + dw);
+    hand_now.yaw_rate_radps =
+        std::clamp(hand.yaw_rate_radps, hand_now.yaw_rate_radps - dw, hand_now.yaw_rate_radps + dw);
     return hand_now;
   }
 
@@ -244,7 +261,7 @@ struct Simulation::Parts {
   std::shared_ptr<const Recording> replayed;
   DifferentialDrive drive;  // nominal
   planar::Effects effects;
-  TruthMounting mounting;   // as it really is
+  TruthMounting mounting;  // as it really is
   std::uint64_t floor_seed;
   Ground ground;
   Pose start;
@@ -305,7 +322,8 @@ Recording Simulation::recording() const {
   if (!parts.effects.empty())
     for (WheelSample& w : run.wheels) w.time_s = parts.effects.robot_stamp_s(parts.begin_s, w.time_s - parts.begin_s);
   if (offset)
-    for (TimedPose& t : run.truth) t.time_s += parts.mounting.time_offset_s - parts.scenario.vehicle.truth.time_offset_s;
+    for (TimedPose& t : run.truth)
+      t.time_s += parts.mounting.time_offset_s - parts.scenario.vehicle.truth.time_offset_s;
   return recording_of(run, parts.scenario.sensors, parts.scenario.name);
 }
 

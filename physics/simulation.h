@@ -14,9 +14,9 @@
 namespace odolab {
 
 struct SimulationState {
-  double time_s = 0.0;   // since the start; in a replay on the recording's clock
-  Pose true_pose;        // of the axle's centre
-  Pose estimated_pose;   // by the robot's dead reckoning, in the floor's frame from the same start
+  double time_s = 0.0;  // since the start; in a replay on the recording's clock
+  Pose true_pose;       // of the axle's centre
+  Pose estimated_pose;  // by the robot's dead reckoning, in the floor's frame from the same start
   double true_speed_mps = 0.0;
   double true_yaw_rate_radps = 0.0;
   WheelState left, right;

@@ -13,12 +13,14 @@ double WheelDrive::advance(double set_speed_radps, double traction_n, double ste
     return set_speed_radps;
   }
   const double error_radps = set_speed_radps - speed_radps_;
-  const double wanted_nm = motor_.proportional_gain * error_radps + motor_.integral_gain * (lag_rad_ + error_radps * step_s);
+  const double wanted_nm =
+      motor_.proportional_gain * error_radps + motor_.integral_gain * (lag_rad_ + error_radps * step_s);
   const double torque_nm = std::clamp(wanted_nm, -motor_.torque_limit_nm, motor_.torque_limit_nm);
   if (torque_nm == wanted_nm) lag_rad_ += error_radps * step_s;  // a saturated motor does not wind up
 
-  // The traction is that of the step before. Taken as it stands it would make a light wheel on a heavy vehicle unstable;
-  // the part of it that accelerates the vehicle is therefore predicted and only the rest is taken from the step before.
+  // The traction is that of the step before. Taken as it stands it would make a light wheel on a heavy vehicle
+  // unstable; the part of it that accelerates the vehicle is therefore predicted and only the rest is taken from the
+  // step before.
   const double load_nm = radius_m_ * traction_n - carried_inertia_kgm2_ * acceleration_radps2_;
   acceleration_radps2_ = (torque_nm - load_nm) / (motor_.wheel_inertia_kgm2 + carried_inertia_kgm2_);
   const double mean_radps = speed_radps_ + 0.5 * acceleration_radps2_ * step_s;

@@ -34,7 +34,8 @@ struct PerMetre {
   }
   std::string text() const {
     if (recordings == 0) return "not to be had: the truth has no heading";
-    return text_of("%.2f mm, %.3f degrees", 1e3 * std::sqrt(position_sum / recordings), degrees(std::sqrt(heading_sum / recordings)));
+    return text_of("%.2f mm, %.3f degrees", 1e3 * std::sqrt(position_sum / recordings),
+                   degrees(std::sqrt(heading_sum / recordings)));
   }
 };
 
@@ -67,11 +68,13 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
     rows.push_back({p.name, text_of("%.6g", p.nominal), p.determined ? text_of("%.7g", p.value) : "as before",
                     p.determined ? text_of("%.1e", p.stderr_value) : "not determined", p.unit});
   print_table(rows);
-  std::printf("\nnoise: %.2f mm per root metre on each wheel; truth %.2f mm", 1e3 * calibration.noise.wheel_m_per_sqrt_m,
-              1e3 * calibration.noise.truth_position_m);
-  if (calibration.noise.truth_heading_rad > 0.0) std::printf(", %.3f degrees", degrees(calibration.noise.truth_heading_rad));
+  std::printf("\nnoise: %.2f mm per root metre on each wheel; truth %.2f mm",
+              1e3 * calibration.noise.wheel_m_per_sqrt_m, 1e3 * calibration.noise.truth_position_m);
+  if (calibration.noise.truth_heading_rad > 0.0)
+    std::printf(", %.3f degrees", degrees(calibration.noise.truth_heading_rad));
   std::printf("\nnormalised chi2 of the innovations: %.3f before, %.3f after, on %d of them (%d outliers set aside)\n",
-              calibration.normalised_chi2_nominal, calibration.normalised_chi2, calibration.innovations, calibration.outliers);
+              calibration.normalised_chi2_nominal, calibration.normalised_chi2, calibration.innovations,
+              calibration.outliers);
   for (const std::string& sentence : calibration.cannot_tell) std::printf("cannot tell: %s\n", sentence.c_str());
 }
 
@@ -86,8 +89,10 @@ int execute(const CalibrateOptions& options) {
     recordings.push_back(std::move(loaded->recording));
   }
   for (std::size_t i = 0; i < recordings.size(); ++i)
-    if (wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() && !command_samples(recordings[i]).empty())
-      return bad_input({options.recordings[i], "commands alone", "wheel rotation: how a base follows its commands is not calibrated yet"});
+    if (wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() &&
+        !command_samples(recordings[i]).empty())
+      return bad_input({options.recordings[i], "commands alone",
+                        "wheel rotation: how a base follows its commands is not calibrated yet"});
   for (std::size_t i = 0; i < recordings.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (same_run(recordings[i], recordings[k]))
@@ -98,7 +103,8 @@ int execute(const CalibrateOptions& options) {
   const bool anything = std::any_of(calibration->parameters.begin(), calibration->parameters.end(),
                                     [](const ParameterEstimate& p) { return p.determined; });
   if (!options.out.empty() && anything)
-    if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written) return bad_input(written.error());
+    if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written)
+      return bad_input(written.error());
 
   print_calibration(*calibration);
   if (!anything) {
@@ -112,7 +118,8 @@ int execute(const CalibrateOptions& options) {
   }
   std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
-  if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal)});
+  if (recordings.size() > 1)
+    rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal)});
   print_table(rows);
   for (const std::string& warning : calibration->warnings) print_message("warning: " + warning);
   if (!options.out.empty()) std::printf("\nwritten: %s\n", options.out.c_str());

@@ -17,8 +17,9 @@ inline constexpr int kBadInput = 2;
 class Arguments {
  public:
   virtual ~Arguments() = default;
-  virtual void file(const std::string& name, std::string& value, const std::string& about) = 0;                // required
-  virtual void files(const std::string& name, std::vector<std::string>& values, const std::string& about, bool required) = 0;
+  virtual void file(const std::string& name, std::string& value, const std::string& about) = 0;  // required
+  virtual void files(const std::string& name, std::vector<std::string>& values, const std::string& about,
+                     bool required) = 0;
   virtual void option(const std::string& name, std::string& value, const std::string& about, bool required = false) = 0;
   virtual void option(const std::string& name, int& value, const std::string& about) = 0;
   virtual void option(const std::string& name, double& value, const std::string& about) = 0;

@@ -18,15 +18,22 @@ class CliArguments : public Arguments {
   void file(const std::string& name, std::string& value, const std::string& about) override {
     app_.add_option(name, value, about)->required();
   }
-  void files(const std::string& name, std::vector<std::string>& values, const std::string& about, bool required) override {
+  void files(const std::string& name, std::vector<std::string>& values, const std::string& about,
+             bool required) override {
     app_.add_option(name, values, about)->required(required);
   }
   void option(const std::string& name, std::string& value, const std::string& about, bool required) override {
     app_.add_option(name, value, about)->required(required);
   }
-  void option(const std::string& name, int& value, const std::string& about) override { app_.add_option(name, value, about); }
-  void option(const std::string& name, double& value, const std::string& about) override { app_.add_option(name, value, about); }
-  void flag(const std::string& name, bool& value, const std::string& about) override { app_.add_flag(name, value, about); }
+  void option(const std::string& name, int& value, const std::string& about) override {
+    app_.add_option(name, value, about);
+  }
+  void option(const std::string& name, double& value, const std::string& about) override {
+    app_.add_option(name, value, about);
+  }
+  void flag(const std::string& name, bool& value, const std::string& about) override {
+    app_.add_flag(name, value, about);
+  }
 
  private:
   CLI::App& app_;
@@ -38,7 +45,9 @@ int run_command_line(int argc, char** argv) {
   CLI::App app{"OdoLab: odometry of wheeled robots, simulated, calibrated and explained", "odolab"};
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "odolab " ODOLAB_VERSION);
-  app.footer("Exit codes: 0 done, 1 a check failed, 2 bad usage or bad input.\nodolab COMMAND --help shows an example of each.");
+  app.footer(
+      "Exit codes: 0 done, 1 a check failed, 2 bad usage or bad input.\nodolab COMMAND --help shows an example of "
+      "each.");
   const std::vector<Command> list = commands();
   std::vector<CLI::App*> subcommands;
   for (const Command& command : list) {

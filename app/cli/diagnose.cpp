@@ -26,7 +26,8 @@ struct DiagnoseOptions {
 
 // What keeps a recording from being judged at all.
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
-  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty()) return Error{path + ": " + problems.front(), "", ""};
+  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
+    return Error{path + ": " + problems.front(), "", ""};
   const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
   if (!drive) return std::nullopt;
   const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
@@ -36,8 +37,8 @@ std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle
   return std::nullopt;
 }
 
-// A recording's name stands for it in all that is said; where two files have one name, as much of the path as tells them
-// apart stands before it.
+// A recording's name stands for it in all that is said; where two files have one name, as much of the path as tells
+// them apart stands before it.
 void make_names_differ(std::vector<Recording>& recordings, const std::vector<std::string>& paths) {
   std::vector<std::filesystem::path> rest(paths.begin(), paths.end());
   for (bool changed = true; changed;) {
@@ -96,12 +97,15 @@ int execute(const DiagnoseOptions& options) {
   if (!nominal) return bad_input(nominal.error());
   for (const std::string& seen : options.recordings)
     for (const std::string& unseen : options.hold_out)
-      if (is_same_file(seen, unseen)) return bad_input({unseen, "a recording to hold out that is also to be fitted", "runs that the fit does not see"});
+      if (is_same_file(seen, unseen))
+        return bad_input(
+            {unseen, "a recording to hold out that is also to be fitted", "runs that the fit does not see"});
   Result<Loaded> train = load(options.recordings, *nominal, options.skip_broken);
   if (!train) return bad_input(train.error());
   Result<Loaded> held_out = load(options.hold_out, *nominal, options.skip_broken);
   if (!held_out) return bad_input(held_out.error());
-  if (train->recordings.empty()) return bad_input({options.recordings.front(), "no recording that can be used", "one or more"});
+  if (train->recordings.empty())
+    return bad_input({options.recordings.front(), "no recording that can be used", "one or more"});
 
   std::vector<Recording> all = train->recordings;
   all.insert(all.end(), held_out->recordings.begin(), held_out->recordings.end());
@@ -110,11 +114,14 @@ int execute(const DiagnoseOptions& options) {
   make_names_differ(all, paths);
   const auto first_held_out = all.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
 
-  Result<Diagnosis> diagnosis = diagnose({all.begin(), first_held_out}, {first_held_out, all.end()}, *nominal, {}, terminal_progress("diagnosing"));
+  Result<Diagnosis> diagnosis = diagnose({all.begin(), first_held_out}, {first_held_out, all.end()}, *nominal, {},
+                                         terminal_progress("diagnosing"));
   if (!diagnosis) return bad_input(diagnosis.error());
   const FittedModel model = model_of(*diagnosis);
-  const auto& noise_floor = diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
-  const Result<ModelReplay> replayed = replay_model(all, calibrated_model_of(*diagnosis), model, noise_floor, terminal_progress("driving the simulator"));
+  const auto& noise_floor =
+      diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
+  const Result<ModelReplay> replayed = replay_model(all, calibrated_model_of(*diagnosis), model, noise_floor,
+                                                    terminal_progress("driving the simulator"));
   if (!replayed) return bad_input(replayed.error());
   diagnosis->simulation = replayed->fit;
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);
@@ -133,12 +140,17 @@ Command diagnose_command() {
   const auto options = std::make_shared<DiagnoseOptions>();
   Command command;
   command.name = "diagnose";
-  command.about = "Finds where recordings and the vehicle's model differ, names the physics that was left out, and proves it";
-  command.example = "odolab diagnose --vehicle labmate.toml run-1.csv run-2.csv run-3.csv --hold-out run-4.csv --html report.html --model fitted.toml";
+  command.about =
+      "Finds where recordings and the vehicle's model differ, names the physics that was left out, and proves it";
+  command.example =
+      "odolab diagnose --vehicle labmate.toml run-1.csv run-2.csv run-3.csv --hold-out run-4.csv --html report.html "
+      "--model fitted.toml";
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
-    arguments.files("RECORDING", options->recordings, "one run each, with outside truth; OdoLab's CSV or a format that import knows", true);
-    arguments.files("--hold-out", options->hold_out, "recordings that are looked at only to prove what was found on the others", false);
+    arguments.files("RECORDING", options->recordings,
+                    "one run each, with outside truth; OdoLab's CSV or a format that import knows", true);
+    arguments.files("--hold-out", options->hold_out,
+                    "recordings that are looked at only to prove what was found on the others", false);
     arguments.option("--json", options->json, "the diagnosis to write for scripts (JSON)");
     arguments.option("--model", options->model, "the fitted model to write, for predict --model (TOML)");
     arguments.option("--html", options->html, "the report with pictures to write, one page (HTML)");

@@ -20,7 +20,8 @@ Command gui_command() {
     arguments.option("--frames", options->frames, "how many frames to draw before the picture is taken");
     arguments.option("--width", options->width, "width of the window in pixels");
     arguments.option("--height", options->height, "height of the window in pixels");
-    arguments.option("--scale", options->scale, "size of text and controls, 1 for an ordinary screen; 0: the monitor's");
+    arguments.option("--scale", options->scale,
+                     "size of text and controls, 1 for an ordinary screen; 0: the monitor's");
     arguments.option("--mode", options->mode, "drive, calibrate or compare");
   };
   command.execute = [options] { return run_gui(*options); };
@@ -35,7 +36,9 @@ Command gui_command() {
   command.about = "Opens the window (this program was built without it)";
   command.example = "odolab gui";
   command.declare = [](Arguments&) {};
-  command.execute = [] { return bad_input({"odolab gui", "a program built without the window", "one built with ODOLAB_GUI=ON"}); };
+  command.execute = [] {
+    return bad_input({"odolab gui", "a program built without the window", "one built with ODOLAB_GUI=ON"});
+  };
   return command;
 }
 

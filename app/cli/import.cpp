@@ -20,7 +20,8 @@ int execute(const ImportOptions& options) {
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);
   std::string channels;
   for (const Channel& channel : recording.channels) channels += (channels.empty() ? "" : ", ") + channel.name;
-  std::printf("%s: %zu rows over %.1f s, %s\n", options.out.c_str(), recording.time_s.size(), recording.duration_s(), channels.c_str());
+  std::printf("%s: %zu rows over %.1f s, %s\n", options.out.c_str(), recording.time_s.size(), recording.duration_s(),
+              channels.c_str());
   return kDone;
 }
 

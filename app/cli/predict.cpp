@@ -31,10 +31,11 @@ int execute(const PredictOptions& options) {
   const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
-  std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(), track->back().time_s - track->front().time_s);
+  std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(),
+              track->back().time_s - track->front().time_s);
   if (const auto error = track_error(*track, truth_track(loaded->recording)))
-    std::printf("against the recorded truth: %.2f mm and %.3f degrees per metre, %.1f mm at the end\n", 1e3 * error->position_rms_m,
-                degrees(error->heading_rms_rad), 1e3 * error->end_position_m);
+    std::printf("against the recorded truth: %.2f mm and %.3f degrees per metre, %.1f mm at the end\n",
+                1e3 * error->position_rms_m, degrees(error->heading_rms_rad), 1e3 * error->end_position_m);
   return kDone;
 }
 

@@ -1,4 +1,5 @@
-// What a command says to the person at the terminal: results on standard output, messages and progress on standard error.
+// What a command says to the person at the terminal: results on standard output, messages and progress on standard
+// error.
 #pragma once
 
 #include <string>

@@ -9,8 +9,8 @@
 
 namespace odolab {
 
-int parallel_for(int count, const std::function<void(int, const std::atomic<bool>&)>& work, const std::function<void(int)>& done,
-                 const Progress& progress) {
+int parallel_for(int count, const std::function<void(int, const std::atomic<bool>&)>& work,
+                 const std::function<void(int)>& done, const Progress& progress) {
   if (count <= 0) return 0;
   std::mutex mutex;
   std::condition_variable changed;
@@ -33,8 +33,8 @@ int parallel_for(int count, const std::function<void(int, const std::atomic<bool
   while (in_order < count && !stopped) {
     {
       std::unique_lock<std::mutex> lock(mutex);
-      const bool ready =
-          changed.wait_for(lock, std::chrono::milliseconds(100), [&] { return finished[static_cast<std::size_t>(in_order)] != 0; });
+      const bool ready = changed.wait_for(lock, std::chrono::milliseconds(100),
+                                          [&] { return finished[static_cast<std::size_t>(in_order)] != 0; });
       if (!ready) {
         lock.unlock();
         if (!goes_on(progress, static_cast<double>(in_order) / count)) stopped = true;
@@ -49,8 +49,10 @@ int parallel_for(int count, const std::function<void(int, const std::atomic<bool
   return in_order;
 }
 
-int parallel_for(int count, const std::function<void(int)>& work, const std::function<void(int)>& done, const Progress& progress) {
-  return parallel_for(count, [&work](int i, const std::atomic<bool>&) { work(i); }, done, progress);
+int parallel_for(int count, const std::function<void(int)>& work, const std::function<void(int)>& done,
+                 const Progress& progress) {
+  return parallel_for(
+      count, [&work](int i, const std::atomic<bool>&) { work(i); }, done, progress);
 }
 
 }  // namespace odolab

@@ -12,7 +12,9 @@ std::uint64_t mixed(std::uint64_t value) {
   return value ^ (value >> 31);
 }
 
-std::uint64_t seed_of_stream(std::uint64_t seed, std::uint64_t stream) { return mixed(mixed(seed) ^ (stream * 0xd1342543de82ef95ULL + 1)); }
+std::uint64_t seed_of_stream(std::uint64_t seed, std::uint64_t stream) {
+  return mixed(mixed(seed) ^ (stream * 0xd1342543de82ef95ULL + 1));
+}
 
 double uniform_from_hash(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
 

@@ -19,9 +19,9 @@ class Random {
  public:
   explicit Random(std::uint64_t seed);
   std::uint64_t next();
-  double uniform();                          // [0, 1)
-  double uniform(double low, double high);   // [low, high)
-  double normal();                           // mean 0, standard deviation 1 (Box and Muller 1958)
+  double uniform();                         // [0, 1)
+  double uniform(double low, double high);  // [low, high)
+  double normal();                          // mean 0, standard deviation 1 (Box and Muller 1958)
 
  private:
   std::uint64_t state_[4];

@@ -15,7 +15,8 @@ struct Stretch {
 };
 
 WheelSample wheels_at(const std::vector<WheelSample>& wheels, double time_s) {
-  const auto after = std::lower_bound(wheels.begin(), wheels.end(), time_s, [](const WheelSample& w, double t) { return w.time_s < t; });
+  const auto after = std::lower_bound(wheels.begin(), wheels.end(), time_s,
+                                      [](const WheelSample& w, double t) { return w.time_s < t; });
   if (after == wheels.begin()) return wheels.front();
   if (after == wheels.end()) return wheels.back();
   const WheelSample &a = *(after - 1), &b = *after;
@@ -23,7 +24,8 @@ WheelSample wheels_at(const std::vector<WheelSample>& wheels, double time_s) {
   return {time_s, a.left_rad + u * (b.left_rad - a.left_rad), a.right_rad + u * (b.right_rad - a.right_rad)};
 }
 
-// Long enough that clocks apart by a tenth of a second matter little, short enough that a turn is not taken for another.
+// Long enough that clocks apart by a tenth of a second matter little, short enough that a turn is not taken for
+// another.
 constexpr double kShortest_s = 0.5, kLongest_s = 5.0;
 constexpr double kLargestTurn_rad = 1.2;
 
@@ -55,9 +57,10 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
   if (sizes.empty()) return stretches;
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   const double largest = 20.0 * sizes[sizes.size() / 2];
-  stretches.erase(std::remove_if(stretches.begin(), stretches.end(),
-                                 [&](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad) > largest; }),
-                  stretches.end());
+  stretches.erase(
+      std::remove_if(stretches.begin(), stretches.end(),
+                     [&](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad) > largest; }),
+      stretches.end());
   return stretches;
 }
 
@@ -68,7 +71,8 @@ double turning_ratio(const std::vector<InnovationRun>& runs, const DifferentialD
     std::size_t from = 0;
     for (std::size_t i = 1; i < run.truth.size(); ++i) {
       if (run.truth[i].time_s - run.truth[from].time_s < kShortest_s) continue;
-      if (run.truth[i].heading_rad && run.truth[from].heading_rad) truth_rad += std::abs(*run.truth[i].heading_rad - *run.truth[from].heading_rad);
+      if (run.truth[i].heading_rad && run.truth[from].heading_rad)
+        truth_rad += std::abs(*run.truth[i].heading_rad - *run.truth[from].heading_rad);
       from = i;
     }
     for (std::size_t i = 1; i < run.wheels.size(); ++i)
@@ -85,7 +89,7 @@ struct Plane {
   double left = 0.0, right = 0.0, explained = 0.0;
 };
 
-Plane fitted(const std::vector<Stretch>& stretches, double Stretch::* y) {
+Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
   Plane plane;
   std::vector<char> used(stretches.size(), 1);
   for (int round = 0; round < 3; ++round) {
@@ -156,17 +160,22 @@ FirstGuess first_guess(const std::vector<InnovationRun>& runs, const Differentia
 std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs) {
   std::vector<std::string> sentences;
   for (const InnovationRun& run : runs) {
-    for (double WheelSample::* wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
+    for (double WheelSample::*wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
       std::vector<double> steps;
-      for (std::size_t i = 1; i < run.wheels.size(); ++i) steps.push_back(std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
+      for (std::size_t i = 1; i < run.wheels.size(); ++i)
+        steps.push_back(std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
       if (steps.empty()) continue;
-      const std::size_t largest = static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
+      const std::size_t largest =
+          static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
       const double jump_rad = steps[largest];
       std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10), steps.end());
       if (jump_rad < 10.0 || jump_rad < 100.0 * steps[steps.size() * 9 / 10]) continue;
       char text[240];
-      std::snprintf(text, sizeof text, "%s: the %s wheel's reading jumps by %.4g rad at %.2f s: an encoder fault, or a counter that wraps (counter_bits)",
-                    run.name.c_str(), wheel == &WheelSample::left_rad ? "left" : "right", jump_rad, run.wheels[largest].time_s);
+      std::snprintf(text, sizeof text,
+                    "%s: the %s wheel's reading jumps by %.4g rad at %.2f s: an encoder fault, or a counter that wraps "
+                    "(counter_bits)",
+                    run.name.c_str(), wheel == &WheelSample::left_rad ? "left" : "right", jump_rad,
+                    run.wheels[largest].time_s);
       sentences.push_back(text);
     }
   }
@@ -179,28 +188,36 @@ std::string contradiction_in(const std::vector<InnovationRun>& runs, const Diffe
   const Planes p = planes_of(stretches_of(runs));
   const double turning = turning_ratio(runs, nominal);
   if (turning > 20.0) {
-    std::snprintf(text, sizeof text, "headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?", turning);
+    std::snprintf(text, sizeof text,
+                  "headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?", turning);
     return text;
   }
   if (!p.enough) return "";
   const double way_sum = p.way.left + p.way.right, turn_difference = p.turn.right - p.turn.left;
-  if (p.way.explained > kExplained && p.way.left > 0.0 && p.way.right > 0.0 && p.turn.explained > kExplained && turn_difference < 0.0)
-    return "wheels that turn the robot the other way than the truth: the left and the right wheel are exchanged, or headings run clockwise";
+  if (p.way.explained > kExplained && p.way.left > 0.0 && p.way.right > 0.0 && p.turn.explained > kExplained &&
+      turn_difference < 0.0)
+    return "wheels that turn the robot the other way than the truth: the left and the right wheel are exchanged, or "
+           "headings run clockwise";
   if (p.way.explained > kExplained && way_sum < 0.0)
-    return "wheels that roll backward while the truth goes forward: the sign of the wheels' rotation is wrong, or the truth's heading points backward";
+    return "wheels that roll backward while the truth goes forward: the sign of the wheels' rotation is wrong, or the "
+           "truth's heading points backward";
   // One reversed wheel: what should be the way is in the difference of the wheels.
-  if (p.way.explained > kExplained && p.way.left * p.way.right < 0.0 && std::abs(way_sum) < 0.3 * std::abs(p.way.left - p.way.right))
-    return "one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's rotation is wrong";
+  if (p.way.explained > kExplained && p.way.left * p.way.right < 0.0 &&
+      std::abs(way_sum) < 0.3 * std::abs(p.way.left - p.way.right))
+    return "one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's rotation "
+           "is wrong";
   const double radius_ratio = way_sum / (nominal.wheel_radius_left_m + nominal.wheel_radius_right_m) * 2.0;
   if (p.way.explained > kExplained && (radius_ratio > 5.0 || radius_ratio < 0.2)) {
     std::snprintf(text, sizeof text,
-                  "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per turn, or counts that "
+                  "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per "
+                  "turn, or counts that "
                   "are not cumulative",
                   radius_ratio);
     return text;
   }
   if (p.turn.explained < 0.3 && p.way.explained < 0.3)
-    return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are not cumulative, or "
+    return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are "
+           "not cumulative, or "
            "another robot's truth";
   if (p.way.explained > kExplained && p.turn.explained < 0.3)
     return "headings that do not follow the wheels, while the way does: headings in degrees?";

@@ -8,8 +8,8 @@
 
 namespace odolab {
 
-// By plain least squares over stretches of half a second to a few: the truth's turn against the rotation of both wheels,
-// and its way along the heading against the same. Rough, but it has one minimum and knows no start.
+// By plain least squares over stretches of half a second to a few: the truth's turn against the rotation of both
+// wheels, and its way along the heading against the same. Rough, but it has one minimum and knows no start.
 struct FirstGuess {
   DifferentialDrive drive;  // wheel radii and wheelbase; the nominal ones where nothing can be said
   bool trusted = false;     // most of the truth's motion is explained by it

@@ -1,4 +1,5 @@
-// A place and a heading in the plane: SE(2). Frames stand in the names: `floor_T_robot` maps the robot's frame to the floor's.
+// A place and a heading in the plane: SE(2). Frames stand in the names: `floor_T_robot` maps the robot's frame to the
+// floor's.
 #pragma once
 
 #include <cmath>
@@ -55,7 +56,8 @@ inline Pose between(const Pose& from, const Pose& to) {
 // `pose` moved by `distance_m` along an arc that turns by `turn_rad`, the chord taken at the middle heading.
 inline Pose advanced(const Pose& pose, double distance_m, double turn_rad) {
   const double middle = pose.heading_rad + 0.5 * turn_rad;
-  return {pose.x_m + distance_m * std::cos(middle), pose.y_m + distance_m * std::sin(middle), pose.heading_rad + turn_rad};
+  return {pose.x_m + distance_m * std::cos(middle), pose.y_m + distance_m * std::sin(middle),
+          pose.heading_rad + turn_rad};
 }
 
 }  // namespace odolab

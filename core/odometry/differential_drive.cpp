@@ -9,8 +9,8 @@ Track dead_reckoned(const std::vector<WheelSample>& wheels, const DifferentialDr
   Pose pose = start;
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     if (i > 0)
-      pose = dead_reckoned(pose, wheels[i].left_rad - wheels[i - 1].left_rad, wheels[i].right_rad - wheels[i - 1].right_rad,
-                           drive, rule);
+      pose = dead_reckoned(pose, wheels[i].left_rad - wheels[i - 1].left_rad,
+                           wheels[i].right_rad - wheels[i - 1].right_rad, drive, rule);
     track.push_back({wheels[i].time_s, pose});
   }
   return track;

@@ -16,14 +16,14 @@ enum class HeadingRule {
 // One step of dead reckoning from the rotation of both wheels since the last one.
 inline Pose dead_reckoned(const Pose& pose, double left_rad, double right_rad, const DifferentialDrive& drive,
                           HeadingRule rule = HeadingRule::middle) {
-  const double left_m = drive.wheel_radius_left_m * left_rad;     // Eqs. 2.1, 2.2
-  const double right_m = drive.wheel_radius_right_m * right_rad;  //
-  const double travel_m = 0.5 * (right_m + left_m);               // Eq. 2.3
-  const double turn_rad = (right_m - left_m) / drive.wheelbase_m; // Eq. 2.4
+  const double left_m = drive.wheel_radius_left_m * left_rad;      // Eqs. 2.1, 2.2
+  const double right_m = drive.wheel_radius_right_m * right_rad;   //
+  const double travel_m = 0.5 * (right_m + left_m);                // Eq. 2.3
+  const double turn_rad = (right_m - left_m) / drive.wheelbase_m;  // Eq. 2.4
   if (rule == HeadingRule::middle) return advanced(pose, travel_m, turn_rad);
-  const double heading_rad = pose.heading_rad + turn_rad;         // Eq. 2.5
-  return {pose.x_m + travel_m * std::cos(heading_rad),            // Eq. 2.6a
-          pose.y_m + travel_m * std::sin(heading_rad),            // Eq. 2.6b
+  const double heading_rad = pose.heading_rad + turn_rad;  // Eq. 2.5
+  return {pose.x_m + travel_m * std::cos(heading_rad),     // Eq. 2.6a
+          pose.y_m + travel_m * std::sin(heading_rad),     // Eq. 2.6b
           heading_rad};
 }
 

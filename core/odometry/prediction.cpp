@@ -9,7 +9,8 @@ namespace {
 // The track carried to where it passes through a pose at a time, whichever samples that falls between.
 Track through(const Track& track, double start_s, const Pose& start) {
   const std::optional<Pose> there = pose_at(track, start_s);
-  if (!there) {  // the truth begins before the wheels were read, or after: then the vehicle is taken to stand until then
+  if (!there) {  // the truth begins before the wheels were read, or after: then the vehicle is taken to stand until
+                 // then
     if (track.empty() || start_s > track.back().time_s) return {{start_s, start}};
     return through(track, track.front().time_s, start);
   }
@@ -27,7 +28,8 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   const std::vector<CommandSample> commands = command_samples(recording);
   if (wheels.empty() && commands.empty())
     return Error{recording.name, "no wheel rotation and no commands",
-                 "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks, or command_speed_mps and command_yaw_rate_radps"};
+                 "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks, or command_speed_mps and "
+                 "command_yaw_rate_radps"};
   Track axle = wheels.empty() ? dead_reckoned(commands, Pose{}) : dead_reckoned(wheels, *drive, Pose{});
 
   const Pose& mounting = vehicle.truth.axle_T_tracked;

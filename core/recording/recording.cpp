@@ -25,7 +25,8 @@ std::vector<double> unwrapped_counts(const std::vector<double>& raw, int counter
 
 // Whether a channel is there and holds anything.
 bool sampled(const Channel* channel) {
-  return channel && std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
+  return channel &&
+         std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
 }
 
 // Empty cells filled linearly between the neighbours that have a value; cells before the first and after the last stay.
@@ -53,7 +54,8 @@ const Channel* Recording::channel(std::string_view wanted) const {
 }
 
 Channel& Recording::add_channel(std::string channel_name) {
-  channels.push_back({std::move(channel_name), std::vector<double>(time_s.size(), std::numeric_limits<double>::quiet_NaN())});
+  channels.push_back(
+      {std::move(channel_name), std::vector<double>(time_s.size(), std::numeric_limits<double>::quiet_NaN())});
   return channels.back();
 }
 
@@ -61,11 +63,12 @@ std::vector<std::string> problems_in(const Recording& recording) {
   std::vector<std::string> problems;
   for (const Channel& c : recording.channels) {
     if (c.values.size() != recording.time_s.size())
-      problems.push_back(c.name + ": found " + std::to_string(c.values.size()) + " cells, expected one for each of the " +
-                         std::to_string(recording.time_s.size()) + " times");
+      problems.push_back(c.name + ": found " + std::to_string(c.values.size()) +
+                         " cells, expected one for each of the " + std::to_string(recording.time_s.size()) + " times");
     for (std::size_t i = 0; i < c.values.size(); ++i)
       if (std::isinf(c.values[i])) {
-        problems.push_back(c.name + ": found an infinite value in row " + std::to_string(i + 1) + ", expected a number");
+        problems.push_back(c.name + ": found an infinite value in row " + std::to_string(i + 1) +
+                           ", expected a number");
         break;
       }
   }
@@ -75,7 +78,8 @@ std::vector<std::string> problems_in(const Recording& recording) {
       break;
     }
     if (i > 0 && recording.time_s[i] < recording.time_s[i - 1]) {
-      problems.push_back("time_s: found time going back in row " + std::to_string(i + 1) + ", expected times that never decrease");
+      problems.push_back("time_s: found time going back in row " + std::to_string(i + 1) +
+                         ", expected times that never decrease");
       break;
     }
   }
@@ -84,10 +88,12 @@ std::vector<std::string> problems_in(const Recording& recording) {
 
 std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive) {
   std::vector<double> left, right;
-  if (const Channel *l = recording.channel("left_wheel_rad"), *r = recording.channel("right_wheel_rad"); sampled(l) && sampled(r)) {
+  if (const Channel* l = recording.channel("left_wheel_rad"), *r = recording.channel("right_wheel_rad");
+      sampled(l) && sampled(r)) {
     left = l->values;
     right = r->values;
-  } else if (const Channel *lt = recording.channel("left_ticks"), *rt = recording.channel("right_ticks"); sampled(lt) && sampled(rt)) {
+  } else if (const Channel* lt = recording.channel("left_ticks"), *rt = recording.channel("right_ticks");
+             sampled(lt) && sampled(rt)) {
     const double rad_per_count = 2.0 * kPi / drive.counts_per_wheel_turn();
     left = unwrapped_counts(lt->values, drive.counter_bits);
     right = unwrapped_counts(rt->values, drive.counter_bits);
@@ -102,7 +108,8 @@ std::vector<WheelSample> wheel_samples(const Recording& recording, const Differe
   fill_between(recording.time_s, right);
   std::vector<WheelSample> samples;
   for (std::size_t i = 0; i < left.size(); ++i)
-    if (read[i] && !std::isnan(left[i]) && !std::isnan(right[i])) samples.push_back({recording.time_s[i], left[i], right[i]});
+    if (read[i] && !std::isnan(left[i]) && !std::isnan(right[i]))
+      samples.push_back({recording.time_s[i], left[i], right[i]});
   return samples;
 }
 

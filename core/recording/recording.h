@@ -1,4 +1,5 @@
-// One run of a robot, real or simulated: what was read when, channel by channel. It is what every estimator starts from.
+// One run of a robot, real or simulated: what was read when, channel by channel. It is what every estimator starts
+// from.
 #pragma once
 
 #include <optional>

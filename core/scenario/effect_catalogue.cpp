@@ -26,7 +26,8 @@ std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) 
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
   return text;
 }
 
@@ -34,14 +35,16 @@ bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key, std::vector<std::string>& problems) {
+void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
+                      std::vector<std::string>& problems) {
   for (const auto& [name, value] : active.parameters) {
     const auto known = std::find_if(entry.parameters.begin(), entry.parameters.end(),
                                     [&, &wanted = name](const EffectParameter& p) { return p.name == wanted; });
     if (known == entry.parameters.end()) {
       std::vector<std::string> names;
       for (const EffectParameter& p : entry.parameters) names.push_back(p.name);
-      problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " + joined(names));
+      problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " +
+                         joined(names));
     } else if (!(value >= known->at_least && value <= known->at_most)) {
       char text[96];
       std::snprintf(text, sizeof text, ": found %g, expected %g to %g", value, known->at_least, known->at_most);
@@ -49,7 +52,8 @@ void check_parameters(const ActiveEffect& active, const EffectEntry& entry, cons
     }
   }
   for (const EffectParameter& p : entry.parameters) {
-    const bool given = std::any_of(active.parameters.begin(), active.parameters.end(), [&](const auto& g) { return g.first == p.name; });
+    const bool given = std::any_of(active.parameters.begin(), active.parameters.end(),
+                                   [&](const auto& g) { return g.first == p.name; });
     if (p.required && !given) problems.push_back(key + "." + p.name + ": found nothing, expected a number");
   }
 }
@@ -66,21 +70,33 @@ const std::vector<EffectEntry>& effect_catalogue() {
       {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}}},
       {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}}},
       {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}}},
-      {"payload_radius_change", kVehicleOrWheels, {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kFar, kFar, kRequired}}},
+      {"payload_radius_change",
+       kVehicleOrWheels,
+       {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kFar, kFar, kRequired}}},
       {"lateral_slip", kVehicleOrWheels, {{"m_per_s_per_mps2", -1.0, 1.0, kRequired}}},
       {"traction_slip", kVehicleOrAnyWheel, {{"per_mps2", -1.0, 1.0, kRequired}}},
       {"turn_scrub", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
       {"one_sided_drag", kVehicle, {{"rad_per_m", -1.0, 1.0, kRequired}}},
       {"bump",
        kWheels,
-       {{"extra_distance_m", 0.0, 0.04, kRequired}, {"x_m", -kFar, kFar, kRequired}, {"y_m", -kFar, kFar, kRequired}, {"radius_m", 1e-3, kFar}}},
+       {{"extra_distance_m", 0.0, 0.04, kRequired},
+        {"x_m", -kFar, kFar, kRequired},
+        {"y_m", -kFar, kFar, kRequired},
+        {"radius_m", 1e-3, kFar}}},
       {"slip_zone",
        {"floor", "vehicle", "both_wheels"},
-       {{"slip", 0.0, 1.0, kRequired}, {"x_m", -kFar, kFar, kRequired}, {"y_m", -kFar, kFar, kRequired}, {"radius_m", 1e-3, kFar, kRequired}}},
+       {{"slip", 0.0, 1.0, kRequired},
+        {"x_m", -kFar, kFar, kRequired},
+        {"y_m", -kFar, kFar, kRequired},
+        {"radius_m", 1e-3, kFar, kRequired}}},
       {"floor_slope_creep", {"floor", "vehicle"}, {{"direction_rad"}, {"creep_mps", -1.0, 1.0, kRequired}}},
       {"collision",
        kVehicle,
-       {{"dx_m", -1.0, 1.0}, {"dy_m", -1.0, 1.0}, {"dheading_rad", -4.0, 4.0}, {"at_s", -kFar, kFar, kRequired}, {"lasts_s", 0.01, 10.0}}},
+       {{"dx_m", -1.0, 1.0},
+        {"dy_m", -1.0, 1.0},
+        {"dheading_rad", -4.0, 4.0},
+        {"at_s", -kFar, kFar, kRequired},
+        {"lasts_s", 0.01, 10.0}}},
       {"turn_speed_loss", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
       {"clock_rate", {"vehicle", "both_wheels", "truth"}, {{"rate", -0.5, 0.5, kRequired}}},
       {"truth_frozen", kTruth, kWhen},

@@ -46,7 +46,9 @@ struct ShapeProblem {
     return r.height_m > 0.0 ? "" : sentence(key + ".height_m", r.height_m, "a length above 0 m");
   }
   std::string operator()(const Polygon& p) const {
-    return p.corners.size() >= 3 ? "" : sentence(key + ".corners", static_cast<double>(p.corners.size()), "three corners or more");
+    return p.corners.size() >= 3
+               ? ""
+               : sentence(key + ".corners", static_cast<double>(p.corners.size()), "three corners or more");
   }
 };
 
@@ -74,8 +76,10 @@ Shape moved(const Shape& shape, Vec2 by) {
 
 std::vector<std::string> problems_in(const Floor& floor) {
   std::vector<std::string> problems;
-  if (!(floor.friction >= 0.0)) problems.push_back(sentence("floor.friction", floor.friction, "a coefficient of 0 or more"));
-  if (!(std::abs(floor.tilt_rad) < 0.5)) problems.push_back(sentence("floor.tilt_rad", floor.tilt_rad, "an angle within 0.5 rad"));
+  if (!(floor.friction >= 0.0))
+    problems.push_back(sentence("floor.friction", floor.friction, "a coefficient of 0 or more"));
+  if (!(std::abs(floor.tilt_rad) < 0.5))
+    problems.push_back(sentence("floor.tilt_rad", floor.tilt_rad, "an angle within 0.5 rad"));
   if (!(floor.roughness.largest_height_m >= 0.0 && floor.roughness.largest_height_m < 0.02))
     problems.push_back(sentence("floor.roughness.largest_height_m", floor.roughness.largest_height_m, "0 to 0.02 m"));
   if (!(floor.roughness.spacing_m >= 0.001))
@@ -84,13 +88,16 @@ std::vector<std::string> problems_in(const Floor& floor) {
     const std::string key = "floor.bump[" + std::to_string(i + 1) + "]";
     if (!(floor.bumps[i].height_m >= 0.0 && floor.bumps[i].height_m <= 0.05))
       problems.push_back(sentence(key + ".height_m", floor.bumps[i].height_m, "0 to 0.05 m"));
-    if (!(floor.bumps[i].length_m > 0.0)) problems.push_back(sentence(key + ".length_m", floor.bumps[i].length_m, "a length above 0 m"));
+    if (!(floor.bumps[i].length_m > 0.0))
+      problems.push_back(sentence(key + ".length_m", floor.bumps[i].length_m, "a length above 0 m"));
   }
   for (std::size_t i = 0; i < floor.slip_zones.size(); ++i) {
     const std::string key = "floor.slip_zone[" + std::to_string(i + 1) + "]";
     const SlipZone& zone = floor.slip_zones[i];
-    if (zone.friction && !(*zone.friction >= 0.0)) problems.push_back(sentence(key + ".friction", *zone.friction, "a coefficient of 0 or more"));
-    if (!(zone.slip >= 0.0 && zone.slip <= 1.0)) problems.push_back(sentence(key + ".slip", zone.slip, "a share from 0 to 1"));
+    if (zone.friction && !(*zone.friction >= 0.0))
+      problems.push_back(sentence(key + ".friction", *zone.friction, "a coefficient of 0 or more"));
+    if (!(zone.slip >= 0.0 && zone.slip <= 1.0))
+      problems.push_back(sentence(key + ".slip", zone.slip, "a share from 0 to 1"));
     const std::string problem = std::visit(ShapeProblem{key}, zone.shape);
     if (!problem.empty()) problems.push_back(problem);
   }

@@ -10,18 +10,19 @@
 
 namespace odolab {
 
-// Which wheels a bump acts on. The inside wheel faces the inside of the square path: left when driven counter-clockwise.
+// Which wheels a bump acts on. The inside wheel faces the inside of the square path: left when driven
+// counter-clockwise.
 enum class Under { any_wheel, left_wheel, right_wheel, inside_wheel };
 
-// A straight cable on the floor, or something round that lies across every way. A wheel that climbs it turns further than
-// it travels.
+// A straight cable on the floor, or something round that lies across every way. A wheel that climbs it turns further
+// than it travels.
 struct Bump {
   Vec2 centre;
   double direction_rad = 0.5 * kPi;  // along the cable
   double length_m = 1.0;
-  double height_m = 0.010;           // the household cable of the extended UMBmark
+  double height_m = 0.010;  // the household cable of the extended UMBmark
   Under under = Under::any_wheel;
-  bool round = false;                // faces every wheel squarely, `length_m` wide; it has no direction
+  bool round = false;  // faces every wheel squarely, `length_m` wide; it has no direction
 };
 
 struct Disc {

@@ -29,13 +29,15 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand_positive("actual.wheel_radius_left_m", s.actual.wheel_radius_left_m, "m");
   demand_positive("actual.wheel_radius_right_m", s.actual.wheel_radius_right_m, "m");
   demand_positive("actual.wheelbase_m", s.actual.wheelbase_m, "m");
-  demand(std::abs(s.actual.toe_left_rad) < 0.5, "actual.toe_left_rad", s.actual.toe_left_rad, "an angle within 0.5 rad");
-  demand(std::abs(s.actual.toe_right_rad) < 0.5, "actual.toe_right_rad", s.actual.toe_right_rad, "an angle within 0.5 rad");
+  demand(std::abs(s.actual.toe_left_rad) < 0.5, "actual.toe_left_rad", s.actual.toe_left_rad,
+         "an angle within 0.5 rad");
+  demand(std::abs(s.actual.toe_right_rad) < 0.5, "actual.toe_right_rad", s.actual.toe_right_rad,
+         "an angle within 0.5 rad");
   demand(s.actual.mass_kg >= 0.01 && s.actual.mass_kg <= 1e5, "actual.mass_kg", s.actual.mass_kg, "0.01 to 1e5 kg");
-  demand(s.actual.moment_of_inertia_kgm2 >= 1e-6 && s.actual.moment_of_inertia_kgm2 <= 1e6, "actual.moment_of_inertia_kgm2",
-         s.actual.moment_of_inertia_kgm2, "1e-6 to 1e6 kg m2");
-  demand(s.actual.drive_wheel_load_share > 0.0 && s.actual.drive_wheel_load_share <= 1.0, "actual.drive_wheel_load_share",
-         s.actual.drive_wheel_load_share, "a share above 0, at most 1");
+  demand(s.actual.moment_of_inertia_kgm2 >= 1e-6 && s.actual.moment_of_inertia_kgm2 <= 1e6,
+         "actual.moment_of_inertia_kgm2", s.actual.moment_of_inertia_kgm2, "1e-6 to 1e6 kg m2");
+  demand(s.actual.drive_wheel_load_share > 0.0 && s.actual.drive_wheel_load_share <= 1.0,
+         "actual.drive_wheel_load_share", s.actual.drive_wheel_load_share, "a share above 0, at most 1");
   demand_positive("motor.wheel_inertia_kgm2", s.motor.wheel_inertia_kgm2, "kg m2");
   demand_positive("motor.torque_limit_nm", s.motor.torque_limit_nm, "N m");
   demand(s.motor.proportional_gain > 0.0, "motor.proportional_gain", s.motor.proportional_gain, "a gain above 0");
@@ -43,9 +45,10 @@ std::vector<std::string> problems_in(const Scenario& s) {
   for (const std::string& p : problems_in(s.floor)) problems.push_back(p);
   const double smallest_radius_m = std::min(s.actual.wheel_radius_left_m, s.actual.wheel_radius_right_m);
   for (const Bump& bump : s.floor.bumps)
-    demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m, "less than half a wheel's radius");
-  demand(s.floor.roughness.largest_height_m == 0.0 || s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m, "floor.roughness.largest_height_m",
-         s.floor.roughness.largest_height_m, "less than half a wheel's radius");
+    demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m,
+           "less than half a wheel's radius");
+  demand(s.floor.roughness.largest_height_m == 0.0 || s.floor.roughness.largest_height_m < 0.5 * smallest_radius_m,
+         "floor.roughness.largest_height_m", s.floor.roughness.largest_height_m, "less than half a wheel's radius");
   for (const std::string& p : problems_in(s.effects)) problems.push_back(p);
   for (std::size_t i = 0; i < s.effects.size(); ++i) {  // over half a wheel's radius: 2 (acos(1/2) - sqrt(3)/2) of it
     const double extra_m = s.effects[i].effect == "bump" ? s.effects[i].parameter("extra_distance_m") : 0.0;
@@ -57,13 +60,19 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
   demand_positive("driving.turn_acceleration_radps2", s.driving.turn_acceleration_radps2, "rad/s2");
   demand(s.step_s >= 1e-5 && s.step_s <= 0.02, "step_s", s.step_s, "1e-5 to 0.02 s");
-  demand(s.sensors.encoder_period_s >= s.step_s, "sensors.encoder_period_s", s.sensors.encoder_period_s, "no less than step_s");
-  demand(s.sensors.truth_period_s >= 0.0, "sensors.truth_period_s", s.sensors.truth_period_s, "0 (only start and end) or more");
-  demand(s.sensors.truth_position_noise_m >= 0.0, "sensors.truth_position_noise_m", s.sensors.truth_position_noise_m, "0 m or more");
-  demand(s.sensors.truth_heading_noise_rad >= 0.0, "sensors.truth_heading_noise_rad", s.sensors.truth_heading_noise_rad, "0 rad or more");
-  demand(s.sensors.record_encoders || s.sensors.record_commands, "sensors.record_encoders", 0.0, "true, or else record_commands = true");
+  demand(s.sensors.encoder_period_s >= s.step_s, "sensors.encoder_period_s", s.sensors.encoder_period_s,
+         "no less than step_s");
+  demand(s.sensors.truth_period_s >= 0.0, "sensors.truth_period_s", s.sensors.truth_period_s,
+         "0 (only start and end) or more");
+  demand(s.sensors.truth_position_noise_m >= 0.0, "sensors.truth_position_noise_m", s.sensors.truth_position_noise_m,
+         "0 m or more");
+  demand(s.sensors.truth_heading_noise_rad >= 0.0, "sensors.truth_heading_noise_rad", s.sensors.truth_heading_noise_rad,
+         "0 rad or more");
+  demand(s.sensors.record_encoders || s.sensors.record_commands, "sensors.record_encoders", 0.0,
+         "true, or else record_commands = true");
   if (const auto* square = std::get_if<SquarePath>(&s.path)) demand_positive("path.side_m", square->side_m, "m");
-  if (const auto* straight = std::get_if<StraightPath>(&s.path)) demand_positive("path.length_m", straight->length_m, "m");
+  if (const auto* straight = std::get_if<StraightPath>(&s.path))
+    demand_positive("path.length_m", straight->length_m, "m");
   if (const auto* eight = std::get_if<FigureEightPath>(&s.path)) {
     demand_positive("path.radius_m", eight->radius_m, "m");
     demand(eight->loops >= 1 && eight->loops <= 1000, "path.loops", eight->loops, "1 to 1000");
@@ -74,21 +83,26 @@ std::vector<std::string> problems_in(const Scenario& s) {
     demand(!wheel->phases.empty(), "path.phase", 0.0, "one phase or more");
     demand(wheel->ramp_s >= 0.0, "path.ramp_s", wheel->ramp_s, "0 s or more");
     for (const WheelSpeeds& phase : wheel->phases)
-      demand(phase.duration_s > 0.0 && phase.duration_s >= wheel->ramp_s && phase.duration_s <= kLongest_s, "path.phase.duration_s",
-             phase.duration_s, "a time above 0 s, no shorter than path.ramp_s and at most 1e5 s");
+      demand(phase.duration_s > 0.0 && phase.duration_s >= wheel->ramp_s && phase.duration_s <= kLongest_s,
+             "path.phase.duration_s", phase.duration_s,
+             "a time above 0 s, no shorter than path.ramp_s and at most 1e5 s");
   }
   if (const auto* hand = std::get_if<HandPath>(&s.path))
-    demand(hand->duration_s > 0.0 && hand->duration_s <= kLongest_s, "path.duration_s", hand->duration_s, "a time above 0, at most 1e5 s");
-  const double way_m = std::holds_alternative<SquarePath>(s.path)     ? 4.0 * std::get<SquarePath>(s.path).side_m
-                       : std::holds_alternative<StraightPath>(s.path) ? std::get<StraightPath>(s.path).length_m
-                       : std::holds_alternative<FigureEightPath>(s.path)
-                           ? 4.0 * kPi * std::get<FigureEightPath>(s.path).radius_m * std::get<FigureEightPath>(s.path).loops
-                           : 0.0;
-  demand(!(s.driving.speed_mps > 0.0) || way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps", s.driving.speed_mps, "a speed that ends the path within 1e5 s");
+    demand(hand->duration_s > 0.0 && hand->duration_s <= kLongest_s, "path.duration_s", hand->duration_s,
+           "a time above 0, at most 1e5 s");
+  const double way_m =
+      std::holds_alternative<SquarePath>(s.path)     ? 4.0 * std::get<SquarePath>(s.path).side_m
+      : std::holds_alternative<StraightPath>(s.path) ? std::get<StraightPath>(s.path).length_m
+      : std::holds_alternative<FigureEightPath>(s.path)
+          ? 4.0 * kPi * std::get<FigureEightPath>(s.path).radius_m * std::get<FigureEightPath>(s.path).loops
+          : 0.0;
+  demand(!(s.driving.speed_mps > 0.0) || way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps",
+         s.driving.speed_mps, "a speed that ends the path within 1e5 s");
   if (s.benchmark) {
     demand(s.benchmark->runs_each_way >= 1 && s.benchmark->runs_each_way <= 1000, "benchmark.runs_each_way",
            s.benchmark->runs_each_way, "1 to 1000");
-    demand(std::holds_alternative<SquarePath>(s.path), "benchmark", 1.0, "a square path, which UMBmark drives in both directions");
+    demand(std::holds_alternative<SquarePath>(s.path), "benchmark", 1.0,
+           "a square path, which UMBmark drives in both directions");
   }
   return problems;
 }

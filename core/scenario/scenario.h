@@ -18,30 +18,30 @@ struct ActualDrive {
   double wheel_radius_left_m = 0.075;
   double wheel_radius_right_m = 0.075;
   double wheelbase_m = 0.340;
-  double toe_left_rad = 0.0;   // misalignment: the wheel's rolling direction against straight ahead
+  double toe_left_rad = 0.0;  // misalignment: the wheel's rolling direction against straight ahead
   double toe_right_rad = 0.0;
   double mass_kg = 50.0;
-  double moment_of_inertia_kgm2 = 3.0;   // about the vertical axis through the axle's centre
-  double drive_wheel_load_share = 0.7;   // of the weight; the castors carry the rest
+  double moment_of_inertia_kgm2 = 3.0;  // about the vertical axis through the axle's centre
+  double drive_wheel_load_share = 0.7;  // of the weight; the castors carry the rest
 };
 
 // Speed-controlled motor of each drive wheel.
 struct Motor {
-  bool ideal = false;                 // true: the wheel turns exactly as told
-  double wheel_inertia_kgm2 = 0.02;   // wheel, gear and rotor, seen at the wheel
+  bool ideal = false;                // true: the wheel turns exactly as told
+  double wheel_inertia_kgm2 = 0.02;  // wheel, gear and rotor, seen at the wheel
   double torque_limit_nm = 8.0;
-  double proportional_gain = 4.0;     // N m per rad/s
-  double integral_gain = 40.0;        // N m per rad
+  double proportional_gain = 4.0;  // N m per rad/s
+  double integral_gain = 40.0;     // N m per rad
 };
 
 struct Sensors {
-  double encoder_period_s = 0.020;      // the encoders are read, and odometry and the driver run, this often
-  double truth_period_s = 0.010;        // 0: only at the start and the end of the run, as with a sonar corner
-  double truth_position_noise_m = 0.0;  // standard deviation
-  double truth_heading_noise_rad = 0.0; // standard deviation
-  bool truth_heading = true;            // false: the truth knows the position alone
-  bool record_encoders = true;          // false: the recording has no wheels, though the robot drives by them
-  bool record_commands = false;         // true: the recording has what the driver asked of the base
+  double encoder_period_s = 0.020;       // the encoders are read, and odometry and the driver run, this often
+  double truth_period_s = 0.010;         // 0: only at the start and the end of the run, as with a sonar corner
+  double truth_position_noise_m = 0.0;   // standard deviation
+  double truth_heading_noise_rad = 0.0;  // standard deviation
+  bool truth_heading = true;             // false: the truth knows the position alone
+  bool record_encoders = true;           // false: the recording has no wheels, though the robot drives by them
+  bool record_commands = false;          // true: the recording has what the driver asked of the base
 };
 
 // How fast the driver goes.
@@ -52,7 +52,8 @@ struct Driving {
   double turn_acceleration_radps2 = 1.0;
 };
 
-// Closed square with a stop and a turn on the spot at each corner, a fourth turn at the end (UMBmark report, section 3).
+// Closed square with a stop and a turn on the spot at each corner, a fourth turn at the end (UMBmark report, section
+// 3).
 struct SquarePath {
   double side_m = 4.0;
   bool clockwise = false;
@@ -89,7 +90,8 @@ struct ReplayPath {
   enum class By { wheels, commands } by = By::wheels;
 };
 
-using Path = std::variant<SquarePath, StraightPath, FigureEightPath, WaypointPath, WheelSpeedPath, HandPath, ReplayPath>;
+using Path =
+    std::variant<SquarePath, StraightPath, FigureEightPath, WaypointPath, WheelSpeedPath, HandPath, ReplayPath>;
 
 // UMBmark: the square path driven several times in each direction.
 struct Benchmark {
@@ -106,13 +108,14 @@ struct Expectation {
 
 struct Scenario {
   std::string name = "LabMate on its square";
-  std::string about;          // a sentence or two for the person who opens it
-  Vehicle vehicle;            // nominal: what odometry believes
-  std::string vehicle_file;   // where it came from, relative to the scenario's file; may be empty
+  std::string about;         // a sentence or two for the person who opens it
+  Vehicle vehicle;           // nominal: what odometry believes
+  std::string vehicle_file;  // where it came from, relative to the scenario's file; may be empty
   ActualDrive actual;
   Motor motor;
   Floor floor;
-  std::vector<ActiveEffect> effects;  // physics beyond the plain machine; core/scenario/effect_catalogue.h has the words
+  std::vector<ActiveEffect>
+      effects;  // physics beyond the plain machine; core/scenario/effect_catalogue.h has the words
   Pose start;
   Driving driving;
   Path path = SquarePath{};
@@ -126,8 +129,8 @@ struct Scenario {
 // All that is wrong with a scenario, each a sentence that starts with the key.
 std::vector<std::string> problems_in(const Scenario& scenario);
 
-// The actual drive of a machine that is just as its drawing says. A drawing knows no weight: mass and inertia are those of
-// a LabMate scaled to the wheelbase, as bodies of one shape and density are.
+// The actual drive of a machine that is just as its drawing says. A drawing knows no weight: mass and inertia are those
+// of a LabMate scaled to the wheelbase, as bodies of one shape and density are.
 ActualDrive as_drawn(const DifferentialDrive& nominal);
 
 }  // namespace odolab

@@ -28,7 +28,8 @@ std::vector<std::string> problems_in(const DifferentialDrive& drive) {
   demand_above_zero("encoder_counts_per_revolution", drive.encoder_counts_per_revolution, "a number of counts");
   demand_above_zero("gear_ratio", drive.gear_ratio, "a ratio");
   if (drive.counter_bits < 0 || drive.counter_bits > 62)
-    problems.push_back("counter_bits: found " + std::to_string(drive.counter_bits) + ", expected 0 (never wraps) to 62");
+    problems.push_back("counter_bits: found " + std::to_string(drive.counter_bits) +
+                       ", expected 0 (never wraps) to 62");
   return problems;
 }
 

@@ -7,17 +7,18 @@ namespace odolab {
 
 namespace {
 
-constexpr double kRest_s = 0.3;            // pause at a stop, so that the next leg starts from rest
+constexpr double kRest_s = 0.3;  // pause at a stop, so that the next leg starts from rest
 constexpr double kApproach_s = 0.15;
 // An offset from the leg is steered out over this way, or over what is driven in this time where that is longer.
 constexpr double kReturnLength_m = 0.25;
 constexpr double kReturnTime_s = 1.25;
-constexpr double kCurvatureHaste = 4.0;  // between two arcs the turn rate may change so many times faster than in a turn
-constexpr double kLineDone_m = 0.0005;     // a leg is done within this
+constexpr double kCurvatureHaste =
+    4.0;                                // between two arcs the turn rate may change so many times faster than in a turn
+constexpr double kLineDone_m = 0.0005;  // a leg is done within this
 constexpr double kTurnDone_rad = 0.0005;
 
-// The speed from which an even braking ends in exactly the remaining way, reached by even acceleration from the last. The
-// last stretch is approached with a time constant well above the motors', which would otherwise swing past the end.
+// The speed from which an even braking ends in exactly the remaining way, reached by even acceleration from the last.
+// The last stretch is approached with a time constant well above the motors', which would otherwise swing past the end.
 double eased(double remaining, double largest, double acceleration, double last, double period_s) {
   const double way = std::max(0.0, remaining);
   const double braking = std::sqrt(2.0 * acceleration * way);
@@ -59,7 +60,8 @@ BaseCommand PathFollower::along_line(const Leg& leg, const Pose& believed) {
   const double sign = leg.length_m < 0.0 ? -1.0 : 1.0;
   const double remaining_m = std::abs(leg.length_m) - sign * seen.x_m;
   if (arrived(remaining_m < kLineDone_m)) return {};
-  const double speed = sign * eased(remaining_m, driving_.speed_mps, driving_.acceleration_mps2, last_.speed_mps, period_s_);
+  const double speed =
+      sign * eased(remaining_m, driving_.speed_mps, driving_.acceleration_mps2, last_.speed_mps, period_s_);
   return {speed, steering(speed, seen.y_m, wrapped(seen.heading_rad))};
 }
 
@@ -68,8 +70,8 @@ BaseCommand PathFollower::turning(const Leg& leg, const Pose& believed) {
   const double turned_rad = believed.heading_rad - leg.from.heading_rad;  // headings are not wrapped
   const double remaining_rad = sign * (leg.turn_rad - turned_rad);
   if (arrived(remaining_rad < kTurnDone_rad)) return {};
-  return {0.0, sign * eased(remaining_rad, driving_.turn_rate_radps, driving_.turn_acceleration_radps2, last_.yaw_rate_radps,
-                            period_s_)};
+  return {0.0, sign * eased(remaining_rad, driving_.turn_rate_radps, driving_.turn_acceleration_radps2,
+                            last_.yaw_rate_radps, period_s_)};
 }
 
 BaseCommand PathFollower::around_arc(const Leg& leg, const Pose& believed) {
@@ -86,7 +88,8 @@ BaseCommand PathFollower::around_arc(const Leg& leg, const Pose& believed) {
     return last_;
   }
   if (arrived(remaining_m < kLineDone_m)) return {};
-  const double speed = eased(remaining_m + way_beyond_m(), driving_.speed_mps, driving_.acceleration_mps2, last_.speed_mps, period_s_);
+  const double speed =
+      eased(remaining_m + way_beyond_m(), driving_.speed_mps, driving_.acceleration_mps2, last_.speed_mps, period_s_);
   const double left_of_arc_m = radius_m > 0.0 ? radius_m - length(from_centre) : length(from_centre) + radius_m;
   const double tangent_rad = leg.from.heading_rad + turned_rad_;
   const double wanted = speed / radius_m + steering(speed, left_of_arc_m, wrapped(believed.heading_rad - tangent_rad));

@@ -13,8 +13,8 @@ struct BaseCommand {
   double yaw_rate_radps = 0.0;
 };
 
-// Knows only where the robot believes it is. Speeds up and slows down evenly, stops at the end of each leg that says so,
-// and steers the believed pose back onto the leg.
+// Knows only where the robot believes it is. Speeds up and slows down evenly, stops at the end of each leg that says
+// so, and steers the believed pose back onto the leg.
 class PathFollower {
  public:
   PathFollower(std::vector<Leg> route, const Driving& driving, double period_s);
@@ -36,8 +36,8 @@ class PathFollower {
   double period_s_;
   std::size_t leg_ = 0;
   BaseCommand last_;
-  double resting_s_ = 0.0;  // time at rest so far at the end of a leg
-  double turned_rad_ = 0.0; // on this arc, believed
+  double resting_s_ = 0.0;   // time at rest so far at the end of a leg
+  double turned_rad_ = 0.0;  // on this arc, believed
 };
 
 }  // namespace odolab

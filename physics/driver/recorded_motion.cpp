@@ -7,7 +7,8 @@ namespace {
 // Cubic Hermite interpolation over one interval of length h at u in [0, 1].
 double hermite(double a, double slope_a, double b, double slope_b, double h, double u) {
   const double u2 = u * u, u3 = u2 * u;
-  return (2.0 * u3 - 3.0 * u2 + 1.0) * a + (u3 - 2.0 * u2 + u) * h * slope_a + (3.0 * u2 - 2.0 * u3) * b + (u3 - u2) * h * slope_b;
+  return (2.0 * u3 - 3.0 * u2 + 1.0) * a + (u3 - 2.0 * u2 + u) * h * slope_a + (3.0 * u2 - 2.0 * u3) * b +
+         (u3 - u2) * h * slope_b;
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ WheelPair RecordedRotation::at(double time_s) {
   const WheelSample &a = samples_[segment_], &b = samples_[segment_ + 1];
   const WheelPair va = speeds_radps_[segment_], vb = speeds_radps_[segment_ + 1];
   const double h = b.time_s - a.time_s, u = (time_s - a.time_s) / h;
-  return {hermite(a.left_rad, va.left, b.left_rad, vb.left, h, u), hermite(a.right_rad, va.right, b.right_rad, vb.right, h, u)};
+  return {hermite(a.left_rad, va.left, b.left_rad, vb.left, h, u),
+          hermite(a.right_rad, va.right, b.right_rad, vb.right, h, u)};
 }
 
 WheelPair RecordedRotation::speed_at(double time_s) {

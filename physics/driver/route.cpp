@@ -80,7 +80,8 @@ double duration_of(const std::vector<Leg>& route, const Driving& driving) {
   double sum_s = 0.0;
   for (const Leg& leg : route)
     sum_s += leg.kind == Leg::Kind::turn
-                 ? std::abs(leg.turn_rad) / driving.turn_rate_radps + driving.turn_rate_radps / driving.turn_acceleration_radps2
+                 ? std::abs(leg.turn_rad) / driving.turn_rate_radps +
+                       driving.turn_rate_radps / driving.turn_acceleration_radps2
                  : std::abs(leg.length_m) / driving.speed_mps + driving.speed_mps / driving.acceleration_mps2;
   return sum_s + 0.3 * static_cast<double>(route.size());
 }

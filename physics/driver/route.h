@@ -9,10 +9,10 @@ namespace odolab {
 
 struct Leg {
   enum class Kind { line, turn, arc } kind = Kind::line;
-  Pose from;                  // where the leg begins, heading along the vehicle
-  double length_m = 0.0;      // line, arc: way to go; negative: in reverse
-  double turn_rad = 0.0;      // turn, arc: left positive
-  bool stops = true;          // comes to rest at its end; false: goes on into the next leg
+  Pose from;              // where the leg begins, heading along the vehicle
+  double length_m = 0.0;  // line, arc: way to go; negative: in reverse
+  double turn_rad = 0.0;  // turn, arc: left positive
+  bool stops = true;      // comes to rest at its end; false: goes on into the next leg
   Pose end() const;
 };
 

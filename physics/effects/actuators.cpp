@@ -27,7 +27,9 @@ class ActuatorLag final : public Effect {
 class ActuatorDelay final : public Effect {
  public:
   ActuatorDelay(double delay_s, double step_s)
-      : steps_(static_cast<std::size_t>(delay_s / step_s)), part_(delay_s / step_s - static_cast<double>(steps_)), past_(steps_ + 2) {}
+      : steps_(static_cast<std::size_t>(delay_s / step_s)),
+        part_(delay_s / step_s - static_cast<double>(steps_)),
+        past_(steps_ + 2) {}
 
   void command(WheelPair& set) override {
     past_.push_front(set);

@@ -20,7 +20,9 @@ double height_for(double radius_m, double extra_m) {
 class BumpOnTheFloor final : public Effect {
  public:
   BumpOnTheFloor(const ActiveEffect& a, const ActualDrive& actual) {
-    const Under under = a.component == "left_wheel" ? Under::left_wheel : a.component == "right_wheel" ? Under::right_wheel : Under::any_wheel;
+    const Under under = a.component == "left_wheel"    ? Under::left_wheel
+                        : a.component == "right_wheel" ? Under::right_wheel
+                                                       : Under::any_wheel;
     const double radius_m = under == Under::right_wheel ? actual.wheel_radius_right_m : actual.wheel_radius_left_m;
     bump_.centre = {a.parameter("x_m"), a.parameter("y_m")};
     bump_.length_m = 2.0 * a.parameter("radius_m", 0.1);

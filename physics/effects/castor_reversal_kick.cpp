@@ -7,7 +7,8 @@ namespace odolab::planar {
 
 namespace {
 
-constexpr double kReversed_m = 0.002;  // way back that counts as a reversal; less is the trembling of a turn on the spot
+constexpr double kReversed_m =
+    0.002;  // way back that counts as a reversal; less is the trembling of a turn on the spot
 
 class CastorReversalKick final : public Effect {
  public:

@@ -17,6 +17,8 @@ class ClockRate final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> clock_rate(const ActiveEffect& active, const Machine&) { return std::make_unique<ClockRate>(active); }
+std::unique_ptr<Effect> clock_rate(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<ClockRate>(active);
+}
 
 }  // namespace odolab::planar

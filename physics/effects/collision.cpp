@@ -16,7 +16,8 @@ class Collision final : public Effect {
         step_s_(step_s) {}
 
   void creep(const VehicleMotion& motion, Creep& creep) override {
-    // Share of the way at the step's end, a raised cosine over the push; its rise is the speed that the vehicle is given.
+    // Share of the way at the step's end, a raised cosine over the push; its rise is the speed that the vehicle is
+    // given.
     const double u = std::clamp((motion.time_s + 0.5 * step_s_ - at_s_) / lasts_s_, 0.0, 1.0);
     const double share = 0.5 * (1.0 - std::cos(kPi * u));
     const double rate = (share - share_) / step_s_, change = (rate - rate_) / step_s_;

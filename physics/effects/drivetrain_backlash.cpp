@@ -1,4 +1,5 @@
-// Play between the motor, where the encoder sits, and the wheel: after a reversal the wheel stands until the gap is crossed.
+// Play between the motor, where the encoder sits, and the wheel: after a reversal the wheel stands until the gap is
+// crossed.
 #include <algorithm>
 
 #include "physics/effects/effect.h"

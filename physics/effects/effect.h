@@ -1,4 +1,5 @@
-// What an effect can touch in the planar world, at the place where it really acts. README.md says what each effect does.
+// What an effect can touch in the planar world, at the place where it really acts. README.md says what each effect
+// does.
 #pragma once
 
 #include <memory>
@@ -21,11 +22,11 @@ namespace odolab::planar {
 
 // The vehicle in the middle of the coming step, as far as it is known before it.
 struct VehicleMotion {
-  double time_s = 0.0;         // of the run; in a replay on the recording's clock
+  double time_s = 0.0;  // of the run; in a replay on the recording's clock
   double since_start_s = 0.0;
   double heading_rad = 0.0;
-  double speed_mps = 0.0;      // of the axle's centre along the vehicle, in the step before
-  double yaw_rate_radps = 0.0; // in the step before
+  double speed_mps = 0.0;       // of the axle's centre along the vehicle, in the step before
+  double yaw_rate_radps = 0.0;  // in the step before
   // What the wheels of this step would give the vehicle if they rolled truly.
   double rolled_speed_mps = 0.0;
   double rolled_yaw_rate_radps = 0.0;
@@ -36,12 +37,12 @@ struct RollingWheel {
   Side side = Side::left;
   double rotation_rad = 0.0;  // at the middle of the step
   double speed_radps = 0.0;
-  double radius_m = 0.075;    // rolling; effects change it
-  double slip_mps = 0.0;      // effects add to it: the floor under the wheel moves by so much less than the wheel rolls
+  double radius_m = 0.075;  // rolling; effects change it
+  double slip_mps = 0.0;    // effects add to it: the floor under the wheel moves by so much less than the wheel rolls
 };
 
-// A motion of the whole vehicle that the wheels do not roll: it is added to what every tread does. Of the axle's centre, in
-// the vehicle's frame.
+// A motion of the whole vehicle that the wheels do not roll: it is added to what every tread does. Of the axle's
+// centre, in the vehicle's frame.
 struct Creep {
   Vec2 velocity_mps;
   double yaw_rate_radps = 0.0;
@@ -50,7 +51,8 @@ struct Creep {
   double push_radps2 = 0.0;
 };
 
-// An effect changes what it acts on and leaves the rest alone. Hooks are called once a step in the order of their listing.
+// An effect changes what it acts on and leaves the rest alone. Hooks are called once a step in the order of their
+// listing.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -64,7 +66,8 @@ class Effect {
   virtual void command(WheelPair& /*set_speed_radps*/) {}
   // From the motor, where the encoder sits, to the wheel: a turn in this step.
   virtual void gear(Side, double& /*turn_rad*/) {}
-  // What an encoder counts of a turn of its shaft at a speed; and for a replay, the speed behind the speed that it counted.
+  // What an encoder counts of a turn of its shaft at a speed; and for a replay, the speed behind the speed that it
+  // counted.
   virtual void count(Side, double /*speed_radps*/, double& /*turn_rad*/) {}
   virtual void uncount(Side, double& /*speed_radps*/) const {}
   virtual void roll(const VehicleMotion&, RollingWheel&) {}

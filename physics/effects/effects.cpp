@@ -4,7 +4,8 @@
 
 namespace odolab::planar {
 
-// Every effect: a file of its own defines the function that makes it. Words for scenarios: core/scenario/effect_catalogue.
+// Every effect: a file of its own defines the function that makes it. Words for scenarios:
+// core/scenario/effect_catalogue.
 #define ODOLAB_EACH_EFFECT(X) \
   X(wheel_eccentricity)       \
   X(encoder_missed_counts)    \
@@ -83,7 +84,8 @@ double Effects::robot_stamp_s(double begin_s, double since_start_s) const {
 
 double Effects::since_start_of_stamp_s(double begin_s, double stamp_s) const {
   double since_start_s = stamp_s - begin_s;
-  for (int k = 0; k < 60; ++k) since_start_s += stamp_s - robot_stamp_s(begin_s, since_start_s);  // a rate of 0.5 halves the rest
+  for (int k = 0; k < 60; ++k)
+    since_start_s += stamp_s - robot_stamp_s(begin_s, since_start_s);  // a rate of 0.5 halves the rest
   return since_start_s;
 }
 

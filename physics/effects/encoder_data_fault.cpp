@@ -8,7 +8,8 @@ namespace {
 
 class EncoderDataFault final : public Effect {
  public:
-  explicit EncoderDataFault(const ActiveEffect& a) : component_(a.component), faulty_(a, 0.2), backward_rad_(a.parameter("backward_rad")) {}
+  explicit EncoderDataFault(const ActiveEffect& a)
+      : component_(a.component), faulty_(a, 0.2), backward_rad_(a.parameter("backward_rad")) {}
 
   void read_encoder(Side side, double time_s, double& reading_rad) override {
     if (!acts_on(component_, side)) return;
@@ -28,6 +29,8 @@ class EncoderDataFault final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> encoder_data_fault(const ActiveEffect& active, const Machine&) { return std::make_unique<EncoderDataFault>(active); }
+std::unique_ptr<Effect> encoder_data_fault(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<EncoderDataFault>(active);
+}
 
 }  // namespace odolab::planar

@@ -1,5 +1,5 @@
-// Tyres hold a side force only by creeping sideways. As a damper between vehicle and floor, force = m / k * creep, the creep
-// settles with the time constant k itself; taken as an equation of its own it stays stable at any step.
+// Tyres hold a side force only by creeping sideways. As a damper between vehicle and floor, force = m / k * creep, the
+// creep settles with the time constant k itself; taken as an equation of its own it stays stable at any step.
 #include "physics/effects/effect.h"
 
 namespace odolab::planar {

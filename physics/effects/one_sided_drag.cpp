@@ -19,6 +19,8 @@ class OneSidedDrag final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> one_sided_drag(const ActiveEffect& active, const Machine&) { return std::make_unique<OneSidedDrag>(active); }
+std::unique_ptr<Effect> one_sided_drag(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<OneSidedDrag>(active);
+}
 
 }  // namespace odolab::planar

@@ -20,6 +20,8 @@ class RadiusDrift final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> radius_drift(const ActiveEffect& active, const Machine&) { return std::make_unique<RadiusDrift>(active); }
+std::unique_ptr<Effect> radius_drift(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<RadiusDrift>(active);
+}
 
 }  // namespace odolab::planar

@@ -20,6 +20,8 @@ class SlipZoneOnTheFloor final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> slip_zone(const ActiveEffect& active, const Machine&) { return std::make_unique<SlipZoneOnTheFloor>(active); }
+std::unique_ptr<Effect> slip_zone(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<SlipZoneOnTheFloor>(active);
+}
 
 }  // namespace odolab::planar

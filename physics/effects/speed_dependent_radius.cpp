@@ -10,7 +10,8 @@ class SpeedDependentRadius final : public Effect {
   explicit SpeedDependentRadius(const ActiveEffect& a) : component_(a.component), per_mps_(a.parameter("per_mps")) {}
 
   void roll(const VehicleMotion&, RollingWheel& wheel) override {
-    if (acts_on(component_, wheel.side)) wheel.radius_m *= 1.0 + per_mps_ * std::abs(wheel.speed_radps) * wheel.radius_m;
+    if (acts_on(component_, wheel.side))
+      wheel.radius_m *= 1.0 + per_mps_ * std::abs(wheel.speed_radps) * wheel.radius_m;
   }
 
  private:

@@ -11,7 +11,9 @@ namespace odolab::planar {
 class Stretches {
  public:
   Stretches(const ActiveEffect& a, double lasts_otherwise_s)
-      : every_s_(a.parameter("every_s")), at_s_(a.parameter("at_s", every_s_)), lasts_s_(a.parameter("lasts_s", lasts_otherwise_s)) {}
+      : every_s_(a.parameter("every_s")),
+        at_s_(a.parameter("at_s", every_s_)),
+        lasts_s_(a.parameter("lasts_s", lasts_otherwise_s)) {}
 
   bool hold(double time_s) const {
     const double since_s = time_s - at_s_;

@@ -10,7 +10,10 @@ constexpr double kRelaxation_s = 0.03;  // the slip of a tyre builds up over som
 class TractionSlip final : public Effect {
  public:
   TractionSlip(const ActiveEffect& a, double step_s)
-      : component_(a.component), per_mps2_(a.parameter("per_mps2")), step_s_(step_s), share_(1.0 - std::exp(-step_s / kRelaxation_s)) {}
+      : component_(a.component),
+        per_mps2_(a.parameter("per_mps2")),
+        step_s_(step_s),
+        share_(1.0 - std::exp(-step_s / kRelaxation_s)) {}
 
   void roll(const VehicleMotion&, RollingWheel& wheel) override {
     if (!acts_on(component_, wheel.side)) return;

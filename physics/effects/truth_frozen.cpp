@@ -26,6 +26,8 @@ class TruthFrozen final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> truth_frozen(const ActiveEffect& active, const Machine&) { return std::make_unique<TruthFrozen>(active); }
+std::unique_ptr<Effect> truth_frozen(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<TruthFrozen>(active);
+}
 
 }  // namespace odolab::planar

@@ -20,6 +20,8 @@ class TurnScrub final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> turn_scrub(const ActiveEffect& active, const Machine&) { return std::make_unique<TurnScrub>(active); }
+std::unique_ptr<Effect> turn_scrub(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<TurnScrub>(active);
+}
 
 }  // namespace odolab::planar

@@ -19,6 +19,8 @@ class TurnSpeedLoss final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> turn_speed_loss(const ActiveEffect& active, const Machine&) { return std::make_unique<TurnSpeedLoss>(active); }
+std::unique_ptr<Effect> turn_speed_loss(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<TurnSpeedLoss>(active);
+}
 
 }  // namespace odolab::planar

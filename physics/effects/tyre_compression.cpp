@@ -7,10 +7,12 @@ namespace {
 
 class TyreCompression final : public Effect {
  public:
-  explicit TyreCompression(const ActiveEffect& a) : component_(a.component), change_m_per_mps2_(a.parameter("radius_change_m_per_mps2")) {}
+  explicit TyreCompression(const ActiveEffect& a)
+      : component_(a.component), change_m_per_mps2_(a.parameter("radius_change_m_per_mps2")) {}
 
   void roll(const VehicleMotion& motion, RollingWheel& wheel) override {
-    const double lateral_mps2 = motion.speed_mps * motion.yaw_rate_radps;  // to the left: then the right wheel is outside
+    const double lateral_mps2 =
+        motion.speed_mps * motion.yaw_rate_radps;  // to the left: then the right wheel is outside
     const bool outside = lateral_mps2 > 0.0 ? wheel.side == Side::right : wheel.side == Side::left;
     if (outside && acts_on(component_, wheel.side)) wheel.radius_m -= change_m_per_mps2_ * std::abs(lateral_mps2);
   }
@@ -22,6 +24,8 @@ class TyreCompression final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> tyre_compression(const ActiveEffect& active, const Machine&) { return std::make_unique<TyreCompression>(active); }
+std::unique_ptr<Effect> tyre_compression(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<TyreCompression>(active);
+}
 
 }  // namespace odolab::planar

@@ -20,6 +20,8 @@ class WheelToe final : public Effect {
 
 }  // namespace
 
-std::unique_ptr<Effect> wheel_toe(const ActiveEffect& active, const Machine&) { return std::make_unique<WheelToe>(active); }
+std::unique_ptr<Effect> wheel_toe(const ActiveEffect& active, const Machine&) {
+  return std::make_unique<WheelToe>(active);
+}
 
 }  // namespace odolab::planar

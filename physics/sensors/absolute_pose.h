@@ -7,8 +7,8 @@
 namespace odolab {
 
 struct AbsolutePoseSensor {
-  double position_noise_m = 0.002;                // standard deviation in x and in y
-  double heading_noise_rad = radians(0.4);        // standard deviation
+  double position_noise_m = 0.002;          // standard deviation in x and in y
+  double heading_noise_rad = radians(0.4);  // standard deviation
 
   Pose measure(const Pose& true_pose, Random& random) const {
     const double x = random.normal(), y = random.normal(), heading = random.normal();  // drawn in this order everywhere

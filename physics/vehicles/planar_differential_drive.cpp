@@ -6,8 +6,8 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 }
 
-PlanarDifferentialDrive::PlanarDifferentialDrive(const ActualDrive& a, const Motor& motor, const Pose& start, double step_s,
-                                                 const planar::Effects& effects)
+PlanarDifferentialDrive::PlanarDifferentialDrive(const ActualDrive& a, const Motor& motor, const Pose& start,
+                                                 double step_s, const planar::Effects& effects)
     : world_(step_s),
       step_s_(step_s),
       mass_kg_(a.mass_kg),
@@ -15,13 +15,15 @@ PlanarDifferentialDrive::PlanarDifferentialDrive(const ActualDrive& a, const Mot
       moment_of_inertia_kgm2_(a.moment_of_inertia_kgm2),
       wheelbase_m_(a.wheelbase_m),
       body_(world_.add_body({start, a.mass_kg, a.moment_of_inertia_kgm2})),
-      wheels_{Wheel{WheelDrive(motor, a.wheel_radius_left_m, 0.5 * a.mass_kg * a.wheel_radius_left_m * a.wheel_radius_left_m),
+      wheels_{Wheel{WheelDrive(motor, a.wheel_radius_left_m,
+                               0.5 * a.mass_kg * a.wheel_radius_left_m * a.wheel_radius_left_m),
                     Side::left,
                     {0.0, 0.5 * a.wheelbase_m},
                     a.wheel_radius_left_m,
                     a.toe_left_rad,
                     {std::cos(a.toe_left_rad), std::sin(a.toe_left_rad)}},
-              Wheel{WheelDrive(motor, a.wheel_radius_right_m, 0.5 * a.mass_kg * a.wheel_radius_right_m * a.wheel_radius_right_m),
+              Wheel{WheelDrive(motor, a.wheel_radius_right_m,
+                               0.5 * a.mass_kg * a.wheel_radius_right_m * a.wheel_radius_right_m),
                     Side::right,
                     {0.0, -0.5 * a.wheelbase_m},
                     a.wheel_radius_right_m,
@@ -92,7 +94,8 @@ void PlanarDifferentialDrive::roll(const Ground& ground, const Floor& floor) {
                              centre.y_m + s * wheel.place.x_m + c * wheel.place.y_m};
     const Contact contact =
         ground.under({wheel.side, contact_place, heading_rad + wheel.toe_rad, wheel.radius_m, wheel.travelled_m});
-    const double tread_mps = wheel.rolling_radius_m * wheel.mean_speed_radps * contact.horizontal_share * (1.0 - contact.slip);
+    const double tread_mps =
+        wheel.rolling_radius_m * wheel.mean_speed_radps * contact.horizontal_share * (1.0 - contact.slip);
     wheel.travelled_m += tread_mps * step_s_;
     wheel.tread_mps = tread_mps;
     wheel.grip_n = contact.friction * wheel_load_n_ * std::cos(floor.tilt_rad);
@@ -104,7 +107,8 @@ void PlanarDifferentialDrive::roll(const Ground& ground, const Floor& floor) {
   if (!plain) creep_with_effects(heading_rad);
   if (floor.tilt_rad != 0.0) {
     const double pull_n = mass_kg_ * kGravity_mps2 * std::sin(floor.tilt_rad);
-    world_.apply_force(body_, {pull_n * std::cos(floor.downhill_direction_rad), pull_n * std::sin(floor.downhill_direction_rad)});
+    world_.apply_force(
+        body_, {pull_n * std::cos(floor.downhill_direction_rad), pull_n * std::sin(floor.downhill_direction_rad)});
   }
   world_.step();
 
@@ -158,7 +162,8 @@ void PlanarDifferentialDrive::creep_with_effects(double heading_rad) {
     const Vec2 rolling = (wheel.tread_mps - wheel.slip_in_effect_mps) * wheel.rolling_direction;
     world_.set_tread(wheel.tread, rolling + creep.velocity_mps + turning, wheel.grip_n);
   }
-  world_.apply_force(body_, mass_kg_ * rotated(creep.push_mps2, heading_rad), moment_of_inertia_kgm2_ * creep.push_radps2);
+  world_.apply_force(body_, mass_kg_ * rotated(creep.push_mps2, heading_rad),
+                     moment_of_inertia_kgm2_ * creep.push_radps2);
 }
 
 }  // namespace odolab

@@ -14,11 +14,11 @@ namespace odolab {
 
 // What one wheel does in a step.
 struct WheelState {
-  double rotation_rad = 0.0;        // true, since the start
-  double counted_rad = 0.0;         // by an encoder of endless resolution: the same, but for effects between the two
+  double rotation_rad = 0.0;  // true, since the start
+  double counted_rad = 0.0;   // by an encoder of endless resolution: the same, but for effects between the two
   double speed_radps = 0.0;
-  double slip_speed_mps = 0.0;      // tread against floor, along the wheel
-  double traction_n = 0.0;          // force of the floor on the wheel, along it
+  double slip_speed_mps = 0.0;  // tread against floor, along the wheel
+  double traction_n = 0.0;      // force of the floor on the wheel, along it
   bool on_bump = false;
   bool in_slip_zone = false;
 };
@@ -50,15 +50,15 @@ class PlanarDifferentialDrive {
   struct Wheel {
     WheelDrive drive;
     Side side;
-    Vec2 place;              // in the body's frame
+    Vec2 place;  // in the body's frame
     double radius_m;
     double toe_rad;
     Vec2 rolling_direction;  // in the body's frame
     int tread = 0;
     double travelled_m = 0.0;
-    double mean_speed_radps = 0.0;   // of the wheel, over the step
+    double mean_speed_radps = 0.0;  // of the wheel, over the step
     double rolling_radius_m = radius_m;
-    double tread_mps = 0.0;          // along the wheel
+    double tread_mps = 0.0;  // along the wheel
     double slip_in_effect_mps = 0.0;
     double grip_n = 0.0;
     WheelState state{};

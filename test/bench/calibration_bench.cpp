@@ -28,7 +28,8 @@ void CalibrateEightMinutesAt60Hz(benchmark::State& state) {
   double rows = 0.0;
   for (const Recording& r : recordings) rows += static_cast<double>(r.time_s.size());
   double wheelbase_m = 0.0;
-  for (auto _ : state) wheelbase_m = std::get<DifferentialDrive>(calibrate_least_squares(recordings, Vehicle{})->vehicle.kind).wheelbase_m;
+  for (auto _ : state)
+    wheelbase_m = std::get<DifferentialDrive>(calibrate_least_squares(recordings, Vehicle{})->vehicle.kind).wheelbase_m;
   state.counters["rows"] = rows;
   state.counters["wheelbase_mm"] = 1e3 * wheelbase_m;
 }

@@ -1,5 +1,5 @@
-// How fast and how true the planar physics is. Counters: times_real_time = simulated per real second; the others are the
-// errors that the tests hold against their bars.
+// How fast and how true the planar physics is. Counters: times_real_time = simulated per real second; the others are
+// the errors that the tests hold against their bars.
 #include <benchmark/benchmark.h>
 #include <box2d/box2d.h>
 
@@ -42,7 +42,8 @@ void LabMateOnItsSquare(benchmark::State& state) {
   Scenario scenario;
   if (state.range(0) >= 1) scenario.floor.roughness.largest_height_m = 0.001;
   if (state.range(0) >= 2)
-    for (int i = 1; i <= 10; ++i) scenario.floor.bumps.push_back({{0.36 * i, 0.0}, 0.5 * kPi, 1.5, 0.010, Under::inside_wheel});
+    for (int i = 1; i <= 10; ++i)
+      scenario.floor.bumps.push_back({{0.36 * i, 0.0}, 0.5 * kPi, 1.5, 0.010, Under::inside_wheel});
   double simulated_s = 0.0;
   for (auto _ : state) {
     Simulation simulation(scenario, 1);
@@ -50,7 +51,9 @@ void LabMateOnItsSquare(benchmark::State& state) {
     simulated_s += simulation.state().time_s;
   }
   state.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
-  state.SetLabel(state.range(0) == 0 ? "smooth floor" : state.range(0) == 1 ? "rough floor" : "rough floor, ten cables");
+  state.SetLabel(state.range(0) == 0   ? "smooth floor"
+                 : state.range(0) == 1 ? "rough floor"
+                                       : "rough floor, ten cables");
 }
 BENCHMARK(LabMateOnItsSquare)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 

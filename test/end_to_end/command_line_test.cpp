@@ -17,7 +17,8 @@ void expect_refused(const std::string& arguments, const std::vector<std::string>
   const Outcome outcome = odolab(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  for (const std::string& word : words) EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
   EXPECT_EQ(outcome.output, "") << arguments;
   EXPECT_TRUE(folder.empty() || !fs::exists(folder)) << "half-written output";
 }
@@ -28,7 +29,8 @@ TEST(CommandLine, EveryScenarioMeetsItsExpectations) {
   const fs::path folder = fresh_folder("scenarios");
   for (const auto& entry : fs::directory_iterator(ODOLAB_SOURCE_DIR "/assets/scenarios")) {
     const std::string text = text_of_file(entry.path());
-    if (text.find("shared/recordings") != std::string::npos && !fs::exists(ODOLAB_SOURCE_DIR "/../shared/recordings/optiodom")) {
+    if (text.find("shared/recordings") != std::string::npos &&
+        !fs::exists(ODOLAB_SOURCE_DIR "/../shared/recordings/optiodom")) {
       std::printf("  %s needs ../shared/recordings, which is not here\n", entry.path().filename().c_str());
       continue;
     }
@@ -46,31 +48,38 @@ TEST(CommandLine, FailedExpectationExitsWithOne) {
   text.replace(text.find("../vehicles"), 2, ODOLAB_SOURCE_DIR "/assets");
   text.replace(text.find("at_most = 0.006"), 15, "at_most = 1e-9");
   write(folder / "strict.toml", text);
-  EXPECT_EQ(odolab("run " + (folder / "strict.toml").string() + " --check --out " + (folder / "out").string()).exit_code, 1);
+  EXPECT_EQ(
+      odolab("run " + (folder / "strict.toml").string() + " --check --out " + (folder / "out").string()).exit_code, 1);
   EXPECT_EQ(odolab("run " + (folder / "strict.toml").string() + " --out " + (folder / "out").string()).exit_code, 0);
 }
 
 TEST(CommandLine, CalibratesWhatItSimulated) {
   const fs::path folder = fresh_folder("calibrate");
   // A figure-eight of a robot whose wheelbase is 5 mm wider and whose left wheel is 0.2 mm larger than drawn.
-  write(folder / "eight.toml", "name = \"eight\"\nvehicle = \"" ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml\"\n"
-                               "[actual]\nwheelbase_m = 0.345\nwheel_radius_left_m = 0.0752\n"
-                               "[path]\nkind = \"figure_eight\"\nradius_m = 0.8\nloops = 1\n"
-                               "[sensors]\ntruth_period_s = 0.02\ntruth_position_noise_m = 0.001\ntruth_heading_noise_rad = 0.002\n");
+  write(folder / "eight.toml",
+        "name = \"eight\"\nvehicle = \"" ODOLAB_SOURCE_DIR
+        "/assets/vehicles/labmate.toml\"\n"
+        "[actual]\nwheelbase_m = 0.345\nwheel_radius_left_m = 0.0752\n"
+        "[path]\nkind = \"figure_eight\"\nradius_m = 0.8\nloops = 1\n"
+        "[sensors]\ntruth_period_s = 0.02\ntruth_position_noise_m = 0.001\ntruth_heading_noise_rad = 0.002\n");
   for (const char* seed : {"1", "2"})
-    ASSERT_EQ(odolab("run " + (folder / "eight.toml").string() + " --seed " + seed + " --out " + (folder / seed).string()).exit_code, 0);
+    ASSERT_EQ(
+        odolab("run " + (folder / "eight.toml").string() + " --seed " + seed + " --out " + (folder / seed).string())
+            .exit_code,
+        0);
   const std::string recordings = (folder / "1/recording.csv").string() + " " + (folder / "2/recording.csv").string();
-  const Outcome fitted = odolab("calibrate --vehicle " + kLabMate + " " + recordings + " --out " + (folder / "fitted.toml").string());
+  const Outcome fitted =
+      odolab("calibrate --vehicle " + kLabMate + " " + recordings + " --out " + (folder / "fitted.toml").string());
   ASSERT_EQ(fitted.exit_code, 0) << fitted.errors;
   const auto value_of = [&](const std::string& key) {
     const std::string text = text_of_file(folder / "fitted.toml");
     return std::stod(text.substr(text.find(key + " = ") + key.size() + 3));
   };
-  EXPECT_NEAR(value_of("wheelbase_m"), 0.345, 5e-4);              // ten times what 1 mm of truth noise leaves over 10 m
+  EXPECT_NEAR(value_of("wheelbase_m"), 0.345, 5e-4);  // ten times what 1 mm of truth noise leaves over 10 m
   EXPECT_NEAR(value_of("wheel_radius_left_m"), 0.0752, 3e-5);
   EXPECT_NEAR(value_of("wheel_radius_right_m"), 0.075, 3e-5);
-  const Outcome predicted = odolab("predict --vehicle " + (folder / "fitted.toml").string() + " " + (folder / "2/recording.csv").string() +
-                                   " --out " + (folder / "track.csv").string());
+  const Outcome predicted = odolab("predict --vehicle " + (folder / "fitted.toml").string() + " " +
+                                   (folder / "2/recording.csv").string() + " --out " + (folder / "track.csv").string());
   EXPECT_EQ(predicted.exit_code, 0) << predicted.errors;
   EXPECT_EQ(text_of_file(folder / "track.csv").substr(0, 27), "time_s,x_m,y_m,heading_rad\n");
 }
@@ -79,8 +88,10 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   const fs::path folder = fresh_folder("bad_input");
   const auto path = [&](const char* name) { return (folder / name).string(); };
   write(folder / "no_column.csv", "time_s,left_wheel_rad\n0,0\n1,1\n");
-  write(folder / "no_number.csv", "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n1,abc,1,0,0\n");
-  write(folder / "back.csv", "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n2,1,1,0,0\n1,1,1,0,0\n");
+  write(folder / "no_number.csv",
+        "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n1,abc,1,0,0\n");
+  write(folder / "back.csv",
+        "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n2,1,1,0,0\n1,1,1,0,0\n");
   write(folder / "cut.csv", "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n1,1,1");
   const std::string predict = "predict --vehicle " + kLabMate + " --out " + path("track.csv") + " ";
   expect_refused(predict + path("no_column.csv"), {"no_column.csv", "right_wheel_rad"}, folder / "track.csv");
@@ -97,11 +108,14 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   write(folder / "misspelt.toml", misspelt);
   write(folder / "cut.toml", vehicle.substr(0, vehicle.size() - 10) + " =");
   const std::string calibrate = "calibrate " + path("back.csv") + " --out " + path("v.toml") + " --vehicle ";
-  expect_refused(calibrate + path("zero.toml"), {"zero.toml:7", "wheel_radius_right_m", "found 0", "above 0"}, folder / "v.toml");
-  expect_refused(calibrate + path("misspelt.toml"), {"misspelt.toml:8", "wheelbase_mm", "nearest", "wheelbase_m"}, folder / "v.toml");
+  expect_refused(calibrate + path("zero.toml"), {"zero.toml:7", "wheel_radius_right_m", "found 0", "above 0"},
+                 folder / "v.toml");
+  expect_refused(calibrate + path("misspelt.toml"), {"misspelt.toml:8", "wheelbase_mm", "nearest", "wheelbase_m"},
+                 folder / "v.toml");
   expect_refused(calibrate + path("cut.toml"), {"cut.toml:"}, folder / "v.toml");
 
-  write(folder / "key.toml", "name = \"x\"\nvehicle = \"" ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml\"\n[flor]\nfriction = 0.5\n");
+  write(folder / "key.toml",
+        "name = \"x\"\nvehicle = \"" ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml\"\n[flor]\nfriction = 0.5\n");
   expect_refused("run " + path("key.toml") + " --out " + path("run"), {"key.toml:3", "flor", "floor"}, folder / "run");
   expect_refused("run " + path("nothing.toml") + " --out " + path("run"), {"nothing.toml"}, folder / "run");
   expect_refused("run x.toml --no-such-option", {"--no-such-option"});

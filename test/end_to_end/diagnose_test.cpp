@@ -13,12 +13,13 @@ namespace fs = std::filesystem;
 
 const std::string kVehicle = "--vehicle assets/vehicles/labmate.toml ";
 
-// Two figure-eights of a LabMate whose left wheel is out of round and whose wheelbase is 3 mm wider than drawn, driven once
-// for all tests.
+// Two figure-eights of a LabMate whose left wheel is out of round and whose wheelbase is 3 mm wider than drawn, driven
+// once for all tests.
 const fs::path& eights() {
   static const fs::path folder = [] {
     const fs::path made = fresh_folder("diagnose_eights_" + std::to_string(::getpid()));
-    std::ofstream(made / "eight.toml") << "name = \"eight\"\nvehicle = \"" ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml\"\n"
+    std::ofstream(made / "eight.toml") << "name = \"eight\"\nvehicle = \"" ODOLAB_SOURCE_DIR
+                                          "/assets/vehicles/labmate.toml\"\n"
                                           "[actual]\nwheelbase_m = 0.343\n"
                                           "[[effect]]\neffect = \"wheel_eccentricity\"\ncomponent = \"left_wheel\"\n"
                                           "amplitude = 0.01\nphase_rad = 1.2\n"
@@ -41,7 +42,8 @@ void expect_refused(const std::string& arguments, const std::vector<std::string>
   const Outcome outcome = odolab(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
   EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  for (const std::string& word : words) EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
   EXPECT_EQ(outcome.output, "") << arguments;
   EXPECT_TRUE(fs::is_empty(folder)) << "half-written output";
 }
@@ -56,9 +58,10 @@ double predicted_mm(const std::string& arguments, const fs::path& track) {
 
 TEST(DiagnoseCommand, WritesJsonModelAndReport) {
   const fs::path folder = fresh_folder("diagnose_writes");
-  const std::string json_file = (folder / "d.json").string(), model = (folder / "m.toml").string(), html = (folder / "d.html").string();
-  const Outcome outcome = odolab("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_2.csv") + "--json " + json_file +
-                                 " --model " + model + " --html " + html);
+  const std::string json_file = (folder / "d.json").string(), model = (folder / "m.toml").string(),
+                    html = (folder / "d.html").string();
+  const Outcome outcome = odolab("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_2.csv") +
+                                 "--json " + json_file + " --model " + model + " --html " + html);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_LE(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 25) << outcome.output;
   EXPECT_EQ(outcome.errors.find('\r'), std::string::npos) << "progress in a pipe";
@@ -74,14 +77,18 @@ TEST(DiagnoseCommand, WritesJsonModelAndReport) {
   for (const char* part : {"train", "held_out"})
     for (const char* step : {"nominal", "calibrated", "with_findings", "noise_floor"})
       EXPECT_TRUE(json["fit"][part][step]["position_rms_m"].is_number()) << part << " " << step;
-  // once-per-turn errors are of the heading first: the wheel's way errs by 0.75 mm to both sides, over 0.34 m of wheelbase
-  EXPECT_LT(json["fit"]["held_out"]["with_findings"]["heading_rms_rad"], json["fit"]["held_out"]["calibrated"]["heading_rms_rad"]);
+  // once-per-turn errors are of the heading first: the wheel's way errs by 0.75 mm to both sides, over 0.34 m of
+  // wheelbase
+  EXPECT_LT(json["fit"]["held_out"]["with_findings"]["heading_rms_rad"],
+            json["fit"]["held_out"]["calibrated"]["heading_rms_rad"]);
   EXPECT_LT(json["simulation"]["after"]["heading_rms_rad"], json["simulation"]["before"]["heading_rms_rad"]);
-  EXPECT_NE(text_of_file(html).find("<h1>What the model lacks: wheel eccentricity of the left wheel"), std::string::npos);
+  EXPECT_NE(text_of_file(html).find("<h1>What the model lacks: wheel eccentricity of the left wheel"),
+            std::string::npos);
 
   // the model predicts the run it was not fitted on as well as the diagnosis says
   const double held_out_mm = 1e3 * json["fit"]["held_out"]["with_findings"]["position_rms_m"].get<double>();
-  const double with_model_mm = predicted_mm(kVehicle + "--model " + model + " " + eight("run_2.csv"), folder / "with.csv");
+  const double with_model_mm =
+      predicted_mm(kVehicle + "--model " + model + " " + eight("run_2.csv"), folder / "with.csv");
   const double nominal_mm = predicted_mm(kVehicle + eight("run_2.csv"), folder / "without.csv");
   EXPECT_NEAR(with_model_mm, held_out_mm, 0.02);  // printed to a hundredth
   EXPECT_LT(with_model_mm, nominal_mm);
@@ -96,13 +103,16 @@ TEST(DiagnoseCommand, SaysTheSameTwice) {
 
 TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
   const fs::path folder = fresh_folder("diagnose_broken"), out = fresh_folder("diagnose_broken_out");
-  std::ofstream(folder / "broken.csv") << "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n1,zero,0,0,0\n";
+  std::ofstream(folder / "broken.csv")
+      << "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m\n0,0,0,0,0\n1,zero,0,0,0\n";
   std::ofstream(folder / "no_truth.csv") << "time_s,left_wheel_rad,right_wheel_rad\n0,0,0\n1,1,1\n2,2,2\n";
-  const std::string broken = (folder / "broken.csv").string() + " ", no_truth = (folder / "no_truth.csv").string() + " ";
+  const std::string broken = (folder / "broken.csv").string() + " ",
+                    no_truth = (folder / "no_truth.csv").string() + " ";
   const std::string json = "--json " + (out / "d.json").string();
   expect_refused("diagnose " + kVehicle + eight("run_1.csv") + broken + json, {"broken.csv:3"}, out);
   expect_refused("diagnose " + kVehicle + eight("run_1.csv") + no_truth + json, {"no_truth.csv", "truth"}, out);
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + (folder / "absent.csv").string() + " " + json, {"absent.csv"}, out);
+  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + (folder / "absent.csv").string() + " " + json,
+                 {"absent.csv"}, out);
   const Outcome outcome = odolab("diagnose --skip-broken " + kVehicle + eight("run_1.csv") + broken + no_truth + json);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.errors.find("broken.csv:3"), std::string::npos) << outcome.errors;
@@ -113,7 +123,8 @@ TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
 TEST(DiagnoseCommand, RefusesWhatProvesNothing) {
   const fs::path out = fresh_folder("diagnose_refuses");
   const std::string json = "--json " + (out / "d.json").string();
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_1.csv") + json, {"run_1.csv", "hold out"}, out);
+  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_1.csv") + json,
+                 {"run_1.csv", "hold out"}, out);
   expect_refused("diagnose " + kVehicle + json, {"RECORDING"}, out);
   const Outcome nothing_left = odolab("diagnose --skip-broken " + kVehicle + "/absent.csv " + json);
   EXPECT_EQ(nothing_left.exit_code, 2);
@@ -123,10 +134,12 @@ TEST(DiagnoseCommand, RefusesWhatProvesNothing) {
 
 TEST(DiagnoseCommand, RefusesABrokenModel) {
   const fs::path folder = fresh_folder("diagnose_model"), out = fresh_folder("diagnose_model_out");
-  std::ofstream(folder / "m.toml") << "schema = \"odolab.model/1\"\n[vehicle]\nkind = \"differential_drive\"\nwheels = 2\n"
-                                      "[vehicle.differential_drive]\nwheel_radius_left_m = 0.075\nwheel_radius_right_m = 0.075\n"
-                                      "wheelbase_m = 0.34\n";
-  expect_refused("predict " + kVehicle + "--model " + (folder / "m.toml").string() + " " + eight("run_1.csv") + "--out " + (out / "t.csv").string(),
+  std::ofstream(folder / "m.toml")
+      << "schema = \"odolab.model/1\"\n[vehicle]\nkind = \"differential_drive\"\nwheels = 2\n"
+         "[vehicle.differential_drive]\nwheel_radius_left_m = 0.075\nwheel_radius_right_m = 0.075\n"
+         "wheelbase_m = 0.34\n";
+  expect_refused("predict " + kVehicle + "--model " + (folder / "m.toml").string() + " " + eight("run_1.csv") +
+                     "--out " + (out / "t.csv").string(),
                  {"m.toml:4", "wheels"}, out);
 }
 

@@ -35,12 +35,13 @@ inline std::filesystem::path fresh_folder(const std::string& name) {
 // `arguments` as a shell would read them; the program starts in the project's folder.
 inline Outcome odolab(const std::string& arguments) {
   static int count = 0;
-  const std::filesystem::path log =
-      std::filesystem::temp_directory_path() / ("odolab_log_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
-  const std::string command = "cd '" ODOLAB_SOURCE_DIR "' && '" ODOLAB_PROGRAM "' " + arguments + " >'" + log.string() + ".out' 2>'" +
-                              log.string() + ".err' </dev/null";
+  const std::filesystem::path log = std::filesystem::temp_directory_path() /
+                                    ("odolab_log_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+  const std::string command = "cd '" ODOLAB_SOURCE_DIR "' && '" ODOLAB_PROGRAM "' " + arguments + " >'" + log.string() +
+                              ".out' 2>'" + log.string() + ".err' </dev/null";
   const int status = std::system(command.c_str());
-  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(log.string() + ".out"), text_of_file(log.string() + ".err")};
+  Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(log.string() + ".out"),
+                  text_of_file(log.string() + ".err")};
   std::filesystem::remove(log.string() + ".out");
   std::filesystem::remove(log.string() + ".err");
   return outcome;

@@ -68,9 +68,10 @@ TEST(UmbmarkBenchmark, CalibratesEightLabMatesTenfoldAsInTableThree) {
     const double before_m = stages.front().measure.largest_systematic_error_m;
     EXPECT_GT(before_m / after.largest_systematic_error_m, 10.0);
     spread_sum += after.spread_m;
-    std::printf("  %.0f mm before; after %zu compensation(s) %.0f mm in five runs each way, %.0f mm in twenty: %.1f-fold\n", 1e3 * before_m,
-                stages.size() - 1, 1e3 * stages.back().measure.largest_systematic_error_m, 1e3 * after.largest_systematic_error_m,
-                before_m / after.largest_systematic_error_m);
+    std::printf(
+        "  %.0f mm before; after %zu compensation(s) %.0f mm in five runs each way, %.0f mm in twenty: %.1f-fold\n",
+        1e3 * before_m, stages.size() - 1, 1e3 * stages.back().measure.largest_systematic_error_m,
+        1e3 * after.largest_systematic_error_m, before_m / after.largest_systematic_error_m);
   }
   EXPECT_NEAR(spread_sum / 8.0, 0.025, 0.005);  // "about 25 mm"
 }
@@ -79,17 +80,18 @@ TEST(UmbmarkBenchmark, CalibratesEightLabMatesTenfoldAsInTableThree) {
 TEST(UmbmarkBenchmark, FindsBothErrorsWhereOneDirectionHidesThem) {
   const double wheelbase_ratio = 1.01;
   const double alpha = 0.5 * kPi * (1.0 - 1.0 / wheelbase_ratio);
-  const double curvature = alpha / kSide_m;  // beta = alpha: hidden counter-clockwise, where x and y go with alpha - beta
+  const double curvature =
+      alpha / kSide_m;  // beta = alpha: hidden counter-clockwise, where x and y go with alpha - beta
   const double diameter_ratio = (1.0 + 0.5 * curvature * kBase_m) / (1.0 - 0.5 * curvature * kBase_m);
   Scenario robot = labmate_on_squares(diameter_ratio, wheelbase_ratio);
   robot.floor.roughness = {};
   const UmbmarkRuns runs = run_umbmark(robot, 7);
   const UmbmarkMeasure measure = *measure_umbmark(runs);
-  EXPECT_LT(measure.counter_clockwise.distance_m, 0.010);                                // nothing to see that way
+  EXPECT_LT(measure.counter_clockwise.distance_m, 0.010);                                   // nothing to see that way
   EXPECT_NEAR(measure.clockwise.distance_m, std::sqrt(2.0) * 4.0 * kSide_m * alpha, 0.02);  // 352 mm the other way
   const UmbmarkCalibration found = *calibrate_umbmark(runs, std::get<DifferentialDrive>(robot.vehicle.kind));
-  EXPECT_NEAR(found.wheelbase_ratio, wheelbase_ratio, 3e-4);       // 2 mm of sonar over 8 L: 0.02 degrees in 90
-  EXPECT_NEAR(found.wheel_diameter_ratio, diameter_ratio, 3e-5);   // the same angle over 4 m of side, times 340 mm
+  EXPECT_NEAR(found.wheelbase_ratio, wheelbase_ratio, 3e-4);      // 2 mm of sonar over 8 L: 0.02 degrees in 90
+  EXPECT_NEAR(found.wheel_diameter_ratio, diameter_ratio, 3e-5);  // the same angle over 4 m of side, times 340 mm
   EXPECT_NEAR(found.corrected.wheelbase_m, kBase_m * wheelbase_ratio, 1e-4);
 }
 
@@ -98,7 +100,8 @@ TEST(UmbmarkBenchmark, GivesTheSameRunsForAnyNumberOfThreadsAndStopsWhenTold) {
   robot.path = SquarePath{0.5, false};
   robot.benchmark->runs_each_way = 2;
   std::vector<int> order;
-  const UmbmarkRuns all = run_umbmark(robot, 3, [&](const BenchmarkRun& run) { order.push_back(run.clockwise ? run.number : -run.number); });
+  const UmbmarkRuns all = run_umbmark(
+      robot, 3, [&](const BenchmarkRun& run) { order.push_back(run.clockwise ? run.number : -run.number); });
   EXPECT_EQ(order, (std::vector<int>{1, -1, 2, -2}));
   const UmbmarkRuns again = run_umbmark(robot, 3);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(all.clockwise[i].x_m, again.clockwise[i].x_m);

@@ -79,7 +79,8 @@ TEST(PlanarWorld, ABodyWithoutGripKeepsItsVelocityWhileItSpins) {
   EXPECT_NEAR(world.velocity_mps(body).y_m, 0.0, 1e-6);
   EXPECT_NEAR(world.pose(body).heading_rad, 15.0, 1e-5);
   EXPECT_NEAR(world.pose(body).x_m, 5.0, 1e-5);
-  EXPECT_NEAR(world.pose(body).y_m, 0.0, 2e-3);  // the one step in which the spin begins bends the way by up to h/2 of it
+  EXPECT_NEAR(world.pose(body).y_m, 0.0,
+              2e-3);  // the one step in which the spin begins bends the way by up to h/2 of it
 }
 
 TEST(PlanarWorld, CurvesNeedTheCentripetalForce) {
@@ -104,7 +105,8 @@ TEST(PlanarWorld, ASlidingTruckIsBrakedByCoulombFriction) {
   } while (truck.world.velocity_mps(truck.body).x_m > 1e-6 && steps < 100000);
   const double deceleration = 2.0 * kGrip_n / 50.0;
   EXPECT_NEAR(steps * h, 2.0 / deceleration, 2.0 * h);
-  EXPECT_NEAR(truck.world.pose(truck.body).x_m, 2.0 * 2.0 / (2.0 * deceleration), 2.0 * h);  // v^2 / 2a, a step's travel
+  EXPECT_NEAR(truck.world.pose(truck.body).x_m, 2.0 * 2.0 / (2.0 * deceleration),
+              2.0 * h);  // v^2 / 2a, a step's travel
 }
 
 }  // namespace

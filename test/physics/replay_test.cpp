@@ -35,7 +35,8 @@ TEST(Replay, SimulatedVehicleFollowsARecordingOfItsOwnKind) {
   EXPECT_LT(same->simulated_error->heading_rms_rad, 1e-3);
 
   const Result<Replay> as_drawn = replay(replay_scenario(scenario.vehicle, *recording), recording);
-  // Eq. 2.4: a wheelbase 345/340 too small turns 1.5 % too far; windows turn by a radian or drive a metre on 0.8 m radius.
+  // Eq. 2.4: a wheelbase 345/340 too small turns 1.5 % too far; windows turn by a radian or drive a metre on 0.8 m
+  // radius.
   EXPECT_NEAR(as_drawn->simulated_error->heading_rms_rad, 0.0147, 0.002);
 }
 
@@ -49,7 +50,11 @@ TEST(Replay, BeginsInMotionWithoutFalseSlip) {
     x.push_back(0.02 * k);
     zero.push_back(0.0);
   }
-  recording.channels = {{"left_wheel_rad", wheel}, {"right_wheel_rad", wheel}, {"truth_x_m", x}, {"truth_y_m", zero}, {"truth_heading_rad", zero}};
+  recording.channels = {{"left_wheel_rad", wheel},
+                        {"right_wheel_rad", wheel},
+                        {"truth_x_m", x},
+                        {"truth_y_m", zero},
+                        {"truth_heading_rad", zero}};
   const auto shared = std::make_shared<const Recording>(recording);
   const Result<Replay> result = replay(replay_scenario(Vehicle{}, recording), shared);
   ASSERT_TRUE(result);
@@ -91,7 +96,8 @@ TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
 
 TEST(Replay, RealSquareIsFollowedToWithinAFewCentimetres) {
   const std::string file = recordings_folder() + "/optiodom/square/231220200029/231220200029_run-01.csv";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real recordings are not beside the project (../shared/recordings)";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "the real recordings are not beside the project (../shared/recordings)";
   const Result<ImportedRecording> loaded = load_recording(file);
   ASSERT_TRUE(loaded) << loaded.error().message();
   const auto recording = std::make_shared<const Recording>(loaded->recording);

@@ -12,7 +12,8 @@ namespace {
 
 // How far the believed pose is from the true one, over time.
 std::string gap_picture(const Track& believed, const Track& exact) {
-  DrawnLine position{"position gap [mm]", {}, {}, Look::estimate}, heading{"heading gap [0.1 degrees]", {}, {}, Look::second};
+  DrawnLine position{"position gap [mm]", {}, {}, Look::estimate},
+      heading{"heading gap [0.1 degrees]", {}, {}, Look::second};
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const Pose gap = between(exact[i].pose, believed[i].pose);
     position.x.push_back(exact[i].time_s);
@@ -53,16 +54,21 @@ Result<RunOutputs> drive_outputs(const Scenario& scenario, std::uint64_t seed, c
   out.figure("end_x_m", end.x_m);
   out.figure("end_y_m", end.y_m);
   out.figure("end_heading_rad", end.heading_rad);
-  if (!simulation.state().finished) out.sentences.push_back("The robot did not arrive: it was given up after three times the planned time.");
+  if (!simulation.state().finished)
+    out.sentences.push_back("The robot did not arrive: it was given up after three times the planned time.");
   const auto whole = track_error(believed, exact);
-  out.sentences.push_back(text_of("The robot drove %.2f m in %.1f s. In the end it is %.1f mm and %.2f degrees from where it believes to be; on "
-                                  "the way it was up to %.1f mm.",
-                                  travelled_m(exact), simulation.state().time_s, 1e3 * length(gap.position()),
-                                  degrees(std::abs(wrapped(gap.heading_rad))), whole ? 1e3 * whole->largest_position_m : 0.0));
+  out.sentences.push_back(text_of(
+      "The robot drove %.2f m in %.1f s. In the end it is %.1f mm and %.2f degrees from where it believes to be; on "
+      "the way it was up to %.1f mm.",
+      travelled_m(exact), simulation.state().time_s, 1e3 * length(gap.position()),
+      degrees(std::abs(wrapped(gap.heading_rad))), whole ? 1e3 * whole->largest_position_m : 0.0));
   out.recordings.emplace_back("recording", simulation.recording());
   out.tracks.emplace_back("true_track", exact);
   out.tracks.emplace_back("estimated_track", believed);
-  out.pictures.emplace_back("tracks", track_picture({scenario.name, {{"true track", exact, Look::truth}, {"dead reckoning", believed, Look::estimate}}, scenario.floor}));
+  out.pictures.emplace_back(
+      "tracks", track_picture({scenario.name,
+                               {{"true track", exact, Look::truth}, {"dead reckoning", believed, Look::estimate}},
+                               scenario.floor}));
   out.pictures.emplace_back("gap", gap_picture(believed, exact));
   return out;
 }

@@ -8,8 +8,8 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
-#include "core/io/report_html.h"
 #include "core/geometry/track.h"
+#include "core/io/report_html.h"
 #include "core/io/summary_json.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"

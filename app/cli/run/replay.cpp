@@ -21,12 +21,14 @@ DrawnLine distance_line(const std::string& label, const Track& track, const Trac
   return line;
 }
 
-void add_error(RunOutputs& out, const std::string& who, const std::string& words, const std::optional<TrackError>& error, bool headings) {
+void add_error(RunOutputs& out, const std::string& who, const std::string& words,
+               const std::optional<TrackError>& error, bool headings) {
   if (!error) return;
   if (!headings) {
     out.figure(who + "_end_position_error_m", error->end_position_m);
     out.figure(who + "_largest_position_error_m", error->largest_position_m);
-    out.sentences.push_back(text_of("%s: %.1f mm off at the end, %.1f mm at most.", words.c_str(), 1e3 * error->end_position_m, 1e3 * error->largest_position_m));
+    out.sentences.push_back(text_of("%s: %.1f mm off at the end, %.1f mm at most.", words.c_str(),
+                                    1e3 * error->end_position_m, 1e3 * error->largest_position_m));
     return;
   }
   out.figure(who + "_position_rms_m", error->position_rms_m);
@@ -34,14 +36,16 @@ void add_error(RunOutputs& out, const std::string& who, const std::string& words
   out.figure(who + "_end_position_error_m", error->end_position_m);
   out.figure(who + "_end_heading_error_rad", std::abs(error->end_heading_rad));
   out.figure(who + "_largest_position_error_m", error->largest_position_m);
-  out.sentences.push_back(text_of("%s: %.2f mm and %.3f degrees off over each metre or radian; %.1f mm at the end, %.1f mm at most.",
-                                  words.c_str(), 1e3 * error->position_rms_m, degrees(error->heading_rms_rad),
-                                  1e3 * error->end_position_m, 1e3 * error->largest_position_m));
+  out.sentences.push_back(
+      text_of("%s: %.2f mm and %.3f degrees off over each metre or radian; %.1f mm at the end, %.1f mm at most.",
+              words.c_str(), 1e3 * error->position_rms_m, degrees(error->heading_rms_rad), 1e3 * error->end_position_m,
+              1e3 * error->largest_position_m));
 }
 
 }  // namespace
 
-Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& scenario_path, const Progress& progress) {
+Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& scenario_path,
+                                  const Progress& progress) {
   const std::string file = beside(scenario_path, std::get<ReplayPath>(scenario.path).recording);
   Result<ImportedRecording> loaded = load_recording(file);
   if (!loaded) return loaded.error();
@@ -54,10 +58,13 @@ Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& s
   RunOutputs out;
   out.figure("duration_s", recording->duration_s());
   out.figure("distance_m", travelled_m(replayed->simulated));
-  add_error(out, "simulated", "The simulated vehicle, driven by the recording", replayed->simulated_error, replayed->truth_has_headings);
-  add_error(out, "dead_reckoned", "Dead reckoning with the vehicle file", replayed->dead_reckoned_error, replayed->truth_has_headings);
+  add_error(out, "simulated", "The simulated vehicle, driven by the recording", replayed->simulated_error,
+            replayed->truth_has_headings);
+  add_error(out, "dead_reckoned", "Dead reckoning with the vehicle file", replayed->dead_reckoned_error,
+            replayed->truth_has_headings);
   if (!replayed->truth_has_headings)
-    out.sentences.push_back("The truth has no headings: the heading of the start was found by laying the first metres onto it.");
+    out.sentences.push_back(
+        "The truth has no headings: the heading of the start was found by laying the first metres onto it.");
   out.details["recording"] = recording->name;
   out.details["provenance"] = recording->provenance;
   out.tracks.emplace_back("simulated_track", replayed->simulated);
@@ -68,9 +75,13 @@ Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& s
                                                       {"simulated vehicle", replayed->simulated, Look::estimate},
                                                       {"dead reckoning", replayed->dead_reckoned, Look::second}},
                                                      scenario.floor}));
-  out.pictures.emplace_back("distance", line_picture({"Distance from the recorded truth", "time [s]", "distance [mm]",
-                                                      {distance_line("simulated vehicle", replayed->simulated, replayed->truth, Look::estimate),
-                                                       distance_line("dead reckoning", replayed->dead_reckoned, replayed->truth, Look::second)}}));
+  out.pictures.emplace_back(
+      "distance",
+      line_picture({"Distance from the recorded truth",
+                    "time [s]",
+                    "distance [mm]",
+                    {distance_line("simulated vehicle", replayed->simulated, replayed->truth, Look::estimate),
+                     distance_line("dead reckoning", replayed->dead_reckoned, replayed->truth, Look::second)}}));
   return out;
 }
 

@@ -19,7 +19,8 @@ struct RunOptions {
 };
 
 Result<RunOutputs> run(const Scenario& scenario, const std::string& path, const Progress& progress) {
-  if (scenario.benchmark && scenario.benchmark->extended) return extended_umbmark_outputs(scenario, scenario.seed, progress);
+  if (scenario.benchmark && scenario.benchmark->extended)
+    return extended_umbmark_outputs(scenario, scenario.seed, progress);
   if (scenario.benchmark) return umbmark_outputs(scenario, scenario.seed, progress);
   if (std::holds_alternative<ReplayPath>(scenario.path)) return replay_outputs(scenario, path, progress);
   return drive_outputs(scenario, scenario.seed, progress);
@@ -38,8 +39,10 @@ Result<Done> write(const RunOutputs& out, const Scenario& scenario, const std::s
   std::vector<std::string> written;
   std::optional<Error> failure;
   const auto keep = [&](const std::string& path, const Result<Done>& done) {
-    if (done) written.push_back(path);
-    else if (!failure) failure = done.error();
+    if (done)
+      written.push_back(path);
+    else if (!failure)
+      failure = done.error();
   };
   const auto put = [&](const std::string& name, const auto& writer) {
     if (!failure) keep(folder + "/" + name, writer(folder + "/" + name));
@@ -78,7 +81,8 @@ Result<Judgement> judge(const Scenario& scenario, const RunOutputs& out, const s
     std::string range;
     if (e.at_least) range += text_of(" at least %g", *e.at_least);
     if (e.at_most) range += text_of("%s at most %g", e.at_least ? " and" : "", *e.at_most);
-    judgement.lines += text_of("%s: %s is %g, expected%s\n", holds ? "ok" : "FAILED", e.figure.c_str(), *value, range.c_str());
+    judgement.lines +=
+        text_of("%s: %s is %g, expected%s\n", holds ? "ok" : "FAILED", e.figure.c_str(), *value, range.c_str());
   }
   return judgement;
 }
@@ -100,7 +104,8 @@ int execute(const RunOptions& options) {
   if (!scenario) return bad_input(scenario.error());
   if (!options.seed.empty()) {
     const auto end = options.seed.data() + options.seed.size();
-    if (const auto read = std::from_chars(options.seed.data(), end, scenario->seed); read.ec != std::errc() || read.ptr != end)
+    if (const auto read = std::from_chars(options.seed.data(), end, scenario->seed);
+        read.ec != std::errc() || read.ptr != end)
       return bad_input({"--seed", "'" + options.seed + "'", "a whole number from 0 to 18446744073709551615"});
   }
   Result<RunOutputs> out = run(*scenario, options.scenario, terminal_progress("running"));
@@ -118,8 +123,9 @@ int execute(const RunOptions& options) {
   report.table({"figure", "value"}, figures);
   report.heading("What was run");
   report.table({"parameter", "nominal", "actual"}, what_was_run(*scenario));
-  report.paragraph(text_of("odolab run %s --seed %llu (OdoLab " ODOLAB_VERSION ", step %g s, friction %g)", options.scenario.c_str(),
-                           static_cast<unsigned long long>(scenario->seed), scenario->step_s, scenario->floor.friction));
+  report.paragraph(text_of("odolab run %s --seed %llu (OdoLab " ODOLAB_VERSION ", step %g s, friction %g)",
+                           options.scenario.c_str(), static_cast<unsigned long long>(scenario->seed), scenario->step_s,
+                           scenario->floor.friction));
   out->report = report;
 
   const std::string folder =

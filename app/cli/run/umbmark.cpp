@@ -22,18 +22,22 @@ void add_calibration(RunOutputs& out, const UmbmarkCalibration& c, const Differe
   out.sentences.push_back(text_of(
       "Type A: it turns %.3f degrees too %s in each corner. Type B: it curves %.3f degrees to the %s on each side. "
       "Ed = D_R / D_L = %.5f%s, Eb = b_actual / b_nominal = %.5f%s.",
-      degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far", degrees(std::abs(c.exact.beta_rad)),
-      c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio, uncertainty(c.wheel_diameter_ratio_stderr).c_str(),
-      c.wheelbase_ratio, uncertainty(c.wheelbase_ratio_stderr).c_str()));
+      degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far",
+      degrees(std::abs(c.exact.beta_rad)), c.exact.beta_rad > 0.0 ? "left" : "right", c.wheel_diameter_ratio,
+      uncertainty(c.wheel_diameter_ratio_stderr).c_str(), c.wheelbase_ratio,
+      uncertainty(c.wheelbase_ratio_stderr).c_str()));
   out.sentences.push_back(
-      "Squares cannot see a scale common to both wheels: what a rough floor adds to both goes into the wheelbase (Eq. 6.30), "
+      "Squares cannot see a scale common to both wheels: what a rough floor adds to both goes into the wheelbase (Eq. "
+      "6.30), "
       "and the uncertainty given is that of the squares alone.");
   if (c.wheel_diameter_ratio_stderr == 0.0)
     out.sentences.push_back("One run in each direction leaves no spread: how uncertain these ratios are is unknown.");
-  out.sentences.push_back(text_of("Correct the wheelbase from %.2f to %.2f mm, the left wheel's diameter from %.3f to %.3f mm, the right one's from %.3f to %.3f mm.",
-                                  1e3 * nominal.wheelbase_m, 1e3 * c.corrected.wheelbase_m, 2e3 * nominal.wheel_radius_left_m,
-                                  2e3 * c.corrected.wheel_radius_left_m, 2e3 * nominal.wheel_radius_right_m,
-                                  2e3 * c.corrected.wheel_radius_right_m));
+  out.sentences.push_back(
+      text_of("Correct the wheelbase from %.2f to %.2f mm, the left wheel's diameter from %.3f to %.3f mm, the right "
+              "one's from %.3f to %.3f mm.",
+              1e3 * nominal.wheelbase_m, 1e3 * c.corrected.wheelbase_m, 2e3 * nominal.wheel_radius_left_m,
+              2e3 * c.corrected.wheel_radius_left_m, 2e3 * nominal.wheel_radius_right_m,
+              2e3 * c.corrected.wheel_radius_right_m));
 }
 
 Json json_of(const UmbmarkStage& stage) {
@@ -66,7 +70,8 @@ Json json_of(const UmbmarkStage& stage) {
 
 // The first run in which the robot did not arrive, in words; empty where all did.
 void note_lost(std::string& lost, const BenchmarkRun& run) {
-  if (!run.finished && lost.empty()) lost = text_of("run %s %d never arrived", run.clockwise ? "cw" : "ccw", run.number);
+  if (!run.finished && lost.empty())
+    lost = text_of("run %s %d never arrived", run.clockwise ? "cw" : "ccw", run.number);
 }
 
 std::string file_name(const BenchmarkRun& run) { return text_of("%s_%d", run.clockwise ? "cw" : "ccw", run.number); }
@@ -94,21 +99,26 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const UmbmarkMeasure& m = stages[k].measure;
     out.sentences.push_back(text_of("%s: Emax,syst = %s mm (cw %s mm, ccw %s mm), spread %s mm, SEM %s mm.", name_of(k),
-                                    millimetres(m.largest_systematic_error_m).c_str(), millimetres(m.clockwise.distance_m).c_str(),
-                                    millimetres(m.counter_clockwise.distance_m).c_str(), millimetres(m.spread_m).c_str(),
-                                    millimetres(m.standard_error_m).c_str()));
+                                    millimetres(m.largest_systematic_error_m).c_str(),
+                                    millimetres(m.clockwise.distance_m).c_str(),
+                                    millimetres(m.counter_clockwise.distance_m).c_str(),
+                                    millimetres(m.spread_m).c_str(), millimetres(m.standard_error_m).c_str()));
     rows.push_back({name_of(k), millimetres(m.largest_systematic_error_m), millimetres(m.clockwise.distance_m),
-                    millimetres(m.counter_clockwise.distance_m), millimetres(m.spread_m), millimetres(m.standard_error_m)});
+                    millimetres(m.counter_clockwise.distance_m), millimetres(m.spread_m),
+                    millimetres(m.standard_error_m)});
     if (stages[k].calibration) add_calibration(out, *stages[k].calibration, stages[k].nominal);
     out.details["stages"].push_back(json_of(stages[k]));
     picture.experiments.push_back({name_of(k), stages[k].runs});
   }
   out.report.table({"[mm]", "Emax,syst", "cw", "ccw", "spread", "SEM"}, rows);
-  const double before = stages.front().measure.largest_systematic_error_m, after = stages.back().measure.largest_systematic_error_m;
+  const double before = stages.front().measure.largest_systematic_error_m,
+               after = stages.back().measure.largest_systematic_error_m;
   if (after < before) {
     out.sentences.push_back(text_of("That is %.1f times better.", before / after));
   } else {
-    out.sentences.push_back(text_of("That is %.1f times worse: what is wrong here is not the wheelbase and not the ratio of the wheels.", after / before));
+    out.sentences.push_back(
+        text_of("That is %.1f times worse: what is wrong here is not the wheelbase and not the ratio of the wheels.",
+                after / before));
   }
   out.figure("largest_systematic_error_before_m", before);
   out.figure("largest_systematic_error_after_m", after);
@@ -119,10 +129,12 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
   for (const bool clockwise : {true, false}) {
     const auto alone = calibrate_one_direction(stages.front().runs, clockwise, stages.front().nominal);
     if (!alone) continue;
-    out.sentences.push_back(text_of(
-        "The square driven %s alone would have blamed the wheelbase (Eb = %.4f), promised %s mm, and left %s mm the other way round.",
-        clockwise ? "clockwise" : "counter-clockwise", alone->wheelbase_ratio, millimetres(alone->predicted_error_this_way_m).c_str(),
-        millimetres(alone->predicted_error_other_way_m).c_str()));
+    out.sentences.push_back(
+        text_of("The square driven %s alone would have blamed the wheelbase (Eb = %.4f), promised %s mm, and left %s "
+                "mm the other way round.",
+                clockwise ? "clockwise" : "counter-clockwise", alone->wheelbase_ratio,
+                millimetres(alone->predicted_error_this_way_m).c_str(),
+                millimetres(alone->predicted_error_other_way_m).c_str()));
   }
   out.pictures.emplace_back("return_errors", scatter_picture(picture));
   return out;
@@ -132,11 +144,17 @@ Result<RunOutputs> extended_umbmark_outputs(const Scenario& scenario, std::uint6
   Scenario smooth = scenario;
   smooth.floor.bumps.clear();
   RunOutputs out;
-  const auto half = [&](double begin) { return [&progress, begin](double share) { return goes_on(progress, begin + 0.5 * share); }; };
-  if (scenario.floor.bumps.empty()) return Error{scenario.name + ": floor.bump", "no bump", "bumps for the extended benchmark"};
+  const auto half = [&](double begin) {
+    return [&progress, begin](double share) { return goes_on(progress, begin + 0.5 * share); };
+  };
+  if (scenario.floor.bumps.empty())
+    return Error{scenario.name + ": floor.bump", "no bump", "bumps for the extended benchmark"};
   std::string lost;
-  const UmbmarkRuns without = run_umbmark(smooth, seed, [&](const BenchmarkRun& run) { note_lost(lost, run); }, half(0.0));
-  const UmbmarkRuns with = run_umbmark(scenario, seed, [&](const BenchmarkRun& run) {
+  const UmbmarkRuns without = run_umbmark(
+      smooth, seed, [&](const BenchmarkRun& run) { note_lost(lost, run); }, half(0.0));
+  const UmbmarkRuns with = run_umbmark(
+      scenario, seed,
+      [&](const BenchmarkRun& run) {
         note_lost(lost, run);
         out.recordings.emplace_back("bumps_" + file_name(run), run.recording);
       },
@@ -148,10 +166,13 @@ Result<RunOutputs> extended_umbmark_outputs(const Scenario& scenario, std::uint6
   goes_on(progress, 1.0);
   out.figure("mean_absolute_heading_error_rad", measure->mean_absolute_heading_error_rad);
   out.figure("mean_absolute_heading_error_deg", degrees(measure->mean_absolute_heading_error_rad));
-  out.sentences.push_back(text_of("%zu bumps turn the robot by %.2f degrees on average (Eq. 3.5), after its systematic %.2f degrees cw and %.2f degrees ccw are taken off (Eq. 3.6).",
-                                  scenario.floor.bumps.size(), degrees(measure->mean_absolute_heading_error_rad),
-                                  degrees(measure->systematic_bias_clockwise_rad), degrees(measure->systematic_bias_counter_clockwise_rad)));
-  out.pictures.emplace_back("return_errors", scatter_picture({"Return position errors of the square path", {{"without bumps", without}, {"with bumps", with}}}));
+  out.sentences.push_back(text_of(
+      "%zu bumps turn the robot by %.2f degrees on average (Eq. 3.5), after its systematic %.2f degrees cw and %.2f "
+      "degrees ccw are taken off (Eq. 3.6).",
+      scenario.floor.bumps.size(), degrees(measure->mean_absolute_heading_error_rad),
+      degrees(measure->systematic_bias_clockwise_rad), degrees(measure->systematic_bias_counter_clockwise_rad)));
+  out.pictures.emplace_back("return_errors", scatter_picture({"Return position errors of the square path",
+                                                              {{"without bumps", without}, {"with bumps", with}}}));
   return out;
 }
 

@@ -7,7 +7,8 @@
 namespace odolab {
 namespace {
 
-// A robot of wheelbase 0.2 m and radii 0.05 m on winding arcs, laid down in millisecond steps; encoders and truth at 50 Hz.
+// A robot of wheelbase 0.2 m and radii 0.05 m on winding arcs, laid down in millisecond steps; encoders and truth at 50
+// Hz.
 InnovationRun winding_arcs(double radius_m, double wheelbase_m) {
   InnovationRun run;
   run.truth_has_heading = true;
@@ -22,7 +23,8 @@ InnovationRun winding_arcs(double radius_m, double wheelbase_m) {
     const double v = 0.3, w = 0.8 * std::sin(0.5 * t);
     left += (v - 0.5 * wheelbase_m * w) / radius_m * 0.001;
     right += (v + 0.5 * wheelbase_m * w) / radius_m * 0.001;
-    pose = {pose.x_m + v * 0.001 * std::cos(pose.heading_rad), pose.y_m + v * 0.001 * std::sin(pose.heading_rad), pose.heading_rad + w * 0.001};
+    pose = {pose.x_m + v * 0.001 * std::cos(pose.heading_rad), pose.y_m + v * 0.001 * std::sin(pose.heading_rad),
+            pose.heading_rad + w * 0.001};
   }
   return run;
 }
@@ -57,7 +59,8 @@ TEST(FirstGuess, NamesWhatNoCalibrationMends) {
     const std::string found = contradiction_in({run}, nominal);
     EXPECT_NE(found.find(words), std::string::npos) << words << ": " << found;
   };
-  InnovationRun exchanged = winding_arcs(0.05, 0.2), reversed = exchanged, one = exchanged, degrees_run = exchanged, millimetres = exchanged;
+  InnovationRun exchanged = winding_arcs(0.05, 0.2), reversed = exchanged, one = exchanged, degrees_run = exchanged,
+                millimetres = exchanged;
   for (WheelSample& w : exchanged.wheels) std::swap(w.left_rad, w.right_rad);
   for (WheelSample& w : reversed.wheels) w = {w.time_s, -w.left_rad, -w.right_rad};
   for (WheelSample& w : one.wheels) w.left_rad = -w.left_rad;
