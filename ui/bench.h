@@ -44,8 +44,10 @@ struct Bench {
 inline std::string words_of_lost(const std::vector<LostRun>& lost) {
   std::string words;
   for (std::size_t i = 0; i < lost.size(); ++i)
-    words += (i == 0 ? "" : i + 1 == lost.size() ? " and " : ", ") + std::string(lost[i].clockwise ? "cw " : "ccw ") +
-             std::to_string(lost[i].number);
+    words += (i == 0                 ? ""
+              : i + 1 == lost.size() ? " and "
+                                     : ", ") +
+             std::string(lost[i].clockwise ? "cw " : "ccw ") + std::to_string(lost[i].number);
   return words.empty() ? words : words + " never arrived";
 }
 

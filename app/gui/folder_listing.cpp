@@ -30,7 +30,8 @@ std::vector<ui::PathEntry> entries_of(const std::string& folder) {
   std::error_code ended;
   const fs::path where = folder.empty() ? fs::path(".") : fs::path(expanded(folder));
   fs::directory_iterator it(where, fs::directory_options::skip_permission_denied, ended);
-  for (; !ended && it != fs::directory_iterator() && folders.size() + files.size() < kMostEntries; it.increment(ended)) {
+  for (; !ended && it != fs::directory_iterator() && folders.size() + files.size() < kMostEntries;
+       it.increment(ended)) {
     std::error_code unknown;
     const std::string name = it->path().filename().string();
     if (it->is_directory(unknown))
@@ -62,20 +63,24 @@ std::string expanded(const std::string& path) {
 const std::vector<ui::PathEntry>& FolderListing::of(const std::string& typed) {
   const std::size_t slash = typed.find_last_of('/');
   const std::string folder = slash == std::string::npos ? "" : typed.substr(0, slash + 1);
-  const std::string beginning = slash == std::string::npos ? typed : typed.substr(slash + 1);
+  std::string beginning = slash == std::string::npos ? typed : typed.substr(slash + 1);
   if (known_ && folder == folder_ && typed == typed_) return matching_;
   if (!known_ || folder != folder_) all_ = entries_of(folder);
   known_ = true;
   folder_ = folder;
   typed_ = typed;
   matching_.clear();
+  for (const ui::PathEntry& e : all_)
+    if (e.name == beginning) {  // typed in full: what else lies there is more use than this one again
+      beginning.clear();
+      break;
+    }
   const fs::path above = fs::path(expanded(folder)).parent_path().parent_path();
   if (beginning.empty() && folder.size() > 1 && !above.empty())
     matching_.push_back({"../", above == "/" ? "/" : above.string() + "/", true});
   for (const ui::PathEntry& e : all_) {
     const bool hidden = e.name.front() == '.' && beginning.empty();
-    // What is typed in full needs no list of itself.
-    if (!hidden && begins_with(e.name, beginning) && e.name != beginning) matching_.push_back(e);
+    if (!hidden && begins_with(e.name, beginning)) matching_.push_back(e);
   }
   return matching_;
 }

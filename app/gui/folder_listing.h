@@ -11,7 +11,7 @@ namespace odolab {
 class FolderListing {
  public:
   // Folders, then files that can be opened, of the folder of this unfinished path; their names begin as its last part
-  // does. The folder is read once, until another one is asked for.
+  // does, or are all there are where that is the name of one. The folder is read once, until another one is asked for.
   const std::vector<ui::PathEntry>& of(const std::string& typed);
   void forget() { known_ = false; }
 

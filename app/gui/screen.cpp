@@ -29,8 +29,7 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
 
 // Where the panes are, in pixels.
 struct Layout {
-  ImVec2 top_size, left_low, left_size, centre_low, centre_size, right_low,
-      right_size, bottom_low, bottom_size;
+  ImVec2 top_size, left_low, left_size, centre_low, centre_size, right_low, right_size, bottom_low, bottom_size;
   bool has_bottom = true;
 };
 

@@ -39,6 +39,10 @@ inline bool asks_for_path(const ScreenState& state) {
   return state.choices.show_open || state.choices.show_save_scenario || state.choices.show_save_recording;
 }
 
+inline void close_dialogs(ScreenState& state) {
+  state.choices.show_open = state.choices.show_save_scenario = state.choices.show_save_recording = false;
+}
+
 // Draws one picture of everything and returns what a person wants done.
 ui::Actions draw_screen(const Session& session, ScreenState& state, const ui::Theme& theme);
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMostUndo = 100;
 constexpr double kPatience = 3.0;  // times the planned duration: a robot that has lost its way drives on for good
-constexpr double kFastest = 1e6;  // "as fast as possible" is bounded by the time of a picture alone
+constexpr double kFastest = 1e6;   // "as fast as possible" is bounded by the time of a picture alone
 
 constexpr const char* kCableDeleted = "Cable deleted, Ctrl+Z brings it back";
 constexpr const char* kPatchDeleted = "Patch deleted, Ctrl+Z brings it back";
@@ -176,9 +176,10 @@ struct Session::Executor {
         "driving the scenario to its end",
         [scenario, replayed, made, arrived](const Progress& progress, const Jobs::Deliver&) {
           Simulation simulation(scenario, scenario.seed, replayed);
-          const double begin_s = simulation.state().time_s, expected_s = std::max(1.0, simulation.expected_duration_s());
-          for (long k = 0;
-               !simulation.state().finished && simulation.state().time_s - begin_s < kPatience * expected_s; ++k) {
+          const double begin_s = simulation.state().time_s,
+                       expected_s = std::max(1.0, simulation.expected_duration_s());
+          for (long k = 0; !simulation.state().finished && simulation.state().time_s - begin_s < kPatience * expected_s;
+               ++k) {
             simulation.step();
             if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / expected_s)) return;
           }

@@ -237,8 +237,8 @@ ui::ErrorNow error_now(const Session& session) {
   now.truth = last->pose;
   now.simulated = pose_at(simulated, last->time_s);
   now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, last->time_s);
-  const Pose gap = between(between(first->pose, last->pose),
-                           between(*pose_at(simulated, first->time_s), *now.simulated));
+  const Pose gap =
+      between(between(first->pose, last->pose), between(*pose_at(simulated, first->time_s), *now.simulated));
   now.simulated_gap_m = length(gap.position());
   now.simulated_gap_heading_rad = wrapped(gap.heading_rad);
   return now;

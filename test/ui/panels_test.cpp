@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "test/ui/headless_screen.h"
+#include "ui/look/widgets.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/cluster_panel.h"
 #include "ui/panels/compare_panel.h"
 #include "ui/panels/error_panel.h"
-#include "ui/look/widgets.h"
 #include "ui/panels/message_bar.h"
 #include "ui/panels/path_dialog.h"
 #include "ui/panels/path_panel.h"
@@ -152,8 +152,8 @@ class NumberFieldTest : public ::testing::Test {
   double value = 4.0;
   int done = 0;
   std::function<void()> draw = [this] {
-    done += number_field({"##side", kMetres, 0.1, 20.0, "Length of a side."}, value, 120.0f, screen.theme) ==
-            Edited::done;
+    done +=
+        number_field({"##side", kMetres, 0.1, 20.0, "Length of a side."}, value, 120.0f, screen.theme) == Edited::done;
   };
 };
 
@@ -244,6 +244,27 @@ TEST_F(PathDialogTest, OpenedAgainReplacesThePathThatFailed) {
   screen.type("right.toml", draw);
   screen.press_key(ImGuiKey_Enter, draw);
   EXPECT_EQ(opened, "right.toml");
+  EXPECT_FALSE(open);
+}
+
+TEST_F(PathDialogTest, KeptOpenWithAProblemStillTakesKeysAndClosesOnEscape) {
+  const auto failing = [this] {
+    draw();
+    if (opened.empty()) return;
+    opened.clear();
+    state.problem = "There is no such file.";
+    open = true;
+  };
+  screen.picture(failing);
+  screen.picture(failing);
+  screen.type("wrong", failing);
+  screen.press_key(ImGuiKey_Enter, failing);
+  for (int i = 0; i < 5; ++i) screen.picture(failing);
+  ASSERT_TRUE(open);
+  screen.type("right", failing);
+  EXPECT_STREQ(state.path, "right");
+  EXPECT_EQ(state.problem, "");
+  screen.press_key(ImGuiKey_Escape, failing);
   EXPECT_FALSE(open);
 }
 

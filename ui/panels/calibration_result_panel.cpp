@@ -76,10 +76,9 @@ void one_direction_block(const BenchExperiment& e, const Theme& theme) {
   if (!e.only_clockwise && !e.only_counter_clockwise) return;
   heading("One direction alone", theme);
   const auto sentence = [&](const OneDirectionCalibration& o, const char* way) {
-    note(std::string(way) + " squares alone would take the wheelbase " +
-             shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) + " times the nominal one, promise " +
-             shown(o.predicted_error_this_way_m, kMillimetres) + " that way, and leave " +
-             shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.",
+    note(std::string(way) + " squares alone would take the wheelbase " + shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) +
+             " times the nominal one, promise " + shown(o.predicted_error_this_way_m, kMillimetres) +
+             " that way, and leave " + shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.",
          theme);
   };
   if (e.only_clockwise) sentence(*e.only_clockwise, "Clockwise");

@@ -67,7 +67,7 @@ Actions message_bar(const std::vector<Message>& messages, const Theme& theme) {
   ImGui::SetCursorScreenPos(at);
   if (ImGui::InvisibleButton("##newest", {size.x - cross_width - more_width - theme.px(10), size.y}))
     actions.push_back(DismissMessage{newest});
-  tooltip(text == m.text ? "Click to dismiss" : m.text, theme);
+  if (text != m.text) tooltip(m.text, theme);
   draw.AddText(ImGui::GetFont(), ImGui::GetFontSize(),
                {at.x + theme.px(16), std::round(at.y + 0.5f * (size.y - height_of(text, inner)))}, front, text.c_str(),
                nullptr, inner);

@@ -64,10 +64,9 @@ std::string path_dialog(const char* title, const char* button, bool& open, PathD
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(18), theme.px(16)));
   ImGui::PushStyleColor(ImGuiCol_ModalWindowDimBg, faded(theme.ink, 0.25f));
-  const bool visible =
-      ImGui::BeginPopupModal(title, nullptr,
-                             ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                                 ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
+  const bool visible = ImGui::BeginPopupModal(title, nullptr,
+                                              ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                                  ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
   if (visible) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(8), theme.px(6)));
     {
@@ -76,10 +75,10 @@ std::string path_dialog(const char* title, const char* button, bool& open, PathD
     }
     if (focus_field) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1.0f);
-    bool confirmed = ImGui::InputTextWithHint("##path", "path of the file", state.path, sizeof state.path,
-                                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
-                                                  ImGuiInputTextFlags_CallbackAlways,
-                                              put_cursor, &state);
+    bool confirmed = ImGui::InputTextWithHint(
+        "##path", "path of the file", state.path, sizeof state.path,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_CallbackAlways,
+        put_cursor, &state);
     if (ImGui::IsItemEdited()) state.problem.clear();
     if (!state.problem.empty()) warning(state.problem, theme);
     bool focus_again = false;
