@@ -10,10 +10,17 @@
 
 namespace odolab::ui {
 
+// A run in which the robot never arrived: it has no return error.
+struct LostRun {
+  bool clockwise = false;
+  int number = 0;  // from 1 in each direction
+};
+
 struct BenchExperiment {
   std::string name;           // "uncalibrated", "after 1st calibration"
   DifferentialDrive vehicle;  // the nominal one it was driven with
-  UmbmarkRuns runs;           // so far
+  UmbmarkRuns runs;           // so far, those that arrived
+  std::vector<LostRun> lost;  // without a calibration where there are any
   std::optional<UmbmarkMeasure> measure;
   std::optional<UmbmarkCalibration> calibration;         // once all runs are in
   double alpha_stderr_rad = 0.0, beta_stderr_rad = 0.0;  // of its exact type errors
@@ -32,5 +39,16 @@ struct Bench {
   std::string vehicle_name;
   ActualDrive actual;  // the truth, for the comparison that only a simulation allows
 };
+
+// "cw 2 and ccw 3 never arrived"; empty where all did.
+inline std::string words_of_lost(const std::vector<LostRun>& lost) {
+  std::string words;
+  for (std::size_t i = 0; i < lost.size(); ++i)
+    words += (i == 0                 ? ""
+              : i + 1 == lost.size() ? " and "
+                                     : ", ") +
+             std::string(lost[i].clockwise ? "cw " : "ccw ") + std::to_string(lost[i].number);
+  return words.empty() ? words : words + " never arrived";
+}
 
 }  // namespace odolab::ui

@@ -35,6 +35,7 @@ class Comparison {
   bool loaded() const { return recording_ != nullptr; }
   const Recording& recording() const { return *recording_; }
   const Vehicle& vehicle() const { return scenario_.vehicle; }
+  const Scenario& scenario() const { return scenario_; }  // that replays it
   const ComparedReplay* nominal() const { return nominal_ ? &*nominal_ : nullptr; }
   const ComparedReplay* calibrated() const { return calibrated_ ? &*calibrated_ : nullptr; }
   const LeastSquaresCalibration* calibration() const { return calibration_ ? &*calibration_ : nullptr; }

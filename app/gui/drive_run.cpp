@@ -114,9 +114,9 @@ void DriveRun::push(Vec2 impulse_ns) {
 }
 
 double DriveRun::total_s() const {
-  if (finished()) return latest_s();
   const double expected_s = std::max(simulation_.expected_duration_s(), latest_s());
   if (!std::holds_alternative<HandPath>(scenario_.path)) return expected_s;
+  if (finished()) return latest_s();
   double window_s = 30.0;  // nobody knows how long a person will drive: the timeline grows
   while (window_s < latest_s() + 2.0) window_s *= 2.0;
   return std::min(window_s, expected_s);

@@ -40,7 +40,7 @@ class DriveRun {
   double start_s() const { return history_.front().time_s; }
   double shown_s() const { return shown_s_; }
   double latest_s() const { return times_.back(); }
-  double total_s() const;  // expected, and never less than what was
+  double total_s() const;  // planned, and never less than what was
   bool finished() const { return history_.back().finished; }
   bool at_end() const { return finished() && shown_s_ >= latest_s(); }
   // The state at the shown moment; poses and wheel rotations are interpolated between pictures.

@@ -97,8 +97,8 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   state.example_files = example_files();
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
   if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
-    session.execute(
-        ui::StartBenchmark{session.run().scenario().benchmark ? session.run().scenario().benchmark->runs_each_way : 5});
+    const std::optional<Benchmark>& asked = session.run().scenario().benchmark;
+    session.execute(ui::StartBenchmark{asked ? asked->runs_each_way : 5, asked && !asked->extended});
     session.execute(ui::ApplyCalibration{});
   }
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
@@ -137,10 +137,13 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
 
     window.begin_picture();
     for (const std::string& path : window.dropped_files()) session.execute(ui::OpenFile{path});
-    if (!ImGui::GetIO().WantTextInput)
+    for (const KeyPress& press : window.key_presses())  // however briefly, and whatever has the keyboard
+      if (press.key == Key::escape && asks_for_path(state)) close_dialogs(state);
+    const bool keys_are_free = !ImGui::GetIO().WantTextInput && !asks_for_path(state);
+    if (keys_are_free)
       for (const KeyPress& press : window.key_presses())
         for (const ui::Action& action : actions_of(press, session, state)) session.execute(action);
-    if (std::holds_alternative<HandPath>(session.run().scenario().path) && !ImGui::GetIO().WantTextInput)
+    if (std::holds_alternative<HandPath>(session.run().scenario().path) && keys_are_free)
       session.execute(hand_command(window, session.run().scenario()));
     const double now = window.seconds();
     session.advance(std::min(now - last, 0.1), [&] { return window.seconds() - now < kTimeForSimulation; });

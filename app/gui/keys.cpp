@@ -76,7 +76,7 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
     case Key::f12:
       return {SavePicture{}};
     case Key::escape:
-      choices.show_keys = choices.show_open = choices.show_save_recording = choices.show_save_scenario = false;
+      choices.show_keys = false;
       choices.hide_interface = false;
       state.drive_floor.tool = FloorTool::pointer;
       state.drive_floor.selected.reset();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 
 #include "app/gui/views.h"
 #include "ui/look/widgets.h"
@@ -10,6 +12,7 @@
 #include "ui/panels/error_panel.h"
 #include "ui/panels/keys_panel.h"
 #include "ui/panels/path_panel.h"
+#include "ui/panels/run_panel.h"
 #include "ui/panels/vehicle_panel.h"
 
 namespace odolab {
@@ -26,12 +29,11 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
 
 // Where the panes are, in pixels.
 struct Layout {
-  ImVec2 top_low, top_size, message_low, message_size, left_low, left_size, centre_low, centre_size, right_low,
-      right_size, bottom_low, bottom_size;
+  ImVec2 top_size, left_low, left_size, centre_low, centre_size, right_low, right_size, bottom_low, bottom_size;
   bool has_bottom = true;
 };
 
-Layout lay_out(const ScreenState& state, ImVec2 screen, float message_height, bool has_bottom, const Theme& theme) {
+Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, const Theme& theme) {
   Layout l;
   l.has_bottom = has_bottom;
   const float top = state.choices.hide_interface ? 0.0f : theme.px(40);
@@ -41,10 +43,8 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, float message_height, bo
   const float left = state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.left_width)), 0.4f * screen.x);
   const float right =
       state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.right_width)), 0.4f * screen.x);
-  const float begin = top + message_height, height = std::max(40.0f, screen.y - begin - bottom);
+  const float begin = top, height = std::max(40.0f, screen.y - begin - bottom);
   l.top_size = {screen.x, top};
-  l.message_low = {0, top};
-  l.message_size = {screen.x, message_height};
   l.left_low = {0, begin};
   l.left_size = {left, height};
   l.centre_low = {left, begin};
@@ -56,8 +56,9 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, float message_height, bo
   return l;
 }
 
-// Opens a pane; end with ImGui::End().
-void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background) {
+// Opens a pane, `above` the others where it lies over one; end with ImGui::End().
+void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background,
+                bool above = false) {
   ImGui::SetNextWindowPos(low);
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
@@ -65,6 +66,7 @@ void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scr
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGuiWindowFlags flags = kPane;
   if (scrolls) flags &= ~ImGuiWindowFlags_NoScrollbar;
+  if (above) flags = (flags & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing;
   ImGui::Begin(name, nullptr, flags);
   ImGui::PopStyleVar(padded ? 1 : 2);
   ImGui::PopStyleColor();
@@ -107,10 +109,11 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
   switch (session.mode()) {
     case ui::Mode::drive: {
       append(actions, ui::vehicle_panel(state.draft, state.editing, theme));
+      append(actions, ui::path_panel(state.draft, state.editing, theme));
       const Vec2 place = state.drive_floor.camera.centre;
       append(actions, ui::floor_panel(session.run().scenario().floor, state.drive_floor.selected, state.floor_panel,
                                       place, theme));
-      append(actions, ui::path_panel(state.draft, state.editing, theme));
+      append(actions, ui::run_panel(state.draft, state.editing, theme));
       break;
     }
     case ui::Mode::calibrate:
@@ -153,20 +156,40 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
   return {};
 }
 
+std::vector<std::string> first_of(const std::vector<std::string>& all, std::size_t most) {
+  return {all.begin(), all.begin() + long(std::min(most, all.size()))};
+}
+
 Actions dialogs(const Session& session, ScreenState& state, const Theme& theme) {
   Actions actions;
   ui::WindowChoices& choices = state.choices;
   ui::keys_panel(choices.show_keys, theme);
-  const std::string opened = ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open,
-                                             state.open_dialog, state.recent_files, theme);
-  if (!opened.empty()) actions.push_back(ui::OpenFile{opened});
-  const std::string scenario = ui::path_dialog("Save the scenario", "Save", choices.show_save_scenario,
-                                               state.save_scenario_dialog, {"scenario.toml"}, theme);
+  std::vector<ui::PathEntry> entries;
+  if (choices.show_open)
+    entries = state.folders.of(state.open_dialog.path);
+  else
+    state.folders.forget();
+  const std::string opened =
+      expanded(ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open,
+                               state.open_dialog, entries, first_of(state.recent_files, 5), theme));
+  std::error_code unknown;
+  if (!opened.empty() && std::filesystem::is_directory(opened, unknown)) {
+    const std::string folder = opened.back() == '/' ? opened : opened + "/";
+    std::snprintf(state.open_dialog.path, sizeof state.open_dialog.path, "%s", folder.c_str());
+    choices.show_open = state.open_dialog.to_end = true;
+  } else if (!opened.empty() && !std::filesystem::exists(opened, unknown)) {
+    state.open_dialog.problem = "There is no such file.";
+    choices.show_open = true;
+  } else if (!opened.empty()) {
+    actions.push_back(ui::OpenFile{opened});
+  }
+  const std::string scenario = expanded(ui::path_dialog("Save the scenario", "Save", choices.show_save_scenario,
+                                                        state.save_scenario_dialog, {}, {"scenario.toml"}, theme));
   if (!scenario.empty()) actions.push_back(ui::SaveScenario{scenario});
   const bool compare = session.mode() == ui::Mode::compare;
-  const std::string recording =
+  const std::string recording = expanded(
       ui::path_dialog(compare ? "Save the recording as CSV" : "Save what the run has recorded so far as CSV", "Save",
-                      choices.show_save_recording, state.save_recording_dialog, {"recording.csv"}, theme);
+                      choices.show_save_recording, state.save_recording_dialog, {}, {"recording.csv"}, theme));
   if (!recording.empty()) actions.push_back(ui::SaveRecording{recording});
   return actions;
 }
@@ -181,6 +204,10 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     state.drive_floor.fit_next = state.compare_floor.fit_next = true;
     state.drive_transport.view.fitted = state.compare_transport.view.fitted = true;
     state.editing = false;
+    if (const std::optional<Benchmark>& asked = session.run().scenario().benchmark) {
+      state.calibrate.runs_each_way = asked->runs_each_way;
+      state.calibrate.keep_things = !asked->extended;  // what lies on its floor belongs to its experiment
+    }
   }
   if (state.choices.fit_view) {
     state.choices.fit_view = false;
@@ -194,16 +221,19 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   }
   const SimulationState shown = session.run().shown();
   const bool has_bottom = session.mode() != ui::Mode::calibrate;
-  const float message_height = ui::message_bar_height(session.messages(), screen.x, theme);
-  const Layout l = lay_out(state, screen, message_height, has_bottom, theme);
+  const Layout l = lay_out(state, screen, has_bottom, theme);
 
   begin_pane("centre", l.centre_low, l.centre_size, false, false,
              session.mode() == ui::Mode::calibrate ? theme.panel : theme.panel);
   append(actions, centre_pane(session, state, shown, theme));
   ImGui::End();
 
+  // Over the floor and below its tools: a message moves nothing of what a person is looking at.
+  const float message_height = ui::message_bar_height(session.messages(), l.centre_size.x, theme);
   if (message_height > 0.0f) {
-    begin_pane("messages", l.message_low, l.message_size, false, false, theme.panel);
+    const float tools = ImGui::GetFrameHeight() + theme.px(11);
+    begin_pane("messages", {l.centre_low.x, l.centre_low.y + tools}, {l.centre_size.x, message_height}, false, false,
+               theme.panel, true);
     append(actions, ui::message_bar(session.messages(), theme));
     ImGui::End();
   }

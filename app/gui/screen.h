@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/gui/folder_listing.h"
 #include "app/gui/session.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/cluster_panel.h"
@@ -25,12 +26,22 @@ struct ScreenState {
   ui::TransportState drive_transport, compare_transport;
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;
+  FolderListing folders;
   ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
   Scenario draft;  // of the parameters that a person is editing
   bool editing = false;
   int loads_seen = 0;
   std::vector<std::string> recent_files, example_files;
 };
+
+// A dialog is open: no key belongs to what lies behind it.
+inline bool asks_for_path(const ScreenState& state) {
+  return state.choices.show_open || state.choices.show_save_scenario || state.choices.show_save_recording;
+}
+
+inline void close_dialogs(ScreenState& state) {
+  state.choices.show_open = state.choices.show_save_scenario = state.choices.show_save_recording = false;
+}
 
 // Draws one picture of everything and returns what a person wants done.
 ui::Actions draw_screen(const Session& session, ScreenState& state, const ui::Theme& theme);

@@ -15,7 +15,11 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostUndo = 100;
-constexpr double kFastest = 1e6;  // "as fast as possible" is bounded by the time of a picture alone
+constexpr double kPatience = 3.0;  // times the planned duration: a robot that has lost its way drives on for good
+constexpr double kFastest = 1e6;   // "as fast as possible" is bounded by the time of a picture alone
+
+constexpr const char* kCableDeleted = "Cable deleted, Ctrl+Z brings it back";
+constexpr const char* kPatchDeleted = "Patch deleted, Ctrl+Z brings it back";
 
 }  // namespace
 
@@ -92,7 +96,12 @@ struct Session::Executor {
       return;
     }
     if (a.begins_gesture) remember_for_undo(true);
+    const Floor& before = s.run_->scenario().floor;
+    const bool fewer_cables = a.floor.bumps.size() < before.bumps.size();
+    const bool fewer_patches = a.floor.slip_zones.size() < before.slip_zones.size();
     s.run_->set_floor(a.floor);
+    if (fewer_cables) s.say_for_a_while(kCableDeleted);
+    if (fewer_patches) s.say_for_a_while(kPatchDeleted);
   }
   void operator()(const ui::DriveByHandInstead& a) const {
     Scenario scenario = s.run_->scenario();
@@ -120,6 +129,8 @@ struct Session::Executor {
   }
   void swap_scenario(std::vector<Step>& from, std::vector<Step>& to) const {
     if (from.empty()) return;
+    s.forget(kCableDeleted);
+    s.forget(kPatchDeleted);
     const Step step = from.back();
     from.pop_back();
     to.push_back({s.run_->scenario(), step.floor_only});
@@ -160,20 +171,28 @@ struct Session::Executor {
     const std::shared_ptr<const Recording> replayed = s.replayed_;
     Session* session = &s;
     const auto made = std::make_shared<Recording>();
+    const auto arrived = std::make_shared<bool>(false);
     s.jobs_.start(
         "driving the scenario to its end",
-        [scenario, replayed, made](const Progress& progress, const Jobs::Deliver&) {
+        [scenario, replayed, made, arrived](const Progress& progress, const Jobs::Deliver&) {
           Simulation simulation(scenario, scenario.seed, replayed);
-          const double expected_s = std::max(1.0, simulation.expected_duration_s());
-          for (long k = 0; !simulation.state().finished; ++k) {
+          const double begin_s = simulation.state().time_s,
+                       expected_s = std::max(1.0, simulation.expected_duration_s());
+          for (long k = 0; !simulation.state().finished && simulation.state().time_s - begin_s < kPatience * expected_s;
+               ++k) {
             simulation.step();
-            if (k % 1000 == 0 && !goes_on(progress, simulation.state().time_s / expected_s)) return;
+            if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / expected_s)) return;
           }
+          *arrived = simulation.state().finished;
           *made = simulation.recording();
           made->name = scenario.name + ", simulated";
         },
-        [session, scenario, made](bool cancelled) {
-          if (!cancelled) session->compare(made, replay_scenario(scenario.vehicle, *made));
+        [session, scenario, made, arrived](bool cancelled) {
+          if (cancelled) return;
+          if (!*arrived)
+            session->say("The simulated run never arrived: the robot cannot follow this path on this floor.", true);
+          else
+            session->compare(made, replay_scenario(scenario.vehicle, *made));
         });
   }
   void operator()(const ui::OpenFile& a) const { s.open(a.path); }
@@ -221,6 +240,10 @@ void Session::execute(const ui::Action& action) {
 
 void Session::advance(double wall_s, const std::function<bool()>& go_on) {
   jobs_.poll();
+  for (ui::Message& m : messages_) m.left_s -= wall_s;
+  messages_.erase(
+      std::remove_if(messages_.begin(), messages_.end(), [](const ui::Message& m) { return m.left_s <= 0.0; }),
+      messages_.end());
   if (!playing_ || wall_s <= 0.0) {
     reached_speed_ = 0.0;
     return;
@@ -244,9 +267,20 @@ void Session::advance(double wall_s, const std::function<bool()>& go_on) {
 }
 
 void Session::say(const std::string& text, bool is_error) {
-  for (const ui::Message& m : messages_)
-    if (m.text == text) return;
+  forget(text);  // said again, it is the newest
   messages_.push_back({text, is_error});
+}
+
+void Session::say_for_a_while(const std::string& text) {
+  constexpr double kWhile = 10.0;
+  say(text, false);
+  messages_.back().left_s = kWhile;
+}
+
+void Session::forget(const std::string& text) {
+  messages_.erase(
+      std::remove_if(messages_.begin(), messages_.end(), [&](const ui::Message& m) { return m.text == text; }),
+      messages_.end());
 }
 
 bool Session::take_picture_wish() {

@@ -59,6 +59,8 @@ class Session {
 
   void load(const Scenario& scenario, std::shared_ptr<const Recording> replayed, const std::string& path);
   void change(const Scenario& scenario);
+  void say_for_a_while(const std::string& text);
+  void forget(const std::string& text);
   bool open_scenario(const std::string& path);
   bool open_vehicle(const std::string& path);
   bool open_recording(const std::string& path);

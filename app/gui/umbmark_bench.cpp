@@ -1,5 +1,6 @@
 #include "app/gui/umbmark_bench.h"
 
+#include "core/base/random.h"
 #include "physics/benchmark.h"
 
 namespace odolab {
@@ -38,7 +39,7 @@ void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehic
   running_ = true;
   Scenario scenario = scenario_;
   scenario.vehicle.kind = vehicle;
-  const std::uint64_t seed = scenario_.seed + experiments_.size() - 1;  // every experiment on floors of its own
+  const std::uint64_t seed = seed_of_stream(scenario_.seed, experiments_.size() - 1);  // as run_umbmark_calibration
 
   const auto work = [this, scenario, seed](const Progress& progress, const Jobs::Deliver& deliver) {
     run_umbmark(
@@ -46,6 +47,10 @@ void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehic
         [this, &deliver](const BenchmarkRun& run) {
           deliver([this, run] {
             ui::BenchExperiment& e = experiments_.back();
+            if (!run.finished) {
+              e.lost.push_back({run.clockwise, run.number});
+              return;
+            }
             (run.clockwise ? e.runs.clockwise : e.runs.counter_clockwise).push_back(run.error);
             e.measure = measure_umbmark(e.runs);
           });
@@ -59,6 +64,7 @@ void UmbmarkBench::drive(const std::string& name, const DifferentialDrive& vehic
       experiments_.pop_back();
       return;
     }
+    if (!e.lost.empty()) return;  // half an experiment calibrates nothing
     e.measure = measure_umbmark(e.runs);
     e.calibration = calibrate_umbmark(e.runs, e.vehicle);
     if (e.calibration) {

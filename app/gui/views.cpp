@@ -118,6 +118,7 @@ ui::Transport drive_transport(const Session& session, const ui::Theme& theme) {
   t.time_s = run.shown_s();
   t.latest_s = run.latest_s();
   t.total_s = run.total_s();
+  t.total_is_planned = !run.finished();
   t.can_step_back = run.shown_s() > 0.0;
   t.speed = session.speed();
   t.reached_speed = session.reached_speed();
@@ -190,6 +191,7 @@ ui::Compare compare_of(const Session& session, const std::vector<std::string>& e
   view.inputs = c.has_wheels() ? "wheel rotation" : "commands";
   view.duration_s = c.recording().duration_s();
   view.vehicle_name = c.vehicle().name;
+  view.mass_kg = c.scenario().actual.mass_kg;
   view.vehicle = c.chosen();
   view.nominal = figures_of(c.nominal());
   view.calibrated = figures_of(c.calibrated());
@@ -222,14 +224,23 @@ ui::ErrorNow error_now(const Session& session) {
   ui::ErrorNow now;
   const ComparedReplay* shown = session.comparison().shown();
   if (!shown) return now;
+  // As in track_error: between truth samples that the simulation reaches, from the first of them on.
+  const Track &truth = shown->replay.truth, &simulated = shown->replay.simulated;
   const double t = session.comparison().start_s() + session.comparison().time_s;
-  now.truth = pose_nearest(shown->replay.truth, t);
-  now.simulated = pose_nearest(shown->replay.simulated, t);
-  now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, t);
-  if (now.truth && now.simulated) {
-    now.simulated_gap_m = length(now.simulated->position() - now.truth->position());
-    now.simulated_gap_heading_rad = wrapped(now.simulated->heading_rad - now.truth->heading_rad);
+  const TimedPose *first = nullptr, *last = nullptr;
+  for (const TimedPose& p : truth) {
+    if (simulated.empty() || p.time_s < simulated.front().time_s || p.time_s > simulated.back().time_s) continue;
+    if (!first) first = &p;
+    if (p.time_s <= t + 1e-9 || !last) last = &p;
   }
+  if (!first) return now;
+  now.truth = last->pose;
+  now.simulated = pose_at(simulated, last->time_s);
+  now.dead_reckoned = pose_nearest(shown->replay.dead_reckoned, last->time_s);
+  const Pose gap =
+      between(between(first->pose, last->pose), between(*pose_at(simulated, first->time_s), *now.simulated));
+  now.simulated_gap_m = length(gap.position());
+  now.simulated_gap_heading_rad = wrapped(gap.heading_rad);
   return now;
 }
 

@@ -8,7 +8,10 @@
 #include <fstream>
 
 #include "app/gui/first_scenario.h"
+#include "app/gui/folder_listing.h"
 #include "app/gui/planned_path.h"
+#include "app/gui/views.h"
+#include "physics/benchmark.h"
 
 namespace odolab {
 namespace {
@@ -198,6 +201,119 @@ TEST(Session, UmbmarkInTheWindowFindsTheErrorsAndDrivesAtLeastTenTimesBetterAfte
   session.execute(ui::AdoptCalibration{});
   EXPECT_EQ(session.mode(), ui::Mode::drive);
   EXPECT_NE(std::get<DifferentialDrive>(session.run().scenario().vehicle.kind).wheelbase_m, 0.340);
+}
+
+TEST(Session, UmbmarkInTheWindowGivesTheNumbersOfTheCommandLineToTheBit) {
+  Scenario scenario = small_square();
+  scenario.benchmark = Benchmark{2, false};
+  scenario.seed = 7;
+  const std::vector<UmbmarkStage> stages = run_umbmark_calibration(scenario, scenario.seed);
+  ASSERT_GE(stages.size(), 2u);
+  Session session(false);
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::StartBenchmark{2, true});
+  for (std::size_t k = 1; k < stages.size(); ++k) session.execute(ui::ApplyCalibration{});
+  const std::vector<ui::BenchExperiment>& experiments = session.bench().experiments();
+  ASSERT_EQ(experiments.size(), stages.size());
+  const auto expect_same = [](const std::vector<ReturnError>& a, const std::vector<ReturnError>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(bits(a[i].x_m), bits(b[i].x_m));
+      EXPECT_EQ(bits(a[i].y_m), bits(b[i].y_m));
+      EXPECT_EQ(bits(a[i].heading_rad), bits(b[i].heading_rad));
+    }
+  };
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    expect_same(experiments[k].runs.clockwise, stages[k].runs.clockwise);
+    expect_same(experiments[k].runs.counter_clockwise, stages[k].runs.counter_clockwise);
+    EXPECT_EQ(bits(experiments[k].measure->largest_systematic_error_m),
+              bits(stages[k].measure.largest_systematic_error_m));
+  }
+}
+
+TEST(Session, UmbmarkNamesARunThatNeverArrivedAndCalibratesNothingFromTheRest) {
+  Session session(false);
+  Scenario scenario = small_square();
+  scenario.floor.bumps.clear();
+  scenario.motor.torque_limit_nm = 1e-4;  // too weak to gain the speed asked for within a side
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::StartBenchmark{1, false});
+  ASSERT_EQ(session.bench().experiments().size(), 1u);
+  const ui::BenchExperiment& e = session.bench().experiments().back();
+  ASSERT_FALSE(e.lost.empty());
+  EXPECT_EQ(e.runs.clockwise.size() + e.runs.counter_clockwise.size() + e.lost.size(), 2u);
+  EXPECT_FALSE(e.calibration.has_value());
+}
+
+TEST(Session, SaysHowADeletedCableComesBackUntilItIsBack) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  Floor floor = session.run().scenario().floor;
+  floor.bumps.clear();
+  session.execute(ui::SetFloor{floor, true});
+  ASSERT_EQ(session.messages().size(), 1u);
+  EXPECT_NE(session.messages()[0].text.find("Ctrl+Z"), std::string::npos);
+  EXPECT_FALSE(session.messages()[0].is_error);
+  session.execute(ui::Undo{});
+  EXPECT_TRUE(session.messages().empty());
+  session.execute(ui::SetFloor{floor, true});
+  for (int i = 0; i < 700; ++i) session.advance(1.0 / 60.0, kAlways);  // it goes by itself after 10 s
+  EXPECT_TRUE(session.messages().empty());
+}
+
+TEST(Session, TheTimeAxisIsThePlanUntilTheRunOutlastsItAndNeverShrinks) {
+  Session session(false);
+  session.execute(ui::EditScenario{small_square()});
+  const ui::Theme theme = ui::make_theme(false, 1.0f);
+  const double planned_s = session.run().simulation().expected_duration_s();
+  EXPECT_DOUBLE_EQ(drive_transport(session, theme).total_s, planned_s);
+  EXPECT_TRUE(drive_transport(session, theme).total_is_planned);
+  play_to_end(session, 0.05);
+  const ui::Transport over = drive_transport(session, theme);
+  EXPECT_FALSE(over.total_is_planned);
+  EXPECT_DOUBLE_EQ(over.total_s, std::max(planned_s, over.latest_s));
+}
+
+TEST(Session, AMessageSaidAgainIsTheNewestAndThereOnce) {
+  Session session(false);
+  for (const char* words : {"one", "two", "one"}) session.say(words, true);
+  ASSERT_EQ(session.messages().size(), 2u);
+  EXPECT_EQ(session.messages().back().text, "one");
+}
+
+TEST(Compare, TheGapAtTheLastInstantIsTheErrorAtTheEnd) {
+  Session session(false);
+  Scenario scenario = small_square();
+  scenario.sensors.truth_period_s = 0.07;  // out of step with the encoders
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::RecordSimulatedRun{});
+  session.advance(0.0, kAlways);
+  session.advance(0.0, kAlways);
+  ASSERT_NE(session.comparison().nominal(), nullptr);
+  session.execute(ui::ToEnd{});
+  const ui::ErrorNow now = error_now(session);
+  const TrackError& error = *session.comparison().nominal()->replay.simulated_error;
+  EXPECT_NEAR(now.simulated_gap_m, error.end_position_m, 1e-12);  // the same sum in another order
+  EXPECT_NEAR(now.simulated_gap_heading_rad, error.end_heading_rad, 1e-12);
+}
+
+TEST(FolderListing, ListsFoldersAndWhatCanBeOpened) {
+  FolderListing listing;
+  const std::string assets = std::string(ODOLAB_SOURCE_DIR) + "/assets/";
+  const auto holds = [&](const std::string& typed, const std::string& name) {
+    for (const ui::PathEntry& e : listing.of(typed))
+      if (e.name == name) return true;
+    return false;
+  };
+  EXPECT_TRUE(holds(assets, "scenarios/"));
+  EXPECT_TRUE(holds(assets, "../"));
+  EXPECT_TRUE(holds(assets + "sc", "scenarios/"));
+  EXPECT_FALSE(holds(assets + "sc", "vehicles/"));
+  EXPECT_TRUE(holds(assets + "scenarios/", "umbmark.toml"));
+  EXPECT_TRUE(holds(assets + "scenarios/umbmark.toml", "no_error.toml"));
+  EXPECT_TRUE(holds(assets + "recordings/", "simulated_eight.csv"));
+  EXPECT_FALSE(holds(assets + "pictures/", "drive.png"));
+  EXPECT_TRUE(listing.of("/no/such/folder/x").empty());
 }
 
 TEST(Session, ARecordedRunIsReplayedAndCalibratedAgainstItsTruth) {

@@ -69,6 +69,28 @@ class HeadlessScreen {
     press(false);
     picture(content);
   }
+  // Types characters, one a picture.
+  void type(const char* text, const std::function<void()>& content, ImVec2 low = {0, 0}, ImVec2 size = {0, 0}) {
+    for (const char* c = text; *c; ++c) {
+      ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+      picture(content, low, size);
+    }
+  }
+  void press_key(ImGuiKey key, const std::function<void()>& content, ImVec2 low = {0, 0}, ImVec2 size = {0, 0}) {
+    for (const bool down : {true, false}) {
+#if IMGUI_VERSION_NUM >= 18700
+      ImGui::GetIO().AddKeyEvent(key, down);
+#else
+      ImGui::GetIO().KeyMap[key] = int(key) + 1;
+      ImGui::GetIO().KeysDown[int(key) + 1] = down;
+#endif
+      picture(content, low, size);
+    }
+  }
+  void double_click(ImVec2 at, const std::function<void()>& content, ImVec2 low = {0, 0}, ImVec2 size = {0, 0}) {
+    click(at, content, low, size);
+    click(at, content, low, size);
+  }
   // Long enough that two clicks are not taken for a double one.
   void pause(const std::function<void()>& content) {
     for (int i = 0; i < 60; ++i) picture(content);

@@ -10,6 +10,11 @@
 namespace odolab::ui {
 namespace {
 
+TEST(Units, ShowNoUncertaintyWhereItIsUnknown) {
+  EXPECT_EQ(shown_with_error(0.0123, 0.0004, kMillimetres, 1), "12.3 ± 0.4 mm");
+  EXPECT_EQ(shown_with_error(0.0123, 0.0, kMillimetres, 1), "12.3 mm");
+}
+
 TEST(Units, StandBehindEveryNumber) {
   EXPECT_EQ(shown(0.0123, kMillimetres), "12.3 mm");
   EXPECT_EQ(shown(-0.5 * 3.14159265358979 / 180.0, kDegrees), "−0.50°");

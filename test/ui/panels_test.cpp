@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
 #include "test/ui/headless_screen.h"
+#include "ui/look/widgets.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/cluster_panel.h"
 #include "ui/panels/compare_panel.h"
 #include "ui/panels/error_panel.h"
 #include "ui/panels/message_bar.h"
+#include "ui/panels/path_dialog.h"
 #include "ui/panels/path_panel.h"
 #include "ui/panels/readout_panel.h"
+#include "ui/panels/run_panel.h"
 #include "ui/panels/top_bar.h"
 #include "ui/panels/transport_bar.h"
 #include "ui/panels/vehicle_panel.h"
@@ -106,7 +109,7 @@ TEST(Timeline, MapsPositionToTimeAndBack) {
   EXPECT_DOUBLE_EQ(time_at(5.0f, 10.0f, 10.0f, 60.0), 0.0);
 }
 
-TEST(MessageBar, StaysUntilItIsDismissedAndSaysWhich) {
+TEST(MessageBar, ShowsTheNewestUntilAClickAnywhereOnItDismissesIt) {
   HeadlessScreen screen;
   std::vector<Message> messages{{"first.toml:3: found nothing, expected a number", true}, {"second", true}};
   Actions asked;
@@ -115,23 +118,170 @@ TEST(MessageBar, StaysUntilItIsDismissedAndSaysWhich) {
     height = message_bar_height(messages, 1280.0f, screen.theme);
     EXPECT_EQ(message_bar_height({}, 1280.0f, screen.theme), 0.0f);
   });
-  EXPECT_GT(height, 2.0f * 13.0f);
   const auto content = [&] { append(asked, message_bar(messages, screen.theme)); };
   for (int i = 0; i < 100; ++i) screen.picture(content, {0, 40}, {1280, height});
   EXPECT_TRUE(asked.empty());
-  screen.click({1280.0f - 10.0f - 12.0f, 40.0f + 0.75f * height}, content, {0, 40}, {1280, height});
+  screen.click({400.0f, 40.0f + 0.5f * height}, content, {0, 40}, {1280, height});
   ASSERT_EQ(count_of<DismissMessage>(asked), 1);
   EXPECT_EQ(std::get<DismissMessage>(asked.back()).index, 1u);
 }
 
-TEST(MessageBar, GivesALongMessageTheLinesItNeeds) {
+TEST(MessageBar, IsNeverHigherThanTwoLinesOfText) {
   HeadlessScreen screen;
   screen.picture([&] {
-    const float one = message_bar_height({{"short", true}}, 600.0f, screen.theme);
-    const float many =
-        message_bar_height({{std::string(400, 'x') + " " + std::string(400, 'y'), true}}, 600.0f, screen.theme);
-    EXPECT_GT(many, 2.0f * one);
+    const float two_lines = 2.0f * ImGui::GetTextLineHeight() + screen.theme.px(12);
+    const std::string words = std::string(300, 'x') + " " + std::string(300, 'y') + " " + std::string(300, 'z');
+    EXPECT_FLOAT_EQ(message_bar_height({{words, true}}, 600.0f, screen.theme), two_lines);
+    EXPECT_LE(message_bar_height(std::vector<Message>(20, {words, true}), 600.0f, screen.theme), two_lines);
+    EXPECT_LT(message_bar_height({{"short", true}}, 600.0f, screen.theme), two_lines);
   });
+}
+
+// A field of 0.1 to 20 m that holds 4 m, alone in a window.
+class NumberFieldTest : public ::testing::Test {
+ protected:
+  NumberFieldTest() { screen.picture(draw, {0, 0}, size); }
+  void type(const char* text) {
+    screen.pause(draw);
+    screen.double_click({60, 20}, draw, {0, 0}, size);
+    screen.type(text, draw, {0, 0}, size);
+  }
+
+  HeadlessScreen screen;
+  const ImVec2 size{300, 200};
+  double value = 4.0;
+  int done = 0;
+  std::function<void()> draw = [this] {
+    done +=
+        number_field({"##side", kMetres, 0.1, 20.0, "Length of a side."}, value, 120.0f, screen.theme) == Edited::done;
+  };
+};
+
+TEST_F(NumberFieldTest, TakesATypedNumberOnceItIsConfirmed) {
+  type("7.5");
+  EXPECT_EQ(done, 0);
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value, 7.5);
+  EXPECT_EQ(done, 1);
+}
+
+TEST_F(NumberFieldTest, TakesNoLettersAndACommaForAPoint) {
+  type("1e3abc,5");
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value, 13.5);
+}
+
+TEST_F(NumberFieldTest, BringsANumberOutOfRangeToTheBoundAndSaysSo) {
+  type("500");
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value, 20.0);
+  EXPECT_EQ(done, 1);
+  bool noted = false;
+  screen.picture(
+      [&] {
+        draw();
+        noted = ImGui::GetForegroundDrawList()->VtxBuffer.Size > 0;
+      },
+      {0, 0}, size);
+  EXPECT_TRUE(noted);
+}
+
+TEST_F(NumberFieldTest, ComesBackToWhatItWasOnEscapeAndConfirmsNothing) {
+  type("9");
+  screen.press_key(ImGuiKey_Escape, draw, {0, 0}, size);
+  screen.picture(draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value, 4.0);
+  EXPECT_EQ(done, 0);
+}
+
+TEST_F(NumberFieldTest, TypedAsItWasConfirmsNothing) {
+  type("4");
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_EQ(done, 0);
+}
+
+// The dialog over a button that fills the window behind it.
+class PathDialogTest : public ::testing::Test {
+ protected:
+  std::string opened;
+  int behind = 0;
+  bool open = true;
+  PathDialog state;
+  std::vector<PathEntry> entries;
+  HeadlessScreen screen;
+  std::function<void()> draw = [this] {
+    behind += ImGui::InvisibleButton("behind", {1200, 700});
+    const std::string chosen = path_dialog("Open", "Open", open, state, entries, {}, screen.theme);
+    if (!chosen.empty()) opened = chosen;
+  };
+};
+
+TEST_F(PathDialogTest, ClosesOnOneEscapeHoweverMuchIsTyped) {
+  screen.picture(draw);
+  screen.picture(draw);
+  screen.type("abc", draw);
+  EXPECT_STREQ(state.path, "abc");
+  screen.press_key(ImGuiKey_Escape, draw);
+  EXPECT_FALSE(open);
+  EXPECT_EQ(opened, "");
+}
+
+TEST_F(PathDialogTest, LetsNothingBehindItReact) {
+  screen.picture(draw);
+  screen.picture(draw);
+  screen.click({20, 650}, draw);
+  EXPECT_EQ(behind, 0);
+  EXPECT_TRUE(open);
+  screen.press_key(ImGuiKey_Escape, draw);
+  screen.click({20, 650}, draw);
+  EXPECT_EQ(behind, 1);
+}
+
+TEST_F(PathDialogTest, OpenedAgainReplacesThePathThatFailed) {
+  std::snprintf(state.path, sizeof state.path, "wrong.toml");
+  screen.picture(draw);
+  screen.picture(draw);
+  screen.type("right.toml", draw);
+  screen.press_key(ImGuiKey_Enter, draw);
+  EXPECT_EQ(opened, "right.toml");
+  EXPECT_FALSE(open);
+}
+
+TEST_F(PathDialogTest, KeptOpenWithAProblemStillTakesKeysAndClosesOnEscape) {
+  const auto failing = [this] {
+    draw();
+    if (opened.empty()) return;
+    opened.clear();
+    state.problem = "There is no such file.";
+    open = true;
+  };
+  screen.picture(failing);
+  screen.picture(failing);
+  screen.type("wrong", failing);
+  screen.press_key(ImGuiKey_Enter, failing);
+  for (int i = 0; i < 5; ++i) screen.picture(failing);
+  ASSERT_TRUE(open);
+  screen.type("right", failing);
+  EXPECT_STREQ(state.path, "right");
+  EXPECT_EQ(state.problem, "");
+  screen.press_key(ImGuiKey_Escape, failing);
+  EXPECT_FALSE(open);
+}
+
+TEST_F(PathDialogTest, OpensAFileThatIsClickedAndWalksIntoAFolder) {
+  entries = {{"runs/", "data/runs/", true}, {"one.csv", "data/one.csv", false}};
+  screen.picture(draw);
+  screen.picture(draw);
+  float y = 0.0f;
+  for (y = 150.0f; y < 400.0f && std::string(state.path).empty(); y += 5.0f) screen.click({640, y}, draw);
+  EXPECT_STREQ(state.path, "data/runs/");
+  EXPECT_TRUE(open);
+  screen.picture(draw);
+  screen.picture(draw);
+  screen.type("x", draw);
+  EXPECT_STREQ(state.path, "data/runs/x");  // typed on, behind the folder
+  for (y += 5.0f; y < 400.0f && opened.empty(); y += 5.0f) screen.click({640, y}, draw);
+  EXPECT_EQ(opened, "data/one.csv");
 }
 
 TEST(TopBar, AModeIsChosenByAClick) {
@@ -200,6 +350,12 @@ TEST(CalibratePanel, StartsWithTheNumberOfRunsThatIsShown) {
   EXPECT_EQ(std::get<StartBenchmark>(asked.back()).runs_each_way, 7);
 }
 
+TEST(LostRuns, AreNamed) {
+  EXPECT_EQ(words_of_lost({}), "");
+  EXPECT_EQ(words_of_lost({{true, 2}}), "cw 2 never arrived");
+  EXPECT_EQ(words_of_lost({{true, 2}, {false, 1}, {false, 5}}), "cw 2, ccw 1 and ccw 5 never arrived");
+}
+
 // Every panel, in every state it can be in, at a small and at a doubled size: none may touch what is not there.
 TEST(Panels, DrawInEveryState) {
   for (const float scale : {1.0f, 2.0f}) {
@@ -225,6 +381,7 @@ TEST(Panels, DrawInEveryState) {
       compare_panel(compare, ask, screen.theme);
       error_panel(compare, now, screen.theme);
       path_panel(draft, editing, screen.theme);
+      run_panel(draft, editing, screen.theme);
     };
     screen.picture(all);
     screen.picture([&] { cluster_panel(bench, clusters, screen.theme); });
@@ -244,6 +401,9 @@ TEST(Panels, DrawInEveryState) {
     experiments[0].only_clockwise = calibrate_one_direction(one.runs, true, one.vehicle);
     bench.running = false;
     screen.picture(all);
+    experiments[0].lost = {{true, 2}, {false, 1}, {false, 5}};  // some never arrived
+    screen.picture(all);
+    experiments[0].lost.clear();
     BenchExperiment two = one;
     two.name = "after calibration";
     two.runs.clockwise = {{0.002, 0.003, 0.0}, {-0.003, 0.001, 0.0}};

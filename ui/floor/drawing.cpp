@@ -128,13 +128,22 @@ void draw_grid(ImDrawList& draw, const Camera& camera, const Theme& theme) {
     draw.AddText({camera.low.x + theme.px(6), std::round(y - height / 2)}, theme.muted,
                  (tick_text(k * step, step) + " m").c_str());
   }
-  // The origin with its axes.
+}
+
+void draw_origin(ImDrawList& draw, const Camera& camera, const Theme& theme) {
   const ImVec2 o = camera.screen({0.0, 0.0});
-  const float l = theme.px(26);
-  arrow(draw, o, {o.x + l, o.y}, theme.muted, theme.px(1.5f), theme.px(7));
-  arrow(draw, o, {o.x, o.y - l}, theme.muted, theme.px(1.5f), theme.px(7));
-  draw.AddText({o.x + l - theme.px(4), o.y + theme.px(1)}, theme.muted, "x");
-  draw.AddText({o.x - theme.px(12), o.y - l - theme.px(4)}, theme.muted, "y");
+  const float l = theme.px(26), halo = theme.px(1.5f);
+  for (const ImVec2 tip : {ImVec2(o.x + l, o.y), ImVec2(o.x, o.y - l)}) {
+    draw.AddLine(o, tip, faded(theme.paper, 0.9f), theme.px(5));
+    arrow(draw, o, tip, theme.muted, theme.px(1.5f), theme.px(7));
+  }
+  const auto letter = [&](ImVec2 at, const char* text) {
+    for (const float dx : {-halo, 0.0f, halo})
+      for (const float dy : {-halo, 0.0f, halo}) draw.AddText({at.x + dx, at.y + dy}, theme.paper, text);
+    draw.AddText(at, theme.ink, text);
+  };
+  letter({o.x + l - theme.px(4), o.y + theme.px(1)}, "x");
+  letter({o.x - theme.px(12), o.y - l - theme.px(4)}, "y");
 }
 
 void draw_scale_bar(ImDrawList& draw, const Camera& camera, const Theme& theme) {

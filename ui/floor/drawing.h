@@ -9,6 +9,8 @@
 namespace odolab::ui {
 
 void draw_grid(ImDrawList& draw, const Camera& camera, const Theme& theme);
+// The origin's axes; drawn after what lies there, so that they are seen on it.
+void draw_origin(ImDrawList& draw, const Camera& camera, const Theme& theme);
 void draw_scale_bar(ImDrawList& draw, const Camera& camera, const Theme& theme);
 void draw_bump(ImDrawList& draw, const Camera& camera, const Bump& bump, bool selected, const Theme& theme);
 void draw_slip_zone(ImDrawList& draw, const Camera& camera, const SlipZone& zone, bool selected, const Theme& theme);

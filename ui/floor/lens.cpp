@@ -29,8 +29,8 @@ void pose_mark(ImDrawList& draw, const Camera& camera, const Pose& pose, ImU32 c
 
 double lens_magnification(double gap_m, double px_per_m, double lens_radius_px) {
   const double wanted = 0.7 * lens_radius_px / std::max(gap_m * px_per_m, 1e-9);
-  double magnification = 2.0;
-  for (double decade = 1.0; decade <= 1000.0; decade *= 10.0)
+  double magnification = 1e-4;
+  for (double decade = 1e-4; decade <= 1000.0; decade *= 10.0)
     for (const double factor : {1.0, 2.0, 5.0})
       if (decade * factor <= wanted && decade * factor <= 1000.0)
         magnification = std::max(magnification, decade * factor);

@@ -6,8 +6,8 @@
 
 namespace odolab::ui {
 
-// The round magnification (1, 2, 5, 10, 20, ...) over `px_per_m` at which a gap takes up a good part of a lens of this
-// radius, at least 2 and at most 1000.
+// The round magnification (..., 0.5, 1, 2, 5, 10, ...) over `px_per_m` at which a gap takes up a good part of a lens of
+// this radius, at most 1000; below 1 where the gap is larger than the lens, so that both poses are always in it.
 double lens_magnification(double gap_m, double px_per_m, double lens_radius_px);
 
 // Draws the lens in the given square. Nothing where the scene has no two poses.

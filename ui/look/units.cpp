@@ -33,6 +33,7 @@ std::string shown(double value_si, const Unit& unit, int decimals) {
 }
 
 std::string shown_with_error(double value_si, double stderr_si, const Unit& unit, int decimals) {
+  if (!(stderr_si > 0.0)) return shown(value_si, unit, decimals);
   return with_unit(number(value_si * unit.per_si, decimals) + " ± " + number(stderr_si * unit.per_si, decimals), unit);
 }
 

@@ -31,7 +31,7 @@ inline constexpr Unit kCount{"", 1.0, 0, 1.0};
 // "12.3 mm"; a minus sign is a true minus; "–" where the value is not a number.
 std::string shown(double value_si, const Unit& unit);
 std::string shown(double value_si, const Unit& unit, int decimals);
-// "12.3 ± 0.4 mm"
+// "12.3 ± 0.4 mm"; "12.3 mm" where the error is zero, that is: unknown
 std::string shown_with_error(double value_si, double stderr_si, const Unit& unit, int decimals);
 // A length in the unit that suits its size: "0.43 mm", "12.3 mm", "1.25 m".
 std::string shown_length(double metres);

@@ -11,15 +11,65 @@ namespace {
 // Where the field of a labelled row begins, as a share of the panel's width.
 constexpr float kLabelShare = 0.50f;
 
-Edited edited(bool changed) {
-  if (ImGui::IsItemDeactivatedAfterEdit()) return Edited::done;
-  return changed ? Edited::changing : Edited::no;
+// The one field that a person has in hand: there is but one mouse and one keyboard.
+struct FieldInHand {
+  ImGuiID id = 0;
+  double before_si = 0.0;  // to come back to
+  bool outside = false;    // what is typed so far
+};
+
+FieldInHand& field_in_hand() {
+  static FieldInHand hand;
+  return hand;
+}
+
+// Digits, signs and points alone; a comma counts as the point that it is on many keyboards.
+void keep_number_characters() {
+  ImVector<ImWchar>& typed = ImGui::GetIO().InputQueueCharacters;
+  int kept = 0;
+  for (const ImWchar c : typed)
+    if ((c >= '0' && c <= '9') || c == '.' || c == ',' || c == '-' || c == '+') typed[kept++] = c == ',' ? '.' : c;
+  typed.resize(kept);
+}
+
+// Under the item before it, over whatever is there.
+void words_under_item(const std::string& text, const Theme& theme) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str()), screen = ImGui::GetIO().DisplaySize;
+  const float pad = theme.px(6);
+  const ImVec2 low{std::round(std::max(0.0f, std::min(ImGui::GetItemRectMin().x, screen.x - size.x - 2.0f * pad))),
+                   std::round(ImGui::GetItemRectMax().y + theme.px(2))};
+  const ImVec2 high{low.x + size.x + 2.0f * pad, low.y + size.y + pad};
+  ImDrawList& draw = *ImGui::GetForegroundDrawList();
+  draw.AddRectFilled(low, high, theme.error_paper, theme.px(4));
+  draw.AddRect(low, high, theme.error, theme.px(4));
+  draw.AddText({low.x + pad, low.y + 0.5f * pad}, theme.error, text.c_str());
+}
+
+// Beside the item before it, so that neither it nor its neighbours are covered.
+void tooltip_beside(const std::string& text, const Theme& theme) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
+  const bool on_left = 0.5f * (low.x + high.x) < 0.5f * screen.x;
+  const float height = ImGui::CalcTextSize(text.c_str(), nullptr, false, theme.px(400)).y + theme.px(20);
+  const float y = std::max(0.0f, std::min(low.y, screen.y - height));
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) && !text.empty() && !ImGui::GetIO().WantTextInput)
+    ImGui::SetNextWindowPos({on_left ? high.x + theme.px(18) : low.x - theme.px(18), y}, ImGuiCond_Always,
+                            {on_left ? 0.0f : 1.0f, 0.0f});
+  tooltip(text, theme);
+}
+
+void wrapped_words(const std::string& text, ImU32 colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
 }
 
 }  // namespace
 
 void tooltip(const std::string& text, const Theme& theme) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (ImGui::GetIO().WantTextInput) return;  // who types does not want to have it covered
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(theme.px(10), theme.px(8)));
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(theme.px(400));
@@ -136,13 +186,9 @@ void heading(const char* title, const Theme& theme) {
   ImGui::TextUnformatted(title);
 }
 
-void note(const std::string& text, const Theme& theme) {
-  ImGui::PushStyleColor(ImGuiCol_Text, theme.muted);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
+void note(const std::string& text, const Theme& theme) { wrapped_words(text, theme.muted); }
+
+void warning(const std::string& text, const Theme& theme) { wrapped_words(text, theme.error); }
 
 Edited number_field(const NumberField& field, double& value_si, float width, const Theme& theme) {
   double value = value_si * field.unit.per_si;
@@ -155,16 +201,38 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
     std::snprintf(format, sizeof format, "×%%.%df", field.unit.decimals);
   else
     std::snprintf(format, sizeof format, "%%.%df%s%s", field.unit.decimals, gap, unit == "%" ? "%%" : unit.c_str());
+  const ImGuiID id = ImGui::GetID(field.id);
+  FieldInHand& hand = field_in_hand();
+  if (hand.id == id) keep_number_characters();
+  const double before_si = value_si;
   ImGui::SetNextItemWidth(width);
   ImGui::BeginDisabled(!field.enabled);
-  const bool changed =
-      ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag), bounded ? &least : nullptr,
-                        bounded ? &most : nullptr, format, bounded ? ImGuiSliderFlags_AlwaysClamp : 0);
-  const Edited result = edited(changed);
+  const bool changed = ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag),
+                                         bounded ? &least : nullptr, bounded ? &most : nullptr, format);
   ImGui::EndDisabled();
-  if (changed) value_si = value / field.unit.per_si;
-  if (!ImGui::IsItemActive())
-    tooltip(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
+  if (ImGui::IsItemActivated()) hand = {id, before_si, false};
+  if (changed) {
+    hand.outside = bounded && (value < least || value > most);
+    value_si = (bounded ? std::clamp(value, least, most) : value) / field.unit.per_si;
+  }
+  Edited result = changed ? Edited::changing : Edited::no;
+  float& said_until_s = *ImGui::GetStateStorage()->GetFloatRef(id, -1.0f);
+  if (hand.id == id && ImGui::IsItemDeactivated()) {
+    const int escape = ImGui::GetKeyIndex(ImGuiKey_Escape);
+    if (escape >= 0 && ImGui::IsKeyPressed(escape)) {
+      value_si = hand.before_si;
+      result = Edited::changing;  // back to what it was, and nothing confirmed
+    } else {
+      result = value_si != hand.before_si ? Edited::done : Edited::no;
+      if (hand.outside) said_until_s = float(ImGui::GetTime()) + 6.0f;
+    }
+    hand.id = 0;
+  }
+  const bool outside_now = hand.id == id && ImGui::IsItemActive() && hand.outside;
+  if (outside_now || float(ImGui::GetTime()) < said_until_s)
+    words_under_item("from " + shown(field.least, field.unit) + " to " + shown(field.most, field.unit), theme);
+  else if (!ImGui::IsItemActive())
+    tooltip_beside(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
   return result;
 }
 

@@ -35,11 +35,15 @@ bool section(const char* title, const Theme& theme, bool open_at_first = true);
 void heading(const char* title, const Theme& theme);
 // Wrapped words in the quiet colour.
 void note(const std::string& text, const Theme& theme);
+// The same in the colour of errors.
+void warning(const std::string& text, const Theme& theme);
 
-// What happened to a field in this frame. `done` comes once, when the person lets go or leaves the field.
+// What happened to a field in this frame. `done` comes once, when the person lets go or leaves the field with another
+// value than before.
 enum class Edited { no, changing, done };
 
-// A number that is dragged or, after a double click, typed; bounds are SI and may be equal for none.
+// A number that is dragged or, after a double click, typed; bounds are SI and may be equal for none. A number typed
+// outside of them is brought to the nearest bound, and a note under the field says so. Escape brings the old one back.
 struct NumberField {
   const char* id;
   Unit unit;

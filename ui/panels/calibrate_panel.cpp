@@ -1,5 +1,6 @@
 #include "ui/panels/calibrate_panel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -47,23 +48,39 @@ void run_table(const BenchExperiment& experiment, const Theme& theme) {
       text_right(title, theme.muted);
   }
   tooltip("Return errors: absolute minus calculated pose at the end of a run, Eq. 3.1.", theme);
-  const auto rows = [&](const std::vector<ReturnError>& errors, const char* way, ImU32 colour) {
-    for (std::size_t i = 0; i < errors.size(); ++i) {
+  const auto rows = [&](const std::vector<ReturnError>& errors, bool clockwise, ImU32 colour) {
+    const auto is_lost = [&](int number) {
+      for (const LostRun& l : experiment.lost)
+        if (l.clockwise == clockwise && l.number == number) return true;
+      return false;
+    };
+    int most_lost = 0;
+    for (const LostRun& l : experiment.lost)
+      if (l.clockwise == clockwise) most_lost = std::max(most_lost, l.number);
+    std::size_t arrived = 0;
+    for (int number = 1; arrived < errors.size() || number <= most_lost; ++number) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::PushStyleColor(ImGuiCol_Text, colour);
-      ImGui::Text("%s %d", way, int(i) + 1);
+      ImGui::Text("%s %d", clockwise ? "cw" : "ccw", number);
       ImGui::PopStyleColor();
       ImGui::TableNextColumn();
-      text_right(shown(errors[i].x_m, mm), theme.ink);
+      if (is_lost(number)) {
+        text_right("lost", theme.error);
+        tooltip("The robot never arrived: this run has no return error.", theme);
+        continue;
+      }
+      if (arrived == errors.size()) continue;
+      const ReturnError& e = errors[arrived++];
+      text_right(shown(e.x_m, mm), theme.ink);
       ImGui::TableNextColumn();
-      text_right(shown(errors[i].y_m, mm), theme.ink);
+      text_right(shown(e.y_m, mm), theme.ink);
       ImGui::TableNextColumn();
-      text_right(shown(errors[i].heading_rad, deg), theme.ink);
+      text_right(shown(e.heading_rad, deg), theme.ink);
     }
   };
-  rows(experiment.runs.clockwise, "cw", theme.orange);
-  rows(experiment.runs.counter_clockwise, "ccw", theme.blue);
+  rows(experiment.runs.clockwise, true, theme.orange);
+  rows(experiment.runs.counter_clockwise, false, theme.blue);
   ImGui::EndTable();
 }
 
@@ -73,6 +90,8 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   Actions actions;
   const std::vector<BenchExperiment>& experiments = *bench.experiments;
   const std::size_t n = experiments.size();
+  const bool lost = n > 0 && !bench.running && !experiments.back().lost.empty();
+  const bool one_run = n > 0 && experiments.back().runs.clockwise.size() == 1;
   const bool measured = n > 0 && experiments.front().calibration.has_value();
   const bool applied = n > 1, verified = applied && experiments.back().calibration.has_value();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -87,10 +106,10 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
     std::snprintf(words, sizeof words,
                   "%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
     if (!measured) note(words, theme);
-    if (!bench.running && !measured)
+    if (!bench.running && !measured && !lost)
       count_row("Runs each way", "##runs", state.runs_each_way, 1, 50,
                 "The report drives five in each direction (section 3.2).", theme);
-    if (!bench.running && !measured && bench.has_things) {
+    if (!bench.running && !measured && !lost && bench.has_things) {
       ImGui::Checkbox("Keep cables and patches", &state.keep_things);
       tooltip("UMBmark asks for a smooth floor: cables and patches are taken away for its runs unless this is ticked.",
               theme);
@@ -117,8 +136,9 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   step_heading(3, "Keep it", false, verified, theme);
   if (verified && !bench.running) {
     const bool again = experiments.back().measure && experiments.back().measure->worth_compensating;
-    note(again ? "A rest is still above 3 standard errors: a second calibration is likely to help (section 6.3)."
-               : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).",
+    note(one_run ? "One run each way leaves no spread: whether a second calibration helps, nobody can tell."
+         : again ? "A rest is still above 3 standard errors: a second calibration is likely to help (section 6.3)."
+                 : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).",
          theme);
     ButtonLook second;
     second.primary = again;
@@ -131,6 +151,10 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
     keep.tip = "The calibrated vehicle becomes the nominal one of the scenario, in Drive and when it is saved.";
     if (text_button("Drive with this vehicle", theme, keep, width)) actions.push_back(AdoptCalibration{});
   }
+  if (lost)
+    warning(words_of_lost(experiments.back().lost) +
+                ": no return error, and no calibration from the rest. Look at the floor and the drive, and start anew.",
+            theme);
   if (bench.running) {
     ImGui::Dummy({1, theme.px(4)});
     ImGui::PushStyleColor(ImGuiCol_Text, bench.share_done > 0.5 ? theme.on_ink : theme.ink);

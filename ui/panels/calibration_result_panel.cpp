@@ -31,7 +31,8 @@ void measure_block(const BenchExperiment& e, const Theme& theme) {
       "centre ccw", shown_with_error(m.counter_clockwise.distance_m, m.standard_error_m, kMillimetres, 1),
       "Distance of the counter-clockwise runs' centre of gravity from the origin (Eq. 3.3), ± its standard error.",
       theme, theme.blue);
-  figure_row("spread of runs", shown(m.spread_m, kMillimetres),
+  const bool has_spread = e.runs.clockwise.size() > 1 || e.runs.counter_clockwise.size() > 1;
+  figure_row("spread of runs", has_spread ? shown(m.spread_m, kMillimetres) : "unknown",
              "Standard deviation of single runs about their centre: the non-systematic errors.", theme);
 }
 
@@ -74,22 +75,27 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
 void one_direction_block(const BenchExperiment& e, const Theme& theme) {
   if (!e.only_clockwise && !e.only_counter_clockwise) return;
   heading("One direction alone", theme);
-  // The direction that deceives more is the lesson.
-  const bool cw =
-      e.only_clockwise && (!e.only_counter_clockwise || e.only_clockwise->predicted_error_other_way_m >=
-                                                            e.only_counter_clockwise->predicted_error_other_way_m);
-  const OneDirectionCalibration& o = cw ? *e.only_clockwise : *e.only_counter_clockwise;
-  note(std::string(cw ? "Clockwise" : "Counter-clockwise") + " squares alone would take the wheelbase " +
-           shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) + " times the nominal one, promise " +
-           shown(o.predicted_error_this_way_m, kMillimetres) + " that way, and leave " +
-           shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.",
-       theme);
+  const auto sentence = [&](const OneDirectionCalibration& o, const char* way) {
+    note(std::string(way) + " squares alone would take the wheelbase " + shown(o.wheelbase_ratio, {"", 1.0, 4, 0.0}) +
+             " times the nominal one, promise " + shown(o.predicted_error_this_way_m, kMillimetres) +
+             " that way, and leave " + shown(o.predicted_error_other_way_m, kMillimetres) + " the other way.",
+         theme);
+  };
+  if (e.only_clockwise) sentence(*e.only_clockwise, "Clockwise");
+  if (e.only_counter_clockwise) sentence(*e.only_counter_clockwise, "Counter-clockwise");
 }
 
 }  // namespace
 
 void calibration_result_panel(const Bench& bench, const Theme& theme) {
   const std::vector<BenchExperiment>& experiments = *bench.experiments;
+  if (!bench.running && !experiments.empty() && !experiments.back().lost.empty()) {
+    heading("Not all squares were closed", theme);
+    warning(words_of_lost(experiments.back().lost) + ".", theme);
+    note("A robot that never arrives has no return error, and the rest of such an experiment calibrates nothing.",
+         theme);
+    return;
+  }
   if (experiments.empty() || !experiments.front().measure) {
     heading("What the squares will say", theme);
     note("Two systematic errors bend a differential drive's odometry:", theme);

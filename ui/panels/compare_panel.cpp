@@ -83,11 +83,14 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
   } else {
     ImGui::TextUnformatted(fitted(c.name, width).c_str());
     tooltip(c.name + "\n" + c.provenance, theme);
-    fact("lasts", clock(c.duration_s), theme);
-    fact("travels", shown(c.travelled_m, {"m", 1.0, 1, 0.0}), theme);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(8), theme.px(2)));
+    fact("drives", shown(c.travelled_m, {"m", 1.0, 1, 0.0}) + " in " + clock(c.duration_s), theme);
     fact("driven by", c.inputs, theme);
     fact("truth", std::to_string(c.truth_samples) + " poses", theme);
     fact("vehicle", c.vehicle_name, theme);
+    fact("mass assumed", shown(c.mass_kg, kKilograms), theme);
+    tooltip("The simulation's vehicle has this mass. It matters where wheels slip, and not to dead reckoning.", theme);
+    ImGui::PopStyleVar();
   }
   ImGui::Dummy({1, theme.px(2)});
   ButtonLook open;
@@ -121,6 +124,8 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
     tooltip(
         c.calibrated ? "Which vehicle file the replay drives." : "Calibrate first: there is no calibrated vehicle yet.",
         theme);
+  }
+  if (c.loaded && !c.calibrated) {
     ButtonLook calibrate;
     calibrate.primary = !c.calibrated && c.can_calibrate && !busy;
     calibrate.enabled = c.can_calibrate && !busy;

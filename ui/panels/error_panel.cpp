@@ -82,6 +82,13 @@ void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
                "The planar physics, its wheels driven as recorded.", theme);
   figure_table("dead", c, "dead reckoning", &ReplayFigures::dead_reckoning, theme.blue,
                "The odometry formula on the same inputs (UMBmark report, Eqs. 2.1 to 2.6).", theme);
+  const auto end_of = [](const std::optional<ReplayFigures>& f) {
+    return f && f->simulated.error ? f->simulated.error->end_position_m : 0.0;
+  };
+  if (c.nominal && c.calibrated && end_of(c.calibrated) > end_of(c.nominal)) {
+    ImGui::Dummy({1, theme.px(4)});
+    note("Where one run ends is a matter of luck; the figure over 1 m is the one to trust.", theme);
+  }
   if (!c.calibrated && c.can_calibrate) {
     ImGui::Dummy({1, theme.px(4)});
     note("Calibrate from this recording, on the left, to see what part of the error is a wrong parameter.", theme);

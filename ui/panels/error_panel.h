@@ -8,7 +8,8 @@
 
 namespace odolab::ui {
 
-// The moment shown: recorded truth against the simulated pose and the dead reckoning.
+// The last sample of the truth at the moment shown, the simulated pose and the dead reckoning. The gap is the error
+// gathered since the first sample, as in TrackError.
 struct ErrorNow {
   std::optional<Pose> truth, simulated, dead_reckoned;
   double simulated_gap_m = 0.0, simulated_gap_heading_rad = 0.0;

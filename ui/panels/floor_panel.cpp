@@ -110,6 +110,7 @@ Actions floor_panel(const Floor& floor, std::optional<FloorThing>& selected, Flo
   Actions actions;
   if (!section("Floor", theme)) return actions;
   ImGui::PushID("floor");
+  if (!ImGui::IsAnyItemActive()) state.in_gesture = false;
   Floor edited = floor;
   Edited result = number_row("Friction µ",
                              {"##friction", kCoefficient, 0.0, 2.0,

@@ -177,6 +177,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
     const Pose end = exaggerated(*scene.reference, *scene.deviating, factor);
     draw.AddLine(camera.screen(scene.reference->position()), camera.screen(end.position()), theme.orange, theme.px(2));
   }
+  if (state.show_grid) draw_origin(draw, camera, theme);
   if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
   if (scene.tracks.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
     const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());

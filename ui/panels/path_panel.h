@@ -1,4 +1,4 @@
-// The path, how fast it is driven, the sensors and the run itself.
+// The path and how fast it is driven.
 #pragma once
 
 #include "ui/actions.h"

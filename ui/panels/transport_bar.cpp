@@ -103,7 +103,8 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
   ImGui::SameLine(0, theme.px(14));
   speed_choice(t, theme, actions);
 
-  const std::string time = clock(t.time_s) + " / " + clock(t.total_s);
+  const std::string time =
+      clock(t.time_s) + " / " + (t.total_is_planned ? "about " + clock(t.total_s) : clock(t.latest_s));
   const std::vector<std::string> kinds{"position", "heading"};
   float kinds_width = 0.0f;
   for (const std::string& k : kinds) kinds_width += ImGui::CalcTextSize(k.c_str()).x + theme.px(24);

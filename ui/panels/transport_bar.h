@@ -28,12 +28,13 @@ struct TimeCurve {
 struct Transport {
   bool playing = false;
   bool finished = false;
+  bool total_is_planned = false;  // how long it takes is known to a few percent
   bool enabled = true;
   std::string why_disabled;
   bool can_step_back = true;
   double time_s = 0.0;    // shown
   double latest_s = 0.0;  // simulated so far
-  double total_s = 1.0;   // expected
+  double total_s = 1.0;   // where the time axis ends: the larger of what is planned and what was
   double speed = 1.0;     // wanted; 0: as fast as possible
   double reached_speed = 0.0;
   std::string quantity = "gap";

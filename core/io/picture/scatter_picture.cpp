@@ -17,8 +17,9 @@ struct Cloud {
   std::string label;
   const std::vector<ReturnError>* errors;
   bool clockwise;
-  std::string colour;
-  Point label_at{};
+  bool filled;
+
+  std::string colour() const { return clockwise ? ink::kOrange : ink::kBlue; }
 };
 
 Point mean_mm(const std::vector<ReturnError>& errors) {
@@ -28,11 +29,21 @@ Point mean_mm(const std::vector<ReturnError>& errors) {
   return {sum.x / n, sum.y / n};
 }
 
-void draw_mark(Svg& svg, Point at, bool clockwise, const std::string& colour) {
-  if (clockwise)
-    svg.cross(at, 5.0, {colour, 1.8, ""});
+// Discs and squares, open before and filled after, as in the window.
+void draw_mark(Svg& svg, Point at, const Cloud& cloud) {
+  constexpr double kReach = 4.5;
+  const std::string fill = cloud.filled ? cloud.colour() : "none";
+  const Stroke edge{cloud.filled ? "#ffffff" : cloud.colour(), cloud.filled ? 1.0 : 1.8, ""};
+  if (cloud.clockwise)
+    svg.circle(at, kReach, fill, edge);
   else
-    svg.circle(at, 5.0, "none", {colour, 1.8, ""});
+    svg.rectangle({at.x - kReach, at.y - kReach}, 2.0 * kReach, 2.0 * kReach, fill, edge);
+}
+
+void draw_centre(Svg& svg, Point at) {
+  constexpr double kReach = 9.0;
+  svg.line({at.x - kReach, at.y}, {at.x + kReach, at.y}, {ink::kTruth, 2.0, ""});
+  svg.line({at.x, at.y - kReach}, {at.x, at.y + kReach}, {ink::kTruth, 2.0, ""});
 }
 
 }  // namespace
@@ -40,13 +51,14 @@ void draw_mark(Svg& svg, Point at, bool clockwise, const std::string& colour) {
 std::string scatter_picture(const ScatterPicture& picture) {
   const double left = 66.0, right = picture.width_px - 20.0, top = 46.0, bottom = picture.height_px - 104.0;
   std::vector<Cloud> clouds;
-  const char* colours[2][2] = {{ink::kBlue, ink::kOrange}, {ink::kGreen, ink::kPurple}};
-  for (std::size_t i = 0; i < picture.experiments.size() && i < 2; ++i) {
+  const std::size_t n = picture.experiments.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > 0 && i + 1 < n) continue;
     const DrawnUmbmark& e = picture.experiments[i];
     const std::string end = e.label.empty() ? "" : ", " + e.label;
-    if (!e.runs.clockwise.empty()) clouds.push_back({"cw" + end, &e.runs.clockwise, true, colours[i][0]});
-    if (!e.runs.counter_clockwise.empty())
-      clouds.push_back({"ccw" + end, &e.runs.counter_clockwise, false, colours[i][1]});
+    const bool filled = i + 1 == n;
+    if (!e.runs.clockwise.empty()) clouds.push_back({"cw" + end, &e.runs.clockwise, true, filled});
+    if (!e.runs.counter_clockwise.empty()) clouds.push_back({"ccw" + end, &e.runs.counter_clockwise, false, filled});
   }
 
   double low_x = 0.0, high_x = 0.0, low_y = 0.0, high_y = 0.0;  // the origin, no error at all, is always in sight
@@ -84,14 +96,14 @@ std::string scatter_picture(const ScatterPicture& picture) {
 
   for (const Cloud& cloud : clouds) {
     const Point centre = mean_mm(*cloud.errors);
-    svg.line(at(0.0, 0.0), at(centre.x, centre.y), {cloud.colour, 1.4, "5 3"});
+    svg.line(at(0.0, 0.0), at(centre.x, centre.y), {cloud.colour(), 1.4, "5 3"});
   }
   for (const Cloud& cloud : clouds)
     for (const ReturnError& e : *cloud.errors)
-      draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud.clockwise, cloud.colour);
+      draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud);
   for (const Cloud& cloud : clouds) {
-    const Point centre = mean_mm(*cloud.errors), p = at(centre.x, centre.y);
-    svg.circle(p, 4.5, cloud.colour, {"#ffffff", 1.2, ""});
+    const Point centre = mean_mm(*cloud.errors);
+    draw_centre(svg, at(centre.x, centre.y));
   }
 
   double legend_y = picture.height_px - 48.0;
@@ -101,7 +113,7 @@ std::string scatter_picture(const ScatterPicture& picture) {
     char text[120];
     std::snprintf(text, sizeof text, "%s: %.0f mm", clouds[i].label.c_str(),
                   std::hypot(centre.x, centre.y));
-    draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i].clockwise, clouds[i].colour);
+    draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i]);
     svg.text({legend_x + 20.0, legend_y}, text);
     legend_x += 0.5 * (right - left);
     if (i % 2 == 1) legend_x = left, legend_y += 22.0;

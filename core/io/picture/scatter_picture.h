@@ -16,12 +16,13 @@ struct DrawnUmbmark {
 
 struct ScatterPicture {
   std::string title;
-  std::vector<DrawnUmbmark> experiments;  // the first two are drawn
+  std::vector<DrawnUmbmark> experiments;  // the first and the last are drawn
   double width_px = 720.0;
   double height_px = 640.0;
 };
 
-// An SVG file's text: x and y in millimetres at one scale, clockwise crosses, counter-clockwise circles.
+// An SVG file's text: x and y in millimetres at one scale, clockwise orange discs, counter-clockwise blue
+// squares, open where another experiment follows; black crosses are the centres of gravity.
 std::string scatter_picture(const ScatterPicture& picture);
 
 }  // namespace odolab

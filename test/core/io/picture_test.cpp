@@ -103,9 +103,23 @@ TEST(ScatterPicture, DrawsEachRunAndBothCentres) {
   picture.experiments.push_back({"", runs});
   const std::string svg = scatter_picture(picture);
   EXPECT_TRUE(is_well_formed(svg));
-  EXPECT_EQ(count(svg, "<circle"), 5u + 2u + 1u);                                   // runs, centres of gravity, legend
+  EXPECT_EQ(count(svg, "<circle"), 5u + 1u);         // clockwise runs, legend
+  EXPECT_EQ(count(svg, "fill=\"#0072B2\""), 5u + 1u);  // blue squares: counter-clockwise runs, legend
   EXPECT_NE(svg.find("cw: 377 mm"), std::string::npos);          // hypot(320, 200)
   EXPECT_NE(svg.find("ccw: 206 mm"), std::string::npos);  // hypot(100, 180)
+}
+
+TEST(ScatterPicture, DrawsBeforeOpenAndAfterFilledAndLeavesOutWhatLiesBetween) {
+  ScatterPicture picture;
+  UmbmarkRuns runs;
+  runs.clockwise = {{0.3, 0.2, 0.0}, {0.31, 0.2, 0.0}};
+  runs.counter_clockwise = {{-0.1, -0.2, 0.0}, {-0.1, -0.21, 0.0}};
+  picture.experiments = {{"before", runs}, {"between", runs}, {"after", runs}};
+  const std::string svg = scatter_picture(picture);
+  EXPECT_EQ(count(svg, "between"), 0u);
+  EXPECT_EQ(count(svg, "fill=\"#D55E00\""), 2u + 1u);  // after: discs and legend
+  EXPECT_EQ(count(svg, "fill=\"#0072B2\""), 2u + 1u);
+  EXPECT_EQ(count(svg, "<circle"), 2u * (2u + 1u));  // before and after
 }
 
 TEST(LinePicture, KeepsPeaksHoweverManySamplesThereAre) {
