@@ -95,8 +95,8 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Score
 }
 
 // Mounting and clock of the truth, where they are not where the vehicle's file says.
-void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-                        const Vehicle& nominal, bool from_commands) {
+bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+                  const Vehicle& nominal) {
   const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
     for (const ParameterEstimate& p : fit.parameters)
       if (p.name == name && p.determined) return &p;
@@ -106,7 +106,7 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double least[3] = {0.004, 0.004, 0.01};
+  const double least[3] = {0.004, 0.004, 0.003};
   Finding mounting;
   double gain = 0.0;
   bool material = false;
@@ -118,6 +118,28 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
     mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
     if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
   }
+  // A heading of the mounting alone is what wheels that are not square to the axle do too.
+  const double turned = now.heading_rad - then.heading_rad;
+  const double shifted = std::hypot(by[0], by[1]);
+  if (material && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
+      !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
+    const FoundParameter heading = mounting.parameters.back();
+    Finding toe;
+    toe.effect = "wheel_toe";
+    toe.component = "vehicle";
+    toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
+    const double z = turned / heading.stderr_value;
+    if (z * z * 0.5 > 0.5 * gain) {
+      toe.log_likelihood_gain = 0.5 * z * z;
+      toe.p_value = chi_square_tail(z * z, 1);
+      toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
+      toe.where.regime = "wherever it drives, in proportion to the way";
+      toe.alternatives.push_back({"truth_mounting_offset", "truth", gain,
+                                  "a look at how the markers sit: the motion is the same"});
+      findings.push_back(toe);
+      return true;
+    }
+  }
   if (material) {
     mounting.effect = "truth_mounting_offset";
     mounting.component = "truth";
@@ -126,7 +148,14 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
     mounting.sentence = "the tracked point is not where the vehicle's file has it";
     findings.push_back(mounting);
   }
-  if (const ParameterEstimate* p = determined("truth_mounting.time_offset_s")) {
+  return material;
+}
+
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+               const Vehicle& nominal, bool from_commands) {
+  for (const ParameterEstimate& estimate : fit.parameters) {
+    const ParameterEstimate* p = &estimate;
+    if (p->name != "truth_mounting.time_offset_s" || !p->determined) continue;
     double mean = 0.0;
     for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
     const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
@@ -288,7 +317,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     named.push_back(finding_of(joint, joint.accepted[k], selected.evidence[k], selected.alternatives[k], names));
     explained += selected.evidence[k].test.statistic;
   }
-  add_truth_findings(named, joint, d.calibration, nominal, from_commands);
+  add_mounting(named, joint, d.calibration, nominal);
+  add_clock(named, joint, d.calibration, nominal, from_commands);
 
   // Adequacy.
   const std::vector<GenericTest> generic = generic_tests(joint);
