@@ -79,6 +79,37 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
   };
   groups.push_back(heading);
+  // Place: low polynomials of where it is, and of where it is against where it looks.
+  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
+      y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
+    }
+  const auto unit = [](double v, double low, double high) { return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0; };
+  Group place;
+  place.variable = "place on the floor [m]";
+  place.values = [=](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(9, std::vector<double>(view.steps.size()));
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const double x = unit(s.position.x_m, x0, x1), y = unit(s.position.y_m, y0, y1);
+      const double c = std::cos(s.heading_rad), sn = std::sin(s.heading_rad);
+      const double f[9] = {x, y, x * x, x * y, y * y, x * c, x * sn, y * c, y * sn};
+      for (int k = 0; k < 9; ++k) out[k][i] = f[k];
+    }
+  };
+  groups.push_back(place);
+  if (views.size() > 1) {
+    Group recording;
+    recording.variable = "recording";
+    const std::size_t count = views.size();
+    recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
+      out.assign(count, std::vector<double>(view.steps.size(), 0.0));
+      std::fill(out[static_cast<std::size_t>(view.number)].begin(), out[static_cast<std::size_t>(view.number)].end(), 1.0);
+    };
+    groups.push_back(recording);
+  }
   Group memory;
   memory.variable = "turn before, forgotten over metres";
   memory.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {

@@ -13,6 +13,7 @@ namespace odolab {
 namespace {
 
 constexpr double kMostLeft = 0.15;         // of the evidence may stay without a name beside names that stand
+constexpr double kTwoExplain = 0.85;       // share of the evidence that the two strongest of three names must have
 constexpr double kTestable = 30.0;         // chi-square that a medium effect must reach to count as testable
 constexpr int kFewestInnovations = 40;     // beyond the parameters: fewer cannot judge a model
 
@@ -326,8 +327,13 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   for (const GenericTest& g : generic)
     if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 && (!left || g.test.judged() > left->test.judged()))
       left = &g;
-  const double remaining = left ? left->test.judged() - left->test.freedom : 0.0;
-  const bool inadequate = left && remaining > kMostLeft * explained;
+  const double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
+  // Several causes that explain it only together are more likely one that has no name here.
+  std::vector<double> shares;
+  for (const ScoredCandidate& e : selected.evidence) shares.push_back(e.test.statistic);
+  std::sort(shares.rbegin(), shares.rend());
+  const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
+  const bool inadequate = (left && remaining > kMostLeft * explained) || pieced_together;
   for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
     if (!generic[k].at.empty()) d.responses.push_back(response_of(generic[k]));
 
@@ -343,9 +349,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     Finding unknown;
     unknown.effect = "unknown";
     unknown.component = "vehicle";
-    unknown.where.regime = left->channel + " that depends on " + left->variable;
-    unknown.log_likelihood_gain = 0.5 * left->test.statistic;
-    unknown.p_value = left->p_value;
+    const GenericTest& shape = left ? *left : generic.front();
+    unknown.where.regime = shape.channel + " that depends on " + shape.variable;
+    unknown.log_likelihood_gain = 0.5 * (explained + std::max(remaining, 0.0));
+    unknown.p_value = shape.p_value;
     unknown.share_of_mismatch = std::clamp(remaining / all, 0.0, 1.0);
     unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
     // Names that did not suffice are said as what it resembles, not as what it is.
