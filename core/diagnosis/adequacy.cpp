@@ -105,8 +105,10 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     recording.variable = "recording";
     const std::size_t count = views.size();
     recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
+      // A run that was not fitted is like the first.
+      const std::size_t number = static_cast<std::size_t>(view.number) < count ? static_cast<std::size_t>(view.number) : 0;
       out.assign(count, std::vector<double>(view.steps.size(), 0.0));
-      std::fill(out[static_cast<std::size_t>(view.number)].begin(), out[static_cast<std::size_t>(view.number)].end(), 1.0);
+      std::fill(out[number].begin(), out[number].end(), 1.0);
     };
     groups.push_back(recording);
   }
@@ -144,27 +146,35 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   parallel_for(n, [&](int i) {
     const Group& g = groups[i / 3];
     const int channel = i % 3;
-    std::vector<std::vector<Motions>> per_run(views.size());
-    std::vector<std::vector<double>> values;
-    for (std::size_t r = 0; r < views.size(); ++r) {
-      g.values(views[r], values);
-      per_run[r].resize(values.size());
+    auto term = std::make_shared<Effect>();
+    term->name = g.variable;
+    term->component = kChannels[channel];
+    const auto values_of = g.values;
+    term->motions = [values_of, channel](const DriveView& view, const std::vector<double>&) {
+      std::vector<std::vector<double>> values;
+      values_of(view, values);
+      std::vector<Motions> out(values.size());
       for (std::size_t k = 0; k < values.size(); ++k) {
-        per_run[r][k].resize(views[r].steps.size());
+        out[k].resize(view.steps.size());
         for (std::size_t j = 0; j < values[k].size(); ++j) {
-          const EffectStep& s = views[r].steps[j];
-          const double v = values[k][j];
+          const EffectStep& s = view.steps[j];
           // Turning on the spot counts as way too, by the way of the wheels.
-          const double way = std::abs(s.forward_m()) + (channel == 0 ? 0.0 : 0.5 * views[r].drive.wheelbase_m * std::abs(s.turn_rad));
-          BodyMotion& m = per_run[r][k][j];
-          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = v * way;
+          const double way = std::abs(s.forward_m()) +
+                             (channel == 0 ? 0.0 : 0.5 * view.drive.wheelbase_m * std::abs(s.turn_rad));
+          BodyMotion& m = out[k][j];
+          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = values[k][j] * way;
         }
       }
-    }
+      return out;
+    };
+    std::vector<std::vector<double>> one;
+    g.values(DriveView{}, one);
+    term->amplitudes.resize(one.size());
+    tests[i].as_effect = term;
     tests[i].variable = g.variable;
     tests[i].channel = kChannels[channel];
     tests[i].at = g.at;
-    tests[i].test = joint.test(joint.columns_of(per_run), -1, true);
+    tests[i].test = joint.test(joint.columns_of(*term, {}), -1, true);
     tests[i].p_value = std::min(1.0, n * chi_square_tail(tests[i].test.judged(), tests[i].test.freedom));
   });
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

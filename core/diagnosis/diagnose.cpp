@@ -327,16 +327,24 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   for (const GenericTest& g : generic)
     if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 && (!left || g.test.judged() > left->test.judged()))
       left = &g;
-  const double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
+  double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
   // Several causes that explain it only together are more likely one that has no name here.
   std::vector<double> shares;
   for (const ScoredCandidate& e : selected.evidence) shares.push_back(e.test.statistic);
   std::sort(shares.rbegin(), shares.rend());
   const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
+  // Significant is not enough where the innovations are correlated: dead reckoning must be the better for it.
+  if (left && joint.innovations_correlated()) {
+    JointModel with = joint;
+    with.accepted.push_back({left->as_effect.get(), {}, std::vector<double>(left->test.value.size(), 0.0), {}});
+    with.fit(2);
+    if (!is_material(joint.gathered_error(), with.gathered_error(), true)) left = nullptr;
+  }
   const bool inadequate = (left && remaining > kMostLeft * explained) || pieced_together;
   for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
     if (!generic[k].at.empty()) d.responses.push_back(response_of(generic[k]));
 
+  if (!left) remaining = 0.0;
   const double all = std::max(1e-9, explained + (inadequate ? remaining : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
     named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
@@ -394,7 +402,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   }
   if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
 
-  prove(d, joint, calibrated, train, held_out, ready_held_out, nominal);
+  prove(d, joint, calibrated, generic.front().as_effect, train, held_out, ready_held_out, nominal);
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);
 

@@ -300,6 +300,21 @@ JointModel::GatheredError JointModel::gathered_error() const {
   return sum;
 }
 
+// Lag-one correlation of the whitened innovations, the largest of the three channels.
+bool JointModel::innovations_correlated() const {
+  double product[3] = {}, square[3] = {};
+  for (const LinearisedRun& l : linear_) {
+    const Whitened& r = l.residual();
+    for (std::size_t i = 3; i < r.size(); ++i) {
+      product[i % 3] += r[i] * r[i - 3];
+      square[i % 3] += r[i] * r[i];
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(product[k]) > 0.12 * square[k]) return true;
+  return false;
+}
+
 Track JointModel::poses(int run) const {
   Track track;
   for (const FilterStep& s : linear_[run].steps())
@@ -338,20 +353,6 @@ CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<
     out.of_run[r] = MatrixXd::Zero(3 * (all.last - all.first), k);
     for (int j = 0; j < k; ++j)
       if (made[j].size() > 0) out.of_run[r].col(j).segment(3 * (parts[j].first - all.first), made[j].size()) = made[j];
-  }
-  return out;
-}
-
-CandidateColumns JointModel::columns_of(const std::vector<std::vector<Motions>>& per_run) const {
-  CandidateColumns out;
-  out.of_run.resize(runs_.size());
-  out.stretch.resize(runs_.size());
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const int n = linear_[r].samples();
-    out.stretch[r] = {0, n};
-    out.of_run[r] = MatrixXd::Zero(3 * n, static_cast<Eigen::Index>(per_run[r].size()));
-    for (std::size_t j = 0; j < per_run[r].size(); ++j)
-      linear_[r].of_motion(per_run[r][j], out.of_run[r].col(static_cast<Eigen::Index>(j)).data());
   }
   return out;
 }

@@ -12,9 +12,7 @@ namespace {
 constexpr int kMostEffects = 4;
 // A form is never quite that of the world: what is left of a strong effect is not another one.
 constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
-// Share of the squared error of dead reckoning that a name may leave where the innovations are correlated: the truth's
-// noise is then not what the likelihood takes it for, and small gains of likelihood mean little.
-constexpr double kMaterial = 0.985;
+
 
 double quantile(std::vector<double> v, double share) {
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
@@ -97,21 +95,6 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
 }
 
-// Lag-one correlation of the whitened innovations, the largest of the three channels.
-bool innovations_correlated(const JointModel& joint) {
-  double product[3] = {}, square[3] = {};
-  for (const LinearisedRun& l : joint.linearised()) {
-    const Whitened& r = l.residual();
-    for (std::size_t i = 3; i < r.size(); ++i) {
-      product[i % 3] += r[i] * r[i - 3];
-      square[i % 3] += r[i] * r[i];
-    }
-  }
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(product[k]) > 0.12 * square[k]) return true;
-  return false;
-}
-
 // What is left where an event was already let in belongs to its shape.
 bool of_an_event(const JointModel& joint, const ScoredCandidate& c) {
   if (!c.effect->local) return false;
@@ -144,6 +127,13 @@ void let_in(JointModel& joint, const ScoredCandidate& c) {
 }
 
 }  // namespace
+
+bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated) {
+  if (before.windows == 0 || after.windows == 0) return true;
+  const double left =
+      0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
+  return left < (correlated ? kMaterial : 1.01);
+}
 
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
   (void)family_wise_error;
@@ -184,11 +174,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     explained += best->test.statistic;
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it.
     const JointModel::GatheredError error_after = joint.gathered_error();
-    bool material = true;
-    const bool correlated = innovations_correlated(joint);
-    if (error_before.windows > 0 && error_after.windows > 0)
-      material = 0.5 * (error_after.position_m2 / error_before.position_m2 +
-                        error_after.heading_rad2 / error_before.heading_rad2) < (correlated ? kMaterial : 1.01);
+    const bool material = is_material(error_before, error_after, joint.innovations_correlated());
     if (!material || joint.minus_two_log_likelihood() > value_before - 8.0) {
       joint.accepted = before;
       joint.fit(3);
