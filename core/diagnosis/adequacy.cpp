@@ -79,6 +79,39 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
   };
   groups.push_back(heading);
+  // Place: low polynomials of where it is, and of where it is against where it looks.
+  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
+      y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
+    }
+  const auto unit = [](double v, double low, double high) { return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0; };
+  Group place;
+  place.variable = "place on the floor [m]";
+  place.values = [=](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(9, std::vector<double>(view.steps.size()));
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const double x = unit(s.position.x_m, x0, x1), y = unit(s.position.y_m, y0, y1);
+      const double c = std::cos(s.heading_rad), sn = std::sin(s.heading_rad);
+      const double f[9] = {x, y, x * x, x * y, y * y, x * c, x * sn, y * c, y * sn};
+      for (int k = 0; k < 9; ++k) out[k][i] = f[k];
+    }
+  };
+  groups.push_back(place);
+  if (views.size() > 1) {
+    Group recording;
+    recording.variable = "recording";
+    const std::size_t count = views.size();
+    recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
+      // A run that was not fitted is like the first.
+      const std::size_t number = static_cast<std::size_t>(view.number) < count ? static_cast<std::size_t>(view.number) : 0;
+      out.assign(count, std::vector<double>(view.steps.size(), 0.0));
+      std::fill(out[number].begin(), out[number].end(), 1.0);
+    };
+    groups.push_back(recording);
+  }
   Group memory;
   memory.variable = "turn before, forgotten over metres";
   memory.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
@@ -113,27 +146,35 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   parallel_for(n, [&](int i) {
     const Group& g = groups[i / 3];
     const int channel = i % 3;
-    std::vector<std::vector<Motions>> per_run(views.size());
-    std::vector<std::vector<double>> values;
-    for (std::size_t r = 0; r < views.size(); ++r) {
-      g.values(views[r], values);
-      per_run[r].resize(values.size());
+    auto term = std::make_shared<Effect>();
+    term->name = g.variable;
+    term->component = kChannels[channel];
+    const auto values_of = g.values;
+    term->motions = [values_of, channel](const DriveView& view, const std::vector<double>&) {
+      std::vector<std::vector<double>> values;
+      values_of(view, values);
+      std::vector<Motions> out(values.size());
       for (std::size_t k = 0; k < values.size(); ++k) {
-        per_run[r][k].resize(views[r].steps.size());
+        out[k].resize(view.steps.size());
         for (std::size_t j = 0; j < values[k].size(); ++j) {
-          const EffectStep& s = views[r].steps[j];
-          const double v = values[k][j];
+          const EffectStep& s = view.steps[j];
           // Turning on the spot counts as way too, by the way of the wheels.
-          const double way = std::abs(s.forward_m()) + (channel == 0 ? 0.0 : 0.5 * views[r].drive.wheelbase_m * std::abs(s.turn_rad));
-          BodyMotion& m = per_run[r][k][j];
-          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = v * way;
+          const double way = std::abs(s.forward_m()) +
+                             (channel == 0 ? 0.0 : 0.5 * view.drive.wheelbase_m * std::abs(s.turn_rad));
+          BodyMotion& m = out[k][j];
+          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = values[k][j] * way;
         }
       }
-    }
+      return out;
+    };
+    std::vector<std::vector<double>> one;
+    g.values(DriveView{}, one);
+    term->amplitudes.resize(one.size());
+    tests[i].as_effect = term;
     tests[i].variable = g.variable;
     tests[i].channel = kChannels[channel];
     tests[i].at = g.at;
-    tests[i].test = joint.test(joint.columns_of(per_run), -1, true);
+    tests[i].test = joint.test(joint.columns_of(*term, {}), -1, true);
     tests[i].p_value = std::min(1.0, n * chi_square_tail(tests[i].test.judged(), tests[i].test.freedom));
   });
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

@@ -1,6 +1,7 @@
 // Whether anything is left that the model does not describe, whatever its name: a generic basis in each channel.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct GenericTest {
   CandidateTest test;
   double p_value = 1.0;           // over all groups
   std::vector<double> at;         // where the hats stand, in units of the variable; empty where it has no axis
+  std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 
 // Best first.

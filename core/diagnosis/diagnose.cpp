@@ -13,6 +13,7 @@ namespace odolab {
 namespace {
 
 constexpr double kMostLeft = 0.15;         // of the evidence may stay without a name beside names that stand
+constexpr double kTwoExplain = 0.85;       // share of the evidence that the two strongest of three names must have
 constexpr double kTestable = 30.0;         // chi-square that a medium effect must reach to count as testable
 constexpr int kFewestInnovations = 40;     // beyond the parameters: fewer cannot judge a model
 
@@ -95,8 +96,8 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Score
 }
 
 // Mounting and clock of the truth, where they are not where the vehicle's file says.
-void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-                        const Vehicle& nominal, bool from_commands) {
+bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+                  const Vehicle& nominal) {
   const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
     for (const ParameterEstimate& p : fit.parameters)
       if (p.name == name && p.determined) return &p;
@@ -106,7 +107,7 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double least[3] = {0.004, 0.004, 0.01};
+  const double least[3] = {0.004, 0.004, 0.003};
   Finding mounting;
   double gain = 0.0;
   bool material = false;
@@ -118,6 +119,28 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
     mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
     if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
   }
+  // A heading of the mounting alone is what wheels that are not square to the axle do too.
+  const double turned = now.heading_rad - then.heading_rad;
+  const double shifted = std::hypot(by[0], by[1]);
+  if (material && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
+      !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
+    const FoundParameter heading = mounting.parameters.back();
+    Finding toe;
+    toe.effect = "wheel_toe";
+    toe.component = "vehicle";
+    toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
+    const double z = turned / heading.stderr_value;
+    if (z * z * 0.5 > 0.5 * gain) {
+      toe.log_likelihood_gain = 0.5 * z * z;
+      toe.p_value = chi_square_tail(z * z, 1);
+      toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
+      toe.where.regime = "wherever it drives, in proportion to the way";
+      toe.alternatives.push_back({"truth_mounting_offset", "truth", gain,
+                                  "a look at how the markers sit: the motion is the same"});
+      findings.push_back(toe);
+      return true;
+    }
+  }
   if (material) {
     mounting.effect = "truth_mounting_offset";
     mounting.component = "truth";
@@ -126,7 +149,14 @@ void add_truth_findings(std::vector<Finding>& findings, const JointModel& joint,
     mounting.sentence = "the tracked point is not where the vehicle's file has it";
     findings.push_back(mounting);
   }
-  if (const ParameterEstimate* p = determined("truth_mounting.time_offset_s")) {
+  return material;
+}
+
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+               const Vehicle& nominal, bool from_commands) {
+  for (const ParameterEstimate& estimate : fit.parameters) {
+    const ParameterEstimate* p = &estimate;
+    if (p->name != "truth_mounting.time_offset_s" || !p->determined) continue;
     double mean = 0.0;
     for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
     const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
@@ -288,7 +318,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     named.push_back(finding_of(joint, joint.accepted[k], selected.evidence[k], selected.alternatives[k], names));
     explained += selected.evidence[k].test.statistic;
   }
-  add_truth_findings(named, joint, d.calibration, nominal, from_commands);
+  add_mounting(named, joint, d.calibration, nominal);
+  add_clock(named, joint, d.calibration, nominal, from_commands);
 
   // Adequacy.
   const std::vector<GenericTest> generic = generic_tests(joint);
@@ -296,11 +327,24 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   for (const GenericTest& g : generic)
     if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 && (!left || g.test.judged() > left->test.judged()))
       left = &g;
-  const double remaining = left ? left->test.judged() - left->test.freedom : 0.0;
-  const bool inadequate = left && remaining > kMostLeft * explained;
+  double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
+  // Several causes that explain it only together are more likely one that has no name here.
+  std::vector<double> shares;
+  for (const ScoredCandidate& e : selected.evidence) shares.push_back(e.test.statistic);
+  std::sort(shares.rbegin(), shares.rend());
+  const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
+  // Significant is not enough where the innovations are correlated: dead reckoning must be the better for it.
+  if (left && joint.innovations_correlated()) {
+    JointModel with = joint;
+    with.accepted.push_back({left->as_effect.get(), {}, std::vector<double>(left->test.value.size(), 0.0), {}});
+    with.fit(2);
+    if (!is_material(joint.gathered_error(), with.gathered_error(), true)) left = nullptr;
+  }
+  const bool inadequate = (left && remaining > kMostLeft * explained) || pieced_together;
   for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
     if (!generic[k].at.empty()) d.responses.push_back(response_of(generic[k]));
 
+  if (!left) remaining = 0.0;
   const double all = std::max(1e-9, explained + (inadequate ? remaining : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
     named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
@@ -313,9 +357,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     Finding unknown;
     unknown.effect = "unknown";
     unknown.component = "vehicle";
-    unknown.where.regime = left->channel + " that depends on " + left->variable;
-    unknown.log_likelihood_gain = 0.5 * left->test.statistic;
-    unknown.p_value = left->p_value;
+    const GenericTest& shape = left ? *left : generic.front();
+    unknown.where.regime = shape.channel + " that depends on " + shape.variable;
+    unknown.log_likelihood_gain = 0.5 * (explained + std::max(remaining, 0.0));
+    unknown.p_value = shape.p_value;
     unknown.share_of_mismatch = std::clamp(remaining / all, 0.0, 1.0);
     unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
     // Names that did not suffice are said as what it resembles, not as what it is.
@@ -357,7 +402,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   }
   if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
 
-  prove(d, joint, calibrated, train, held_out, ready_held_out, nominal);
+  prove(d, joint, calibrated, generic.front().as_effect, train, held_out, ready_held_out, nominal);
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);
 

@@ -261,6 +261,60 @@ MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Id
 
 double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
 
+JointModel::GatheredError JointModel::gathered_error() const {
+  std::vector<GatheredError> of(runs_.size());
+  parallel_for(static_cast<int>(runs_.size()), [&](int r) {
+    const InnovationRun& run = linear_[r].run();
+    if (!run.truth_has_heading) return;
+    Track guess, truth;
+    Pose pose;
+    for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+      guess.push_back({run.wheels[i].time_s + clock_s[r], pose * model.truth.axle_T_tracked});
+      if (i + 1 == run.wheels.size()) break;
+      const double left = model.drive.wheel_radius_left_m * (run.wheels[i + 1].left_rad - run.wheels[i].left_rad);
+      const double right = model.drive.wheel_radius_right_m * (run.wheels[i + 1].right_rad - run.wheels[i].right_rad);
+      double f = 0.5 * (left + right), l = 0.0, w = (right - left) / model.drive.wheelbase_m;
+      for (const ExtraColumn& e : run.extra) {
+        f += e.per_step[i].forward_m;
+        l += e.per_step[i].sideways_m;
+        w += e.per_step[i].turn_rad;
+      }
+      const double h = pose.heading_rad + 0.5 * w, c = std::cos(h), s = std::sin(h);
+      pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
+    }
+    for (std::size_t i = 0; i < run.truth.size(); ++i)
+      if (!run.set_aside[i] && run.truth[i].heading_rad)
+        truth.push_back({run.truth[i].time_s,
+                         {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
+    if (const std::optional<TrackError> e = track_error(guess, truth); e && e->windows > 0)
+      of[r] = {e->windows * e->position_rms_m * e->position_rms_m, e->windows * e->heading_rms_rad * e->heading_rms_rad,
+               e->windows};
+  });
+  GatheredError sum;
+  for (const GatheredError& e : of) {
+    sum.position_m2 += e.position_m2;
+    sum.heading_rad2 += e.heading_rad2;
+    sum.windows += e.windows;
+  }
+  if (sum.windows > 0) sum.position_m2 /= sum.windows, sum.heading_rad2 /= sum.windows;
+  return sum;
+}
+
+// Lag-one correlation of the whitened innovations, the largest of the three channels.
+bool JointModel::innovations_correlated() const {
+  double product[3] = {}, square[3] = {};
+  for (const LinearisedRun& l : linear_) {
+    const Whitened& r = l.residual();
+    for (std::size_t i = 3; i < r.size(); ++i) {
+      product[i % 3] += r[i] * r[i - 3];
+      square[i % 3] += r[i] * r[i];
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(product[k]) > 0.12 * square[k]) return true;
+  return false;
+}
+
 Track JointModel::poses(int run) const {
   Track track;
   for (const FilterStep& s : linear_[run].steps())
@@ -299,20 +353,6 @@ CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<
     out.of_run[r] = MatrixXd::Zero(3 * (all.last - all.first), k);
     for (int j = 0; j < k; ++j)
       if (made[j].size() > 0) out.of_run[r].col(j).segment(3 * (parts[j].first - all.first), made[j].size()) = made[j];
-  }
-  return out;
-}
-
-CandidateColumns JointModel::columns_of(const std::vector<std::vector<Motions>>& per_run) const {
-  CandidateColumns out;
-  out.of_run.resize(runs_.size());
-  out.stretch.resize(runs_.size());
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const int n = linear_[r].samples();
-    out.stretch[r] = {0, n};
-    out.of_run[r] = MatrixXd::Zero(3 * n, static_cast<Eigen::Index>(per_run[r].size()));
-    for (std::size_t j = 0; j < per_run[r].size(); ++j)
-      linear_[r].of_motion(per_run[r][j], out.of_run[r].col(static_cast<Eigen::Index>(j)).data());
   }
   return out;
 }

@@ -57,10 +57,17 @@ class JointModel {
   int scalars() const { return scalars_; }
   Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, amplitudes
   double stderr_of_nuisance(int c) const;
+  // Mean square error of dead reckoning gathered over a metre or a radian, position and heading, over all runs; zero
+  // windows where the truth has no headings.
+  struct GatheredError {
+    double position_m2 = 0.0, heading_rad2 = 0.0;
+    int windows = 0;
+  };
+  GatheredError gathered_error() const;
+  bool innovations_correlated() const;  // of one channel at least, from one sample to the next
   Track poses(int run) const;          // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
-  CandidateColumns columns_of(const std::vector<std::vector<Motions>>& per_run_columns) const;
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
   CandidateTest test(const CandidateColumns& columns, int without = -1, bool thorough = false) const;
   InnovationModel model_of(int run) const;

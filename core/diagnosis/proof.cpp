@@ -60,7 +60,7 @@ std::vector<ActiveEffect> effects_in(const Diagnosis& d, const JointModel& j, co
 }
 
 // Chi-square per innovation of other runs under a model that is frozen but for their clocks.
-double frozen_chi2(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
+JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
                    const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
   LeastSquaresCalibration start = d.calibration;
   start.vehicle = vehicle_of(source, nominal, -1);
@@ -72,12 +72,36 @@ double frozen_chi2(const JointModel& source, std::vector<InnovationRun> runs, st
   j.linearise();
   j.gate();
   j.linearise();
-  return j.scalars() > 0 ? j.chi2() / j.scalars() : 0.0;
+  return j;
+}
+
+double share(const JointModel& j) { return j.scalars() > 0 ? j.chi2() / j.scalars() : 0.0; }
+
+FitFigures figures(const JointModel& j) {
+  const JointModel::GatheredError e = j.gathered_error();
+  return {std::sqrt(e.position_m2), std::sqrt(e.heading_rad2), share(j)};
+}
+
+// The same term half a run later: as free as the finding, and without meaning.
+Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
+  Effect placebo = of;
+  placebo.scan = {};
+  placebo.shapes.clear();
+  placebo.shape_follows_amplitude = placebo.of_one_recording = placebo.clock_rate = false;
+  for (Effect::Amplitude& a : placebo.amplitudes) a.low = -1e9, a.high = 1e9;
+  const auto motions = of.motions;
+  placebo.motions = [motions, shape](const DriveView& view, const std::vector<double>&) {
+    std::vector<Motions> m = motions(view, shape);
+    for (Motions& one : m) std::rotate(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2), one.end());
+    return m;
+  };
+  return placebo;
 }
 
 }  // namespace
 
-void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, const std::vector<Recording>& train,
+void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
+           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
            const std::vector<Recording>& held_out, const std::vector<CheckedRecording>& ready_held_out,
            const Vehicle& nominal) {
   const FittedNoise noise = joint.model.noise;
@@ -85,6 +109,19 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, 
   const JointModel& after = unnamed ? calibrated : joint;
   d.fitted_vehicle = vehicle_of(after, nominal, -1);
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
+  const auto with_term = [&](const Effect& term) {
+    JointModel m = calibrated;
+    m.accepted.push_back({&term, {}, std::vector<double>(term.amplitudes.size(), 0.0), {}});
+    m.fit(2);
+    return m;
+  };
+  const JointModel with_spline = with_term(*spline);
+  Effect placebo;
+  std::optional<JointModel> with_placebo;
+  if (!after.accepted.empty() && !after.accepted[0].effect->clock_rate) {
+    placebo = out_of_step(*after.accepted[0].effect, after.accepted[0].shape);
+    with_placebo = with_term(placebo);
+  }
   const auto table = [&](const std::vector<Recording>& recordings, bool same) {
     FitTable t;
     Gathered g_nominal, g_calibrated, g_found;
@@ -108,21 +145,23 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, 
       }
     }
     if (runs.empty()) return t;
-    const auto chi2 = [&](const JointModel& m) {
+    const auto judged = [&](const JointModel& m) {
       if (same) {
         JointModel copy = m;
         copy.model.noise = noise;
         copy.linearise();
-        return copy.chi2() / std::max(1, copy.scalars());
+        return copy;
       }
-      return frozen_chi2(m, runs, commands, d, nominal, noise);
+      return frozen(m, runs, commands, d, nominal, noise);
     };
     JointModel as_nominal = calibrated;
     as_nominal.model.drive = std::get<DifferentialDrive>(nominal.kind);
     as_nominal.model.truth = nominal.truth;
-    t.nominal = figures(g_nominal, chi2(as_nominal));
-    t.calibrated = figures(g_calibrated, chi2(calibrated));
-    t.with_findings = figures(g_found, chi2(after));
+    t.nominal = figures(g_nominal, share(judged(as_nominal)));
+    t.calibrated = figures(g_calibrated, share(judged(calibrated)));
+    t.with_findings = figures(g_found, share(judged(after)));
+    t.spline = figures(judged(with_spline));
+    if (with_placebo) t.placebo = figures(judged(*with_placebo));
     // What noise alone leaves over a metre: truth at both ends, its heading at the start, and the wheels.
     const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m, b = joint.model.drive.wheelbase_m;
     const double p2 = noise.truth_position_m * noise.truth_position_m, h2 = noise.truth_heading_rad * noise.truth_heading_rad;

@@ -2,6 +2,7 @@
 // and with a term of equal freedom that means nothing.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -10,8 +11,10 @@
 
 namespace odolab {
 
+// `spline` is let in beside calibration, whatever its evidence.
 // Fills in `train` and `held_out`; nothing is fitted to the held-out runs but the truth's clock of each.
-void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated, const std::vector<Recording>& train,
+void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
+           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
            const std::vector<Recording>& held_out, const std::vector<CheckedRecording>& ready_held_out,
            const Vehicle& nominal);
 

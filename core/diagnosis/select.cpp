@@ -10,6 +10,9 @@ namespace odolab {
 namespace {
 
 constexpr int kMostEffects = 4;
+// A form is never quite that of the world: what is left of a strong effect is not another one.
+constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
+
 
 double quantile(std::vector<double> v, double share) {
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
@@ -68,8 +71,8 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
   const double log_tests = std::log(static_cast<double>(tests)) + std::log(static_cast<double>(std::max<std::size_t>(1, shapes.size())));
   // Refined only where there is something to refine.
   if (e.scan && best.test.statistic > 15.0)
-    for (double scale : {1.0, 0.5, 0.25})
-      for (int round = 0; round < 3; ++round) {
+    for (double scale : {1.0, 0.5, 0.25, 0.12})
+      for (int round = 0; round < 4; ++round) {
         bool moved = false;
         for (const std::vector<double>& s : shapes_near(e, best.test.shape, scale)) moved = consider(s, false) || moved;
         if (!moved) break;
@@ -92,6 +95,25 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
 }
 
+// What is left where an event was already let in belongs to its shape.
+bool of_an_event(const JointModel& joint, const ScoredCandidate& c) {
+  if (!c.effect->local) return false;
+  for (const AcceptedEffect& a : joint.accepted) {
+    if (a.effect->name == "slip_zone") {
+      if (!c.effect->of_one_recording) return true;  // one patch at a time: a disc is only nearly its shape
+      const DriveView& view = joint.views()[static_cast<std::size_t>(c.test.shape[0])];
+      for (const EffectStep& s : view.steps)
+        if (std::abs(s.time_s - c.test.shape[1]) < 0.5 &&
+            length(s.position - Vec2{a.shape[0], a.shape[1]}) < a.shape[2] + view.drive.wheelbase_m)
+          return true;
+    }
+    if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&
+        std::abs(a.shape[1] - c.test.shape[1]) < 1.0)
+      return true;
+  }
+  return false;
+}
+
 void let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
@@ -105,6 +127,13 @@ void let_in(JointModel& joint, const ScoredCandidate& c) {
 }
 
 }  // namespace
+
+bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated) {
+  if (before.windows == 0 || after.windows == 0) return true;
+  const double left =
+      0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
+  return left < (correlated ? kMaterial : 1.01);
+}
 
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
   (void)family_wise_error;
@@ -127,20 +156,26 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
 
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
   Selected out;
-  double share = 0.3;
+  double share = 0.3, explained = 0.0;
   for (int step = 0; step < kMostEffects; ++step) {
     std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
     if (step == 0) out.first_look = scored;
     const ScoredCandidate* best = nullptr;
     for (const ScoredCandidate& c : scored)
-      if (stands(c, family_wise_error) && (!best || c.p_value < best->p_value ||
+      if (stands(c, family_wise_error) && !of_an_event(joint, c) &&
+          c.test.statistic > explained * (c.effect->local ? kLeastShareOfEvents : kLeastShare) && (!best || c.p_value < best->p_value ||
                                            (c.p_value <= 1e-290 && c.test.judged() > best->test.judged())))
         best = &c;
     if (!best) break;
     const auto before = joint.accepted;
+    const JointModel::GatheredError error_before = joint.gathered_error();
     const double value_before = joint.minus_two_log_likelihood();
     let_in(joint, *best);
-    if (joint.minus_two_log_likelihood() > value_before - 8.0) {  // the nonlinear fit does not keep what the score promised
+    explained += best->test.statistic;
+    // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it.
+    const JointModel::GatheredError error_after = joint.gathered_error();
+    const bool material = is_material(error_before, error_after, joint.innovations_correlated());
+    if (!material || joint.minus_two_log_likelihood() > value_before - 8.0) {
       joint.accepted = before;
       joint.fit(3);
       joint.fit_noise();

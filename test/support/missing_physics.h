@@ -221,7 +221,8 @@ inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
     if (c.drive == CaseSettings::Drive::squares)
       profile = square_driving(out.nominal.kind.index() == 0 ? std::get<DifferentialDrive>(out.nominal.kind) : g.drive,
                                1.5, run % 2 == 0, &g.duration_s);
-    g.inject = injected(c.effect, c.size, g.drive, run, g.duration_s, random);
+    Random same(seed_of_stream(seed, 77));  // phases and directions are those of the robot and the room, not of the run
+    g.inject = injected(c.effect, c.size, g.drive, run, g.duration_s, same);
     Recording r = generated(g, profile, random);
     r.name = "run_" + std::to_string(run);
     out.recordings.push_back(std::move(r));

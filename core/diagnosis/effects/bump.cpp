@@ -47,9 +47,9 @@ Effect of_wheel(Wheel wheel) {
   e.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
     for (const DriveView& v : views) {
-      double next = -1e300;
+      double next = -1e300, rolled_m = 0.0;
       for (const EffectStep& s : v.steps)
-        if (s.time_s >= next && std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01) {
+        if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next && std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01) {
           shapes.push_back({static_cast<double>(v.number), s.time_s});
           next = s.time_s + 0.15;
         }

@@ -32,9 +32,10 @@ std::vector<Effect> collision() {
   e.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
     for (const DriveView& v : views) {
-      double next = -1e300;
+      double next = -1e300, rolled_m = 0.0;
       for (const EffectStep& s : v.steps)
-        if (s.time_s >= next) {
+        // The first centimetres take up whatever play there is, and are no push.
+        if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next) {
           shapes.push_back({static_cast<double>(v.number), s.time_s});
           next = s.time_s + 0.12;
         }

@@ -42,7 +42,7 @@ std::vector<Effect> slip_zone() {
     std::vector<std::vector<double>> shapes;
     if (x1 < x0) return shapes;
     for (double radius : {0.25, 0.5, 0.9}) {
-      const double stride = std::max(0.7 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / 150.0));
+      const double stride = std::max(0.8 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / 70.0));
       for (double x = x0; x <= x1 + 0.5 * stride; x += stride)
         for (double y = y0; y <= y1 + 0.5 * stride; y += stride) {
           bool visited = false;
