@@ -13,6 +13,7 @@ namespace odolab {
 namespace {
 
 constexpr double kMostLeft = 0.15;         // of the evidence may stay without a name beside names that stand
+constexpr double kMostLeftOfError = 0.3;   // the same, of the error of dead reckoning, where innovations are correlated
 constexpr double kTwoExplain = 0.85;       // share of the evidence that the two strongest of three names must have
 constexpr double kTestable = 30.0;         // chi-square that a medium effect must reach to count as testable
 constexpr int kFewestInnovations = 40;     // beyond the parameters: fewer cannot judge a model
@@ -338,7 +339,19 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     JointModel with = joint;
     with.accepted.push_back({left->as_effect.get(), {}, std::vector<double>(left->test.value.size(), 0.0), {}});
     with.fit(2);
-    if (!is_material(joint.gathered_error(), with.gathered_error(), true)) left = nullptr;
+    const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
+                                    with_more = with.gathered_error();
+    if (!is_material(named_only, with_more, true)) left = nullptr;
+    // And it counts against the names only by its share of what dead reckoning gains.
+    if (left && at_first.windows > 0 && at_first.position_m2 > 0.0 && at_first.heading_rad2 > 0.0) {
+      const auto share = [&](const JointModel::GatheredError& e) {
+        return 0.5 * (e.position_m2 / at_first.position_m2 + e.heading_rad2 / at_first.heading_rad2);
+      };
+      const double more = share(named_only) - share(with_more), in_all = 1.0 - share(with_more);
+      if (in_all > 0.0 && more < kMostLeftOfError * in_all) left = nullptr;
+    }
+    if (!left && !joint.accepted.empty())
+      d.warnings.push_back("beside the names given something small is left that no name describes, or the truth's noise is not white");
   }
   const bool inadequate = (left && remaining > kMostLeft * explained) || pieced_together;
   for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
@@ -368,7 +381,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
       unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
                                       0.5 * selected.evidence[k].test.statistic, joint.accepted[k].effect->told_apart_by});
     named.erase(std::remove_if(named.begin(), named.end(),
-                               [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0; }),
+                               [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
                 named.end());
     named.insert(named.begin(), unknown);
     d.verdict = Verdict::unknown_effect;

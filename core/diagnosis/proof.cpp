@@ -160,6 +160,11 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     t.nominal = figures(g_nominal, share(judged(as_nominal)));
     t.calibrated = figures(g_calibrated, share(judged(calibrated)));
     t.with_findings = figures(g_found, share(judged(after)));
+    // The scales of commands are no part of a vehicle's file: there the model itself is asked.
+    if (std::find(commands.begin(), commands.end(), 1) != commands.end()) {
+      t.calibrated = figures(judged(calibrated));
+      t.with_findings = figures(judged(after));
+    }
     t.spline = figures(judged(with_spline));
     if (with_placebo) t.placebo = figures(judged(*with_placebo));
     // What noise alone leaves over a metre: truth at both ends, its heading at the start, and the wheels.

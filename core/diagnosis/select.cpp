@@ -160,28 +160,27 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
   for (int step = 0; step < kMostEffects; ++step) {
     std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
     if (step == 0) out.first_look = scored;
-    const ScoredCandidate* best = nullptr;
+    std::vector<const ScoredCandidate*> standing;
     for (const ScoredCandidate& c : scored)
       if (stands(c, family_wise_error) && !of_an_event(joint, c) &&
-          c.test.statistic > explained * (c.effect->local ? kLeastShareOfEvents : kLeastShare) && (!best || c.p_value < best->p_value ||
-                                           (c.p_value <= 1e-290 && c.test.judged() > best->test.judged())))
-        best = &c;
-    if (!best) break;
-    const auto before = joint.accepted;
-    const JointModel::GatheredError error_before = joint.gathered_error();
-    const double value_before = joint.minus_two_log_likelihood();
-    let_in(joint, *best);
-    explained += best->test.statistic;
-    // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it.
-    const JointModel::GatheredError error_after = joint.gathered_error();
-    const bool material = is_material(error_before, error_after, joint.innovations_correlated());
-    if (!material || joint.minus_two_log_likelihood() > value_before - 8.0) {
-      joint.accepted = before;
-      joint.fit(3);
-      joint.fit_noise();
-      joint.fit(2);
-      break;
+          c.test.statistic > explained * (c.effect->local ? kLeastShareOfEvents : kLeastShare))
+        standing.push_back(&c);
+    std::stable_sort(standing.begin(), standing.end(),
+                     [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
+    const bool correlated = joint.innovations_correlated();
+    const JointModel before = joint;
+    bool accepted = false;
+    // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
+    for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
+      let_in(joint, *standing[tried]);
+      accepted = is_material(before.gathered_error(), joint.gathered_error(), correlated) &&
+                 joint.minus_two_log_likelihood() < before.minus_two_log_likelihood() - 8.0;
+      if (accepted)
+        explained += standing[tried]->test.statistic;
+      else
+        joint = before;
     }
+    if (!accepted) break;
     if (!goes_on(progress, share += 0.08)) return out;
     // A name may have been the best only while another was missing.
     if (joint.accepted.size() > 1)
@@ -207,14 +206,26 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
     if (!own.effect || !stands(own, family_wise_error)) {
-      joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
-      joint.fit(3);
-      joint.fit_noise();
-      joint.fit(2);
-      out.evidence.clear();
-      out.alternatives.clear();
-      k = 0;
-      continue;
+      // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
+      JointModel without = joint;
+      without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+      without.fit(4);
+      without.fit_noise();
+      without.fit(2);
+      const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
+      const bool needed = lost > 100.0 && is_material(without.gathered_error(), joint.gathered_error(), true);
+      if (!needed) {
+        joint = without;
+        out.evidence.clear();
+        out.alternatives.clear();
+        k = 0;
+        continue;
+      }
+      own.effect = joint.accepted[k].effect;
+      own.test.shape = joint.accepted[k].shape;
+      own.test.statistic = lost;
+      own.test.inflation = std::max(1.0, own.test.inflation);
+      own.p_value = chi_square_tail(lost / own.test.inflation, static_cast<int>(joint.accepted[k].value.size()));
     }
     std::vector<ScoredCandidate> alternatives;
     for (const ScoredCandidate& c : instead) {

@@ -1,4 +1,5 @@
 // One wheel climbs something: it turns more than it travels, within about a tenth of a metre of its way.
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/effect.h"
@@ -46,12 +47,16 @@ Effect of_wheel(Wheel wheel) {
   };
   e.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
+    double span_s = 0.0;
+    for (const DriveView& v : views)
+      if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
+    const double stride_s = span_s / 2500.0;  // long recordings are scanned more coarsely
     for (const DriveView& v : views) {
       double next = -1e300, rolled_m = 0.0;
       for (const EffectStep& s : v.steps)
         if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next && std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01) {
           shapes.push_back({static_cast<double>(v.number), s.time_s});
-          next = s.time_s + 0.15;
+          next = s.time_s + std::max(0.15, stride_s);
         }
     }
     return shapes;

@@ -1,4 +1,5 @@
 // A push from outside: a step of the pose, in the frame of the vehicle, at one time of one recording.
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/effect.h"
@@ -31,13 +32,17 @@ std::vector<Effect> collision() {
   };
   e.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
+    double span_s = 0.0;
+    for (const DriveView& v : views)
+      if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
+    const double stride_s = span_s / 2500.0;  // long recordings are scanned more coarsely
     for (const DriveView& v : views) {
       double next = -1e300, rolled_m = 0.0;
       for (const EffectStep& s : v.steps)
         // The first centimetres take up whatever play there is, and are no push.
         if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next) {
           shapes.push_back({static_cast<double>(v.number), s.time_s});
-          next = s.time_s + 0.12;
+          next = s.time_s + std::max(0.12, stride_s);
         }
     }
     return shapes;

@@ -1,0 +1,163 @@
+#include "core/diagnosis/diagnosis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/diagnosis/joint_model.h"
+#include "core/odometry/prediction.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+CaseSettings short_case(const std::string& effect, double size) {
+  CaseSettings c;
+  c.effect = effect;
+  c.size = size;
+  c.runs = 3;
+  c.duration_s = 40.0;
+  return c;
+}
+
+Diagnosis diagnosed(const Case& c) {
+  Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  EXPECT_TRUE(d) << (d ? "" : d.error().message());
+  return d ? std::move(*d) : Diagnosis{};
+}
+
+std::string said(const Diagnosis& d) {
+  std::string s;
+  for (const Finding& f : d.findings) s += f.effect + ":" + f.component + " ";
+  return s;
+}
+
+TEST(Diagnose, FindsNothingWhereNothingIsMissingWhateverTheNoiseAndWhereverCalibrationStarted) {
+  // 3 % is the bar; 14 cases with at most one alarm are passed by a tool that holds it in 94 % of seeds, and these
+  // seeds are fixed.
+  int alarms = 0;
+  for (int k = 0; k < 14; ++k) {
+    const Diagnosis d = diagnosed(generated_case(short_case("", 0.0), 7000 + static_cast<std::uint64_t>(k)));
+    if (d.verdict == Verdict::found || d.verdict == Verdict::unknown_effect || d.verdict == Verdict::ambiguous) {
+      ++alarms;
+      ADD_FAILURE_AT(__FILE__, __LINE__) << "seed " << 7000 + k << ": " << said(d);
+    }
+  }
+  EXPECT_LE(alarms, 1);
+}
+
+class NamesEffect : public testing::TestWithParam<const char*> {};
+
+TEST_P(NamesEffect, FirstWhereItIsStrong) {
+  // Compressed tyres hide in the wheelbase on a drive this short and slow.
+  const double size = std::string(GetParam()) == "tyre_compression" ? 10.0 : 3.0;
+  const Diagnosis d = diagnosed(generated_case(short_case(GetParam(), size), 7100));
+  ASSERT_FALSE(d.findings.empty()) << static_cast<int>(d.verdict);
+  EXPECT_EQ(d.findings.front().effect, GetParam()) << said(d);
+  // What was named must make the recordings themselves better predicted.
+  ASSERT_TRUE(d.train.calibrated && d.train.with_findings);
+  EXPECT_LE(d.train.with_findings->normalised_chi2, 1.01 * d.train.calibrated->normalised_chi2);
+}
+INSTANTIATE_TEST_SUITE_P(Catalogue, NamesEffect,
+                         testing::Values("wheel_eccentricity", "encoder_missed_counts", "drivetrain_backlash",
+                                         "castor_reversal_kick", "radius_drift", "tyre_compression",
+                                         "speed_dependent_radius", "payload_radius_change", "lateral_slip",
+                                         "traction_slip", "turn_scrub", "one_sided_drag", "bump", "slip_zone",
+                                         "floor_slope_creep", "collision", "turn_speed_loss", "wheel_toe"),
+                         [](const testing::TestParamInfo<const char*>& p) { return std::string(p.param); });
+
+TEST(Diagnose, MeasuresAnEffectToWithinItsUncertainty) {
+  const Diagnosis d = diagnosed(generated_case(short_case("lateral_slip", 1.0), 7201));
+  ASSERT_FALSE(d.findings.empty());
+  ASSERT_EQ(d.findings.front().effect, "lateral_slip");
+  const FoundParameter& p = d.findings.front().parameters.front();
+  EXPECT_NEAR(p.value, 0.02, 4.0 * p.stderr_value + 0.0004);  // and 2 % for the form's own error
+}
+
+TEST(Diagnose, CallsUnknownWhatIsInNoList) {
+  for (const char* outside : {"magnet", "compass", "memory"}) {
+    const Diagnosis d = diagnosed(generated_case(short_case(outside, 2.0), 7301));
+    EXPECT_EQ(d.verdict, Verdict::unknown_effect) << outside << ": " << said(d);
+  }
+}
+
+TEST(Diagnose, SaysThatItCannotSayWhereTheTruthIsOnlyStartAndEnd) {
+  CaseSettings c = short_case("lateral_slip", 3.0);
+  c.truth = CaseSettings::Truth::ends;
+  EXPECT_EQ(diagnosed(generated_case(c, 7401)).verdict, Verdict::cannot_say);
+}
+
+TEST(Diagnose, ReportsFrozenTruthAsAFaultOfTheDataAndNotAsPhysics) {
+  Case c = generated_case(short_case("", 0.0), 7501);
+  Recording& r = c.recordings[1];
+  std::vector<double> last(r.channels.size(), 0.0);
+  bool any = false;
+  for (std::size_t i = 0; i < r.time_s.size(); ++i)
+    for (std::size_t k = 2; k < r.channels.size(); ++k) {
+      double& v = r.channels[k].values[i];
+      if (!std::isfinite(v)) continue;
+      if (r.time_s[i] > 12.0 && r.time_s[i] < 13.5) v = last[k], any = true;
+      last[k] = v;
+    }
+  ASSERT_TRUE(any);
+  const Diagnosis d = diagnosed(c);
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "truth_frozen");
+  EXPECT_NEAR(d.findings[0].where.time_s.front().first, 12.0, 0.2);
+}
+
+TEST(Diagnose, ReportsAnEncoderThatStoodStillAsAFaultOfTheData) {
+  Case c = generated_case(short_case("", 0.0), 7502);
+  Recording& r = c.recordings[0];
+  double held = 0.0, lost = 0.0, before = 0.0, start_s = 0.0;
+  // Freeze the left wheel for a second from the first moment after 10 s at which it turns quickly.
+  for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+    double& v = r.channels[0].values[i];
+    if (!std::isfinite(v)) continue;
+    const double true_value = v;
+    if (start_s == 0.0 && r.time_s[i] > 10.0 && true_value - before > 0.06) start_s = r.time_s[i], held = before;
+    if (start_s > 0.0 && r.time_s[i] < start_s + 1.0) {
+      v = held;
+      lost = true_value - held;
+    } else {
+      v = true_value - lost;
+    }
+    before = true_value;
+  }
+  ASSERT_GT(start_s, 0.0);
+  const Diagnosis d = diagnosed(c);
+  EXPECT_TRUE(std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "encoder_data_fault"; }))
+      << said(d);
+  for (const Finding& f : d.findings) EXPECT_TRUE(f.effect == "encoder_data_fault") << f.effect;
+}
+
+TEST(Diagnose, RefusesAnUnusableRecordingByName) {
+  Case c = generated_case(short_case("", 0.0), 7601);
+  c.recordings[1].time_s[5] = -100.0;
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_FALSE(d);
+  EXPECT_EQ(d.error().where, "run_1");
+}
+
+TEST(PredictedTrack, WithoutEffectsIsTheVehiclesOwn) {
+  const Case c = generated_case(short_case("", 0.0), 7701);
+  const Result<Track> a = predicted_track(c.recordings[0], c.nominal),
+                      b = predicted_track(c.recordings[0], c.nominal, {{"wheel_toe", "vehicle", {{"sideways_per_metre", 0.0}}}});
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->size(), b->size());
+  // Two ways through the same arithmetic: rounding only.
+  EXPECT_NEAR(a->back().pose.x_m, b->back().pose.x_m, 1e-9);
+  EXPECT_NEAR(a->back().pose.heading_rad, b->back().pose.heading_rad, 1e-9);
+}
+
+TEST(ChiSquareTail, AgreesWithPublishedQuantiles) {
+  EXPECT_NEAR(chi_square_tail(3.841, 1), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(9.210, 2), 0.01, 1e-4);
+  EXPECT_NEAR(chi_square_tail(11.345, 3), 0.01, 1e-4);
+  EXPECT_NEAR(chi_square_tail(18.307, 10), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(19.675, 11), 0.05, 1e-4);
+}
+
+}  // namespace
+}  // namespace odolab::test
