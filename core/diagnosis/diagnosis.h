@@ -107,8 +107,8 @@ struct DiagnosisOptions {
   double family_wise_error = 0.01;
 };
 
-// Recordings of one vehicle. `held_out` are judged only after everything is frozen; where none are given, a split by run
-// is made if there are two recordings or more.
+// Recordings of one vehicle. `held_out` are judged only after everything is frozen; where none are given, every fourth
+// recording is kept back if there are four or more.
 Result<Diagnosis> diagnose(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options = {}, const Progress& progress = {});
 
