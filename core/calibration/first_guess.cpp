@@ -93,12 +93,12 @@ Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
   Plane plane;
   std::vector<char> used(stretches.size(), 1);
   for (int round = 0; round < 3; ++round) {
-    double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0, yy = 1e-12;
+    double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0;
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       if (!used[i]) continue;
       const Stretch& s = stretches[i];
       ll += s.left_rad * s.left_rad, lr += s.left_rad * s.right_rad, rr += s.right_rad * s.right_rad;
-      ly += s.left_rad * s.*y, ry += s.right_rad * s.*y, yy += s.*y * s.*y;
+      ly += s.left_rad * s.*y, ry += s.right_rad * s.*y;
     }
     // A little stiffness for drives on which both wheels always do the same.
     const double ridge = 1e-9 * (ll + rr), determinant = (ll + ridge) * (rr + ridge) - lr * lr;

@@ -10,6 +10,7 @@
 #include "core/io/picture/bar_picture.h"
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
+#include "core/io/number_text.h"
 
 namespace odolab {
 
@@ -17,17 +18,6 @@ namespace {
 
 constexpr std::size_t kMostRecordings = 4;  // drawn; more make a page that nobody reads
 constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides: short enough for a bump, long enough for what is faint
-
-std::string with_blanks(std::string words) {
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 // The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
 double size_of(std::vector<double> values) {
@@ -113,18 +103,18 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
   report.heading("What was found");
   int count = 0;
   for (const Finding& f : d.findings) {
-    const std::string name = number("%.0f. ", ++count) + effect_text(f.effect, f.component);
+    const std::string name = number_text("%.0f. ", ++count) + effect_text(f.effect, f.component);
     report.sentence(f.sentence.empty() ? name : name + ": " + f.sentence);
     std::vector<std::vector<std::string>> rows;
     for (const FoundParameter& p : f.parameters) rows.push_back({name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
-    if (f.share_of_mismatch > 0.0) rows.push_back({"share of the mismatch that calibration leaves", number("%.0f %%", 100.0 * f.share_of_mismatch)});
+    if (f.share_of_mismatch > 0.0) rows.push_back({"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});
     if (f.log_likelihood_gain > 0.0)
-      rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number("%.1g", f.p_value)});
+      rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number_text("%.1g", f.p_value)});
     if (!rows.empty()) report.table({"", f.parameters.empty() ? "" : "estimate and standard error"}, rows);
     for (const Alternative& a : f.alternatives) {
-      const std::string gains = number("a log-likelihood gain of %.1f", a.log_likelihood_gain) + number(" where this one has %.1f", f.log_likelihood_gain);
+      const std::string gains = number_text("a log-likelihood gain of %.1f", a.log_likelihood_gain) + number_text(" where this one has %.1f", f.log_likelihood_gain);
       std::string text = f.effect == "unknown"
                              ? "It resembles " + effect_text(a.effect, a.component) + ", which does not suffice: " + gains + "."
                              : "Instead of it, " + effect_text(a.effect, a.component) + " would explain the data with " + gains + ".";
@@ -139,8 +129,8 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
   if (drawn.empty()) return;
   report.heading("Where the model and the recordings differ");
   if (d.residuals_before.size() > drawn.size())
-    report.paragraph(number("The %.0f recordings with the largest mismatch", static_cast<double>(drawn.size())) +
-                     number(" of %.0f are drawn.", static_cast<double>(d.residuals_before.size())));
+    report.paragraph(number_text("The %.0f recordings with the largest mismatch", static_cast<double>(drawn.size())) +
+                     number_text(" of %.0f are drawn.", static_cast<double>(d.residuals_before.size())));
   for (const Residuals* before : drawn) {
     const Residuals* after = of_recording(d.residuals_after, before->recording);
     const Sizes noise = sizes_of(after ? *after : *before);
@@ -184,10 +174,10 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
   for (const Finding& f : d.findings) {
     if (!(f.log_likelihood_gain > 0.0)) continue;
     BarGroup group;
-    group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain, number("%.4g", f.log_likelihood_gain), ink::kBlue});
+    group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain, number_text("%.4g", f.log_likelihood_gain), ink::kBlue});
     for (const Alternative& a : f.alternatives)
       group.bars.push_back({"or " + effect_text(a.effect, a.component), std::max(0.0, a.log_likelihood_gain),
-                            number("%.4g", a.log_likelihood_gain), ink::kSky});
+                            number_text("%.4g", a.log_likelihood_gain), ink::kSky});
     for (const DrawnBar& bar : group.bars) {
       largest = std::max(largest, bar.value);
       if (bar.value > 0.0) least = std::min(least, bar.value);
@@ -224,9 +214,9 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
     BarGroup group{part, {}};
     const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
       if (!figures) return;
-      table.push_back({part + ": " + name, number("%.2f", 1e3 * figures->position_rms_m), number("%.3f", degrees(figures->heading_rms_rad)),
-                       number("%.2f", figures->normalised_chi2)});
-      group.bars.push_back({name, 1e3 * figures->position_rms_m, number("%.2f mm", 1e3 * figures->position_rms_m), colour});
+      table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m), number_text("%.3f", degrees(figures->heading_rms_rad)),
+                       number_text("%.2f", figures->normalised_chi2)});
+      group.bars.push_back({name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };
     for (const FitRow& row : rows_of(fit)) add_row(row.name, row.figures, row.colour);
     add_row("what noise alone would leave", fit.noise_floor, ink::kGreen);
@@ -237,9 +227,9 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   BarGroup simulated{"Physics simulator, driven by the recordings", {}};
   const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
     if (!figures) return;
-    table.push_back({std::string("Simulator: ") + name, number("%.2f", 1e3 * figures->position_rms_m),
-                     number("%.3f", degrees(figures->heading_rms_rad)), number("%.2f", figures->normalised_chi2)});
-    simulated.bars.push_back({name, 1e3 * figures->position_rms_m, number("%.2f mm", 1e3 * figures->position_rms_m), colour});
+    table.push_back({std::string("Simulator: ") + name, number_text("%.2f", 1e3 * figures->position_rms_m),
+                     number_text("%.3f", degrees(figures->heading_rms_rad)), number_text("%.2f", figures->normalised_chi2)});
+    simulated.bars.push_back({name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
   };
   add_simulated("calibrated", d.simulation.calibrated, ink::kOrange);
   add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
@@ -277,9 +267,9 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
                     p.determined ? quantity_text(p.value, p.stderr_value, p.unit) : "not determined"});
   report.table({"parameter", "as drawn", "estimate and standard error"}, rows);
   for (const std::string& sentence : c.cannot_tell) report.paragraph("Cannot tell: " + sentence);
-  report.paragraph(number("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
-                   number(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
-                   (c.noise.truth_heading_rad > 0.0 ? number(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad)) : std::string()) + ".");
+  report.paragraph(number_text("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
+                   number_text(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
+                   (c.noise.truth_heading_rad > 0.0 ? number_text(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad)) : std::string()) + ".");
 }
 
 }  // namespace

@@ -5,23 +5,13 @@
 #include <cstdio>
 
 #include "core/geometry/angles.h"
+#include "core/io/number_text.h"
 
 namespace odolab {
 
 namespace {
 
 constexpr const char* kPlusMinus = " \xC2\xB1 ";
-
-std::string with_blanks(std::string words) {
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 std::string decimals_of(double value, int decimals) {
   char text[64];
@@ -62,7 +52,7 @@ bool is_data_fault(const Finding& finding) {
 }
 
 std::string figures_text(const FitFigures& f) {
-  return number("%.2f mm", 1e3 * f.position_rms_m) + number(", %.3f\xC2\xB0", degrees(f.heading_rms_rad));
+  return number_text("%.2f mm", 1e3 * f.position_rms_m) + number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad));
 }
 
 // Broken between words; every line but the first is indented by `indent`.
@@ -86,7 +76,7 @@ void append_wrapped(std::vector<std::string>& lines, const std::string& text, st
   if (!empty) lines.push_back(line);
 }
 
-std::string p_value_text(double p) { return p < 1e-15 ? "p < 1e-15" : number("p = %.1g", p); }
+std::string p_value_text(double p) { return p < 1e-15 ? "p < 1e-15" : number_text("p = %.1g", p); }
 
 std::string finding_line(const Finding& f) {
   std::string line = effect_text(f.effect, f.component);
@@ -97,8 +87,8 @@ std::string finding_line(const Finding& f) {
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
-  if (f.log_likelihood_gain > 0.0) line += number("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
-  if (f.share_of_mismatch > 0.0) line += number(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
+  if (f.log_likelihood_gain > 0.0) line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
+  if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   return line;
 }
 
@@ -194,8 +184,8 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
   // two digits of the error, or four of a value that has none
   const int decimals = has_error ? 1 - exponent_of(error) : 3 - value_exponent;
   if (std::max(value_exponent, has_error ? exponent_of(error) : value_exponent) < -4) {
-    std::string text = number("%.3g", value);
-    if (has_error) text += kPlusMinus + number("%.1e", error);
+    std::string text = number_text("%.3g", value);
+    if (has_error) text += kPlusMinus + number_text("%.1e", error);
     return text + shown.unit;
   }
   std::string text = decimals_of(value, decimals);
@@ -209,12 +199,12 @@ std::string where_text(const WhereFound& where) {
   const std::size_t shown = std::min<std::size_t>(where.time_s.size(), 3);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto [from_s, to_s] = where.time_s[i];
-    when += (when.empty() ? "" : i == 0 ? " at " : ", ") + (to_s > from_s ? number("%.2f to ", from_s) : std::string()) + number("%.2f s", to_s);
+    when += (when.empty() ? "" : i == 0 ? " at " : ", ") + (to_s > from_s ? number_text("%.2f to ", from_s) : std::string()) + number_text("%.2f s", to_s);
   }
-  if (where.time_s.size() > shown) when += number(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
+  if (where.time_s.size() > shown) when += number_text(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
   if (!when.empty()) parts.push_back(when);
   if (where.zone)
-    parts.push_back(number("within %.2f m", where.zone->radius_m) + number(" of x %.2f", where.zone->x_m) + number(", y %.2f m", where.zone->y_m));
+    parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) + number_text(", y %.2f m", where.zone->y_m));
   if (!where.regime.empty()) parts.push_back(where.regime);
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
@@ -230,13 +220,13 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
     append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
     if (f.alternatives.empty()) continue;
     const Alternative& a = f.alternatives.front();
-    std::string other = (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) + effect_text(a.effect, a.component) + number(" (gain %.1f)", a.log_likelihood_gain);
-    if (f.alternatives.size() > 1) other += number(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
+    std::string other = (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) + effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
+    if (f.alternatives.size() > 1) other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
     if (!a.told_apart_by.empty()) other += "; told apart by " + a.told_apart_by;
     append_wrapped(lines, other, columns, "   ");
   }
   if (diagnosis.findings.size() > kMostFindings)
-    lines.push_back(number("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
+    lines.push_back(number_text("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
 
   std::vector<std::string> end;
   std::string calibration;

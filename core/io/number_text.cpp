@@ -1,7 +1,9 @@
 #include "core/io/number_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <system_error>
 
 namespace odolab {
@@ -45,6 +47,17 @@ std::string in_quotes(std::string_view text) {
   for (char c : text.substr(0, kLongest)) result += (c >= 0 && c < ' ') || c == 127 ? '?' : c;
   if (text.size() > kLongest) result += "...";
   return result + "'";
+}
+
+std::string number_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string with_blanks(std::string key) {
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
 }
 
 }  // namespace odolab

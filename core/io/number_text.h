@@ -17,6 +17,12 @@ std::optional<double> number_from(std::string_view text);
 void append_number(std::string& text, double value);
 std::string number_text(double value);
 
+// As printf writes it, for people: "%.2f".
+std::string number_text(const char* format, double value);
+
+// A key made readable: "wheel_radius_left" as "wheel radius left".
+std::string with_blanks(std::string key);
+
 // A piece of foreign text made fit for one line of an error message: quoted and cut short.
 std::string in_quotes(std::string_view text);
 
