@@ -8,7 +8,8 @@ namespace odolab {
 namespace {
 
 std::vector<Command> commands() {
-  return {gui_command(), run_command(), calibrate_command(), diagnose_command(), predict_command(), import_command()};
+  return {gui_command(),     run_command(),    calibrate_command(), diagnose_command(),
+          predict_command(), import_command(), reproduce_command()};
 }
 
 class CliArguments : public Arguments {

@@ -17,7 +17,8 @@ Command gui_command() {
   command.declare = [options](Arguments& arguments) {
     arguments.files("FILE", options->files, "scenarios, recordings or vehicle files to open", false);
     arguments.option("--screenshot", options->screenshot_path, "draw without a person and write this picture (PNG)");
-    arguments.option("--frames", options->frames, "with --screenshot: pictures drawn before it is taken; each plays 0.75 s of the run (default 60)");
+    arguments.option("--frames", options->frames,
+                     "with --screenshot: pictures drawn before it is taken; each plays 0.75 s of the run (default 60)");
     arguments.option("--width", options->width, "width of the window in pixels");
     arguments.option("--height", options->height, "height of the window in pixels");
     arguments.option("--scale", options->scale,

@@ -1,0 +1,21 @@
+#include <algorithm>
+
+#include "physics/experiments/experiment.h"
+
+namespace odolab {
+
+Experiment umbmark_one_direction();
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> list = {
+      umbmark_one_direction(),
+  };
+  return list;
+}
+
+bool succeeded(const ExperimentReport& report) {
+  return std::all_of(report.claims.begin(), report.claims.end(),
+                     [](const Claim& claim) { return claim.holds || claim.explained; });
+}
+
+}  // namespace odolab
