@@ -80,7 +80,8 @@ Contact Ground::under(const WheelStance& stance) const {
     const double spacing_m = floor_.roughness.spacing_m;
     const double h = floor_.roughness.largest_height_m;
     const double reach_m = std::sqrt(2.0 * stance.radius_m * h - h * h);
-    const std::uint64_t stream = seed_of_stream(seed_, stance.side == Side::left ? 1 : 2);
+    const std::uint64_t stream =
+        seed_of_stream(seed_, 2 * static_cast<std::uint64_t>(stance.axle) + (stance.side == Side::left ? 1 : 2));
     const auto first = static_cast<std::int64_t>(std::ceil((stance.travelled_m - reach_m) / spacing_m));
     const auto last = static_cast<std::int64_t>(std::floor((stance.travelled_m + reach_m) / spacing_m));
     for (std::int64_t k = first; k <= last; ++k)

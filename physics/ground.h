@@ -26,6 +26,7 @@ struct WheelStance {
   double heading_rad = 0.0;  // rolling direction
   double radius_m = 0.075;
   double travelled_m = 0.0;  // signed way of the contact along the wheel since the start: it selects the roughness
+  int axle = 0;              // each axle of a vehicle meets roughness of its own
 };
 
 class Ground {

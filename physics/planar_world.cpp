@@ -26,6 +26,25 @@ struct Body {
   // In the frame of the solution, during a step:
   Vec2 place;
   double cos_turn = 1.0, sin_turn = 0.0;
+  double turn_rad = 0.0;
+  double middle_rad = 0.0;  // heading on the floor in the middle of the step, as it came out
+};
+
+// A rigid joint in double: where it is to be put right after each step.
+struct Rigid {
+  int a = 0, b = 1;
+  Vec2 anchor_a, anchor_b;
+  bool along_line = false;
+  double direction_rad = 0.0;
+};
+
+struct FreeWheel {
+  int body = 0;
+  Vec2 place;
+  double direction_rad = 0.0;
+  double force_n = 0.0;
+  b2Body* floor = nullptr;
+  b2WheelJoint* joint = nullptr;
 };
 
 struct Tread {
@@ -49,6 +68,39 @@ struct PlanarWorld::Solver {
   b2World world;
   std::vector<Body> bodies;
   std::vector<Tread> treads;
+  std::vector<FreeWheel> free_wheels;
+  std::vector<Rigid> rigid_joints;
+
+  // Moves two bodies, each the less the heavier it is, so that point b of body b comes to lie on point a of body a, or
+  // on the line through it. Linear in the small gap (README, Eq. 7).
+  void close_gap(const Rigid& joint) {
+    Body& a = bodies[static_cast<std::size_t>(joint.a)];
+    Body& b = bodies[static_cast<std::size_t>(joint.b)];
+    const Vec2 ra = turned(joint.anchor_a, std::cos(a.pose.heading_rad), std::sin(a.pose.heading_rad));
+    const Vec2 rb = turned(joint.anchor_b, std::cos(b.pose.heading_rad), std::sin(b.pose.heading_rad));
+    const Vec2 gap = b.pose.position() + rb - a.pose.position() - ra;
+    const double ma = 1.0 / a.mass_kg, mb = 1.0 / b.mass_kg;
+    const double ia = 1.0 / a.inertia_kgm2, ib = 1.0 / b.inertia_kgm2;
+    Vec2 impulse;  // on b, against it on a
+    Vec2 arm_a = ra;
+    if (joint.along_line) {
+      const double across_rad = a.pose.heading_rad + joint.direction_rad + 0.5 * kPi;
+      const Vec2 across{std::cos(across_rad), std::sin(across_rad)};
+      arm_a = ra + gap;  // the line is fixed to a, and b's point lies somewhere on it
+      const double ka = cross(arm_a, across), kb = cross(rb, across);
+      impulse = (-dot(gap, across) / (ma + mb + ia * ka * ka + ib * kb * kb)) * across;
+    } else {
+      const double kxx = ma + mb + ia * ra.y_m * ra.y_m + ib * rb.y_m * rb.y_m;
+      const double kxy = -ia * ra.x_m * ra.y_m - ib * rb.x_m * rb.y_m;
+      const double kyy = ma + mb + ia * ra.x_m * ra.x_m + ib * rb.x_m * rb.x_m;
+      const double det = kxx * kyy - kxy * kxy;
+      impulse = {-(kyy * gap.x_m - kxy * gap.y_m) / det, -(kxx * gap.y_m - kxy * gap.x_m) / det};
+    }
+    a.pose = {a.pose.x_m - ma * impulse.x_m, a.pose.y_m - ma * impulse.y_m,
+              a.pose.heading_rad - ia * cross(arm_a, impulse)};
+    b.pose = {b.pose.x_m + mb * impulse.x_m, b.pose.y_m + mb * impulse.y_m,
+              b.pose.heading_rad + ib * cross(rb, impulse)};
+  }
 };
 
 PlanarWorld::PlanarWorld(double step_s) : solver_(std::make_unique<Solver>(step_s)) {}
@@ -111,6 +163,53 @@ void PlanarWorld::add_spring(const SpringDefinition& d) {
   solver_->world.CreateJoint(&joint);
 }
 
+void PlanarWorld::add_pin(const PinDefinition& d) {
+  b2RevoluteJointDef joint;
+  joint.bodyA = solver_->bodies[d.body_a].solved;
+  joint.bodyB = solver_->bodies[d.body_b].solved;
+  joint.localAnchorA = single(d.anchor_a);
+  joint.localAnchorB = single(d.anchor_b);
+  joint.collideConnected = true;
+  solver_->world.CreateJoint(&joint);
+  solver_->rigid_joints.push_back({d.body_a, d.body_b, d.anchor_a, d.anchor_b, false, 0.0});
+}
+
+void PlanarWorld::add_slider(const SliderDefinition& d) {
+  b2WheelJointDef joint;
+  joint.bodyA = solver_->bodies[d.body_a].solved;
+  joint.bodyB = solver_->bodies[d.body_b].solved;
+  joint.localAnchorA = single(d.anchor_a);
+  joint.localAnchorB = single(d.anchor_b);
+  joint.localAxisA = single({std::cos(d.direction_rad), std::sin(d.direction_rad)});
+  joint.enableMotor = false;
+  joint.collideConnected = true;
+  if (d.frequency_hz > 0.0)
+    b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz),
+                      static_cast<float>(d.damping_ratio), joint.bodyA, joint.bodyB);
+  solver_->world.CreateJoint(&joint);
+  solver_->rigid_joints.push_back({d.body_a, d.body_b, d.anchor_a, d.anchor_b, true, d.direction_rad});
+}
+
+int PlanarWorld::add_free_wheel(int body, Vec2 place, double direction_rad) {
+  b2BodyDef def;
+  def.type = b2_kinematicBody;
+  def.allowSleep = false;
+  FreeWheel wheel;
+  wheel.body = body;
+  wheel.place = place;
+  wheel.direction_rad = direction_rad;
+  wheel.floor = solver_->world.CreateBody(&def);
+  b2WheelJointDef joint;
+  joint.bodyA = wheel.floor;
+  joint.bodyB = solver_->bodies[body].solved;
+  joint.localAnchorA.SetZero();
+  joint.localAnchorB = single(place);
+  joint.localAxisA = {1.0f, 0.0f};
+  wheel.joint = static_cast<b2WheelJoint*>(solver_->world.CreateJoint(&joint));
+  solver_->free_wheels.push_back(wheel);
+  return static_cast<int>(solver_->free_wheels.size()) - 1;
+}
+
 void PlanarWorld::set_tread(int tread, Vec2 velocity_mps, double grip_n) {
   solver_->treads[tread].velocity_mps = velocity_mps;
   solver_->treads[tread].joint->SetMaxForce(static_cast<float>(grip_n));
@@ -144,17 +243,16 @@ void PlanarWorld::step() {
 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
-    double turn_rad = 0.0;
     if (i > 0) {
       const Vec2 middle = body.pose.position() + (0.5 * h) * body.velocity_mps;
       body.place = turned(middle - frame_place, c, -s);
-      turn_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps - frame_rad;
-      body.cos_turn = std::cos(turn_rad);
-      body.sin_turn = std::sin(turn_rad);
+      body.turn_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps - frame_rad;
+      body.cos_turn = std::cos(body.turn_rad);
+      body.sin_turn = std::sin(body.turn_rad);
     }
     const Vec2 pushed = body.velocity_mps + (h / body.mass_kg) * body.force_n;
     const double pushed_rate = body.yaw_rate_radps + h / body.inertia_kgm2 * body.torque_nm;
-    body.solved->SetTransform(single(body.place), static_cast<float>(turn_rad));
+    body.solved->SetTransform(single(body.place), static_cast<float>(body.turn_rad));
     body.solved->SetLinearVelocity(single(turned(pushed, c, -s) - frame_velocity_at(body.place)));
     body.solved->SetAngularVelocity(static_cast<float>(pushed_rate - frame_rate));
     body.force_n = {};
@@ -167,6 +265,12 @@ void PlanarWorld::step() {
     tread.floor->SetTransform(single(place), 0.0f);
     tread.floor->SetLinearVelocity(single(velocity - frame_velocity_at(place)));
   }
+  for (FreeWheel& wheel : solver_->free_wheels) {
+    const Body& body = bodies[wheel.body];
+    const Vec2 place = body.place + turned(wheel.place, body.cos_turn, body.sin_turn);
+    wheel.floor->SetTransform(single(place), static_cast<float>(body.turn_rad + wheel.direction_rad));
+    wheel.floor->SetLinearVelocity(single(-1.0 * frame_velocity_at(place)));
+  }
 
   solver_->world.Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
 
@@ -178,6 +282,7 @@ void PlanarWorld::step() {
     body.velocity_mps = turned(velocity, c, s);
     body.yaw_rate_radps = rate;
     const Vec2 travel = h * turned(body.velocity_mps, 1.0, correction_rad);
+    body.middle_rad = body.pose.heading_rad + 0.5 * h * rate;
     body.pose = {body.pose.x_m + travel.x_m, body.pose.y_m + travel.y_m, body.pose.heading_rad + h * rate};
   }
   const float inverse_step = 1.0f / static_cast<float>(h);
@@ -185,11 +290,25 @@ void PlanarWorld::step() {
     const Body& body = bodies[tread.body];
     tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
   }
+  for (FreeWheel& wheel : solver_->free_wheels) {
+    const Body& body = bodies[wheel.body];
+    const Vec2 force = turned(twice(wheel.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
+    wheel.force_n = dot(force, {-std::sin(wheel.direction_rad), std::cos(wheel.direction_rad)});
+  }
+  for (const Rigid& joint : solver_->rigid_joints) solver_->close_gap(joint);
 }
 
 const Pose& PlanarWorld::pose(int body) const { return solver_->bodies[body].pose; }
 Vec2 PlanarWorld::velocity_mps(int body) const { return solver_->bodies[body].velocity_mps; }
 double PlanarWorld::yaw_rate_radps(int body) const { return solver_->bodies[body].yaw_rate_radps; }
 Vec2 PlanarWorld::tread_force_n(int tread) const { return solver_->treads[tread].force_n; }
+
+double PlanarWorld::free_wheel_force_n(int free_wheel) const { return solver_->free_wheels[free_wheel].force_n; }
+
+Vec2 PlanarWorld::velocity_of_point_mps(int body, Vec2 place) const {
+  const Body& b = solver_->bodies[static_cast<std::size_t>(body)];
+  const Vec2 v = rotated(b.velocity_mps, -b.middle_rad);
+  return {v.x_m - b.yaw_rate_radps * place.y_m, v.y_m + b.yaw_rate_radps * place.x_m};
+}
 
 }  // namespace odolab

@@ -27,6 +27,23 @@ struct SpringDefinition {
   double damping_ratio = 0.7;
 };
 
+// Two bodies that share a point and turn freely about it.
+struct PinDefinition {
+  int body_a = 0;
+  int body_b = 1;
+  Vec2 anchor_a, anchor_b;  // the point in the frame of each body
+};
+
+// A point of body b that slides freely or against a damped spring along a line fixed to body a, and turns freely.
+struct SliderDefinition {
+  int body_a = 0;
+  int body_b = 1;
+  Vec2 anchor_a, anchor_b;     // in the frame of each body; the spring rests where they meet
+  double direction_rad = 0.0;  // of the line in a's frame
+  double frequency_hz = 0.0;   // 0: slides freely
+  double damping_ratio = 0.7;
+};
+
 class PlanarWorld {
  public:
   explicit PlanarWorld(double step_s);
@@ -38,6 +55,11 @@ class PlanarWorld {
   int add_body(const BodyDefinition& definition);
   int add_tread(int body, Vec2 place);  // where a wheel touches the floor, in the body's frame
   void add_spring(const SpringDefinition& definition);
+  // Rigid: the solver sees to their velocities, and after each step their positions are put right in double.
+  void add_pin(const PinDefinition& definition);
+  void add_slider(const SliderDefinition& definition);
+  // A wheel that rolls freely along a direction of the body's frame and does not move sideways, whatever the force.
+  int add_free_wheel(int body, Vec2 place, double direction_rad = 0.0);
 
   // What the tread does in the next step: the velocity over the floor that the wheel would give the body's point above
   // it if it did not slip (in the body's frame), and the force at which it starts to slip.
@@ -54,6 +76,11 @@ class PlanarWorld {
   double yaw_rate_radps(int body) const;
   // Force of the floor on the body through this tread, mean over the last step, in the body's frame.
   Vec2 tread_force_n(int tread) const;
+  // What the floor holds this free wheel with sideways (positive: to the left of its direction), mean over the last
+  // step.
+  double free_wheel_force_n(int free_wheel) const;
+  // The point's velocity over the floor, turned into the body's frame at the middle of the last step.
+  Vec2 velocity_of_point_mps(int body, Vec2 place) const;
 
  private:
   struct Solver;

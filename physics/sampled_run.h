@@ -7,13 +7,15 @@
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "physics/driver/path_follower.h"
+#include "physics/driver/base_command.h"
 
 namespace odolab {
 
 struct SampledRun {
-  std::vector<WheelSample> wheels;
-  std::vector<BaseCommand> commands;  // one with each of the wheel samples, or none
+  std::vector<std::string> channels;  // that the vehicle's sensors fill
+  std::vector<double> time_s;         // of each of their samples
+  std::vector<double> readings;       // a row of all channels for each sample
+  std::vector<BaseCommand> commands;  // one with each of the samples, or none
   Track truth;                        // on its own clock
 };
 

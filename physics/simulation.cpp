@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "core/odometry/differential_drive.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
 #include "physics/effects/effects.h"
 #include "physics/sampled_run.h"
 #include "physics/sensors/absolute_pose.h"
-#include "physics/sensors/encoder.h"
+#include "physics/vehicles/planar_vehicle.h"
 
 namespace odolab {
 
@@ -21,20 +20,9 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Streams of random numbers, one for each thing that draws.
 enum Stream : std::uint64_t { kFloorStream = 1, kEncoderStream = 2, kTruthStream = 3 };
 
-const DifferentialDrive& nominal_drive(const Scenario& scenario) {
-  return std::get<DifferentialDrive>(scenario.vehicle.kind);
-}
-
 Side inside_of(const Path& path) {
   const auto* square = std::get_if<SquarePath>(&path);
   return square && square->clockwise ? Side::right : Side::left;
-}
-
-// The wheel speeds that a base speed and turn rate ask for, by the nominal geometry.
-WheelPair wheel_speeds(const BaseCommand& command, const DifferentialDrive& drive) {
-  const double half_base = 0.5 * drive.wheelbase_m * command.yaw_rate_radps;
-  return {(command.speed_mps - half_base) / drive.wheel_radius_left_m,
-          (command.speed_mps + half_base) / drive.wheel_radius_right_m};
 }
 
 Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
@@ -57,27 +45,27 @@ struct Simulation::Parts {
   Parts(const Scenario& given, std::uint64_t seed, std::shared_ptr<const Recording> recorded)
       : scenario(given),
         replayed(std::move(recorded)),
-        drive(nominal_drive(scenario)),
         effects(scenario.effects, {scenario.actual, scenario.step_s}),
         mounting(effects.mounted(scenario.vehicle.truth)),
         floor_seed(seed_of_stream(seed, kFloorStream)),
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
         start(start_of(scenario, replayed.get(), mounting)),
-        vehicle(effects.built_into(scenario.actual), scenario.motor, start, scenario.step_s, effects),
-        route(route_of(scenario.path, start)),
+        vehicle(make_planar_vehicle({scenario, start, effects, seed_of_stream(seed, kEncoderStream)})),
+        route(route_of(scenario.path, vehicle->believed_driven_point())),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
-        rotation(replays(ReplayPath::By::wheels) ? wheel_samples(*replayed, drive) : std::vector<WheelSample>{}),
+        rotation(replays(ReplayPath::By::wheels)
+                     ? wheel_samples(*replayed, std::get<DifferentialDrive>(scenario.vehicle.kind))
+                     : std::vector<WheelSample>{}),
         commands(replays(ReplayPath::By::commands) ? command_samples(*replayed) : std::vector<CommandSample>{}),
         encoder_steps(steps_in(scenario.sensors.encoder_period_s, scenario.step_s)),
         truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s)
                                                           : 0),
-        encoder_phases(seed_of_stream(seed, kEncoderStream)),
-        left_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
-        right_encoder(drive.counts_per_wheel_turn(), encoder_phases.uniform()),
         truth_noise(seed_of_stream(seed, kTruthStream)) {
     plan_duration();
     state.time_s = begin_s;
     state.true_pose = state.estimated_pose = start;
+    vehicle->place_other_bodies(state.other_bodies);
+    run.channels = vehicle->channels();
     sample_encoders();
     sample_truth();
     measured_start = measured_end = measured_axle();
@@ -106,10 +94,10 @@ struct Simulation::Parts {
       const std::vector<TruthSample> truth = truth_samples(*replayed);
       begin_s = truth.empty() ? first_s : truth.front().time_s - mounting.time_offset_s;
       duration_s = std::max(0.0, effects.empty() ? last_s - begin_s : effects.since_start_of_stamp_s(begin_s, last_s));
-      vehicle.set_clock(begin_s);
+      vehicle->set_clock(begin_s);
       if (!rotation.empty()) {
         rotation_now = rotation.at(begin_s);
-        vehicle.begin_in_motion(rotation.speed_at(begin_s));
+        vehicle->by_wheels()->begin_in_motion(rotation.speed_at(begin_s));
       }
     } else {
       duration_s = duration_of(route, scenario.driving);
@@ -143,73 +131,57 @@ struct Simulation::Parts {
     return effects.empty() ? begin_s + since_start_s : effects.robot_stamp_s(begin_s, since_start_s);
   }
 
-  WheelPair set_speeds() {
-    if (std::holds_alternative<WheelSpeedPath>(scenario.path))
-      return tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * scenario.step_s);
+  // What the driver asks for in this step.
+  CommandRamp command_now() {
     if (!commands.empty()) {
       const CommandSample c = commands.at(recorded_s(static_cast<double>(steps) + 0.5));
-      return wheel_speeds({c.speed_mps, c.yaw_rate_radps}, drive);
+      return {{}, {c.speed_mps, c.yaw_rate_radps}, 1.0};
     }
-    // Between two commands the set speeds move evenly: a jump would make the wheels slip.
     const double u = (static_cast<double>(steps % encoder_steps) + 0.5) / static_cast<double>(encoder_steps);
-    return {set_before.left + u * (set_next.left - set_before.left),
-            set_before.right + u * (set_next.right - set_before.right)};
+    return {command_before, command_next, u};
   }
 
   void drive_one_step() {
     const double h = scenario.step_s;
     if (!rotation.empty()) {
       const WheelPair next = rotation.at(recorded_s(static_cast<double>(steps + 1)));
-      vehicle.turn_wheels(ground, scenario.floor,
-                          {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
+      vehicle->by_wheels()->turn_wheels(ground, scenario.floor,
+                                        {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
       rotation_now = next;
-      return;
+    } else if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
+      vehicle->by_wheels()->drive_wheels(ground, scenario.floor,
+                                         tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * h));
+    } else {
+      vehicle->drive(ground, scenario.floor, command_now());
     }
-    WheelPair set = set_speeds();
-    for (const auto& effect : effects) effect->command(set);
-    vehicle.drive(ground, scenario.floor, set);
   }
 
   void step() {
     drive_one_step();
     ++steps;
     state.time_s = begin_s + static_cast<double>(steps) * scenario.step_s;
-    state.true_pose = vehicle.pose();
-    state.true_speed_mps = vehicle.speed_mps();
-    state.true_yaw_rate_radps = vehicle.yaw_rate_radps();
-    state.left = vehicle.left();
-    state.right = vehicle.right();
+    state.true_pose = vehicle->pose();
+    state.true_speed_mps = vehicle->speed_mps();
+    state.true_yaw_rate_radps = vehicle->yaw_rate_radps();
+    state.left = vehicle->left();
+    state.right = vehicle->right();
+    vehicle->place_other_bodies(state.other_bodies);
     if (steps % encoder_steps == 0) sample_encoders();
     if (truth_steps > 0 && steps % truth_steps == 0) sample_truth();
     if (by_route ? follower.finished() : state.time_s >= begin_s + duration_s - 1e-9) finish();
   }
 
   void sample_encoders() {
-    double left = left_encoder.reading_rad(state.left.counted_rad);
-    double right = right_encoder.reading_rad(state.right.counted_rad);
-    for (const auto& effect : effects) {
-      effect->read_encoder(Side::left, state.time_s, left);
-      effect->read_encoder(Side::right, state.time_s, right);
-    }
-    if (!wheels.empty()) {
-      state.estimated_pose =
-          dead_reckoned(state.estimated_pose, left - wheels.back().left_rad, right - wheels.back().right_rad, drive);
-      estimated.push_back({state.time_s, state.estimated_pose});
-      exact.push_back({state.time_s, state.true_pose});
-    } else {
-      estimated.push_back({state.time_s, start});
-      exact.push_back({state.time_s, start});
-    }
-    wheels.push_back({state.time_s, left, right});
-    set_before = set_next;
-    if (by_route) command(follower.update(state.estimated_pose));
-    if (std::holds_alternative<HandPath>(scenario.path)) command(by_hand());
+    vehicle->sample(state.time_s, readings);
+    run.readings.insert(run.readings.end(), readings.begin(), readings.end());
+    run.time_s.push_back(state.time_s);
+    state.estimated_pose = vehicle->believed();
+    estimated.push_back({state.time_s, state.estimated_pose});
+    exact.push_back({state.time_s, state.true_pose});
+    command_before = command_next;
+    if (by_route) command_next = given_now = follower.update(vehicle->believed_driven_point());
+    if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
     if (scenario.sensors.record_commands) record_command();
-  }
-
-  void command(const BaseCommand& given) {
-    given_now = given;
-    set_next = wheel_speeds(given, drive);
   }
 
   // What the driver asks of the base from now until the next sample; of a path that knows wheel speeds alone, what they
@@ -217,16 +189,14 @@ struct Simulation::Parts {
   void record_command() {
     if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
       const WheelPair speeds = tabled_speeds(state.time_s + 0.5 * scenario.sensors.encoder_period_s);
-      const double left_mps = speeds.left * drive.wheel_radius_left_m,
-                   right_mps = speeds.right * drive.wheel_radius_right_m;
-      given_now = {0.5 * (left_mps + right_mps), (right_mps - left_mps) / drive.wheelbase_m};
+      given_now = vehicle->by_wheels()->motion_of(speeds);
     } else if (!commands.empty()) {
       const CommandSample c = commands.at(recorded_s(static_cast<double>(steps)));
       given_now = {c.speed_mps, c.yaw_rate_radps};
     } else if (!rotation.empty()) {
       given_now = {kNone, kNone};  // nobody commands wheels that are turned by a recording
     }
-    given.push_back(given_now);
+    run.commands.push_back(given_now);
   }
 
   // A hand's command, reached at no more than the driver's accelerations.
@@ -237,18 +207,19 @@ struct Simulation::Parts {
     hand_now.speed_mps = std::clamp(hand.speed_mps, hand_now.speed_mps - dv, hand_now.speed_mps + dv);
     hand_now.yaw_rate_radps =
         std::clamp(hand.yaw_rate_radps, hand_now.yaw_rate_radps - dw, hand_now.yaw_rate_radps + dw);
+    hand_now.sideways_mps = std::clamp(hand.sideways_mps, hand_now.sideways_mps - dv, hand_now.sideways_mps + dv);
     return hand_now;
   }
 
   void sample_truth() {
-    if (!truth.empty() && truth.back().time_s == state.time_s) return;
+    if (!run.truth.empty() && run.truth.back().time_s == state.time_s) return;
     Pose measured = sonar().measure(state.true_pose * mounting.axle_T_tracked, truth_noise);
     for (const auto& effect : effects) effect->measure_truth(state.time_s, measured);
-    truth.push_back({state.time_s, measured});
+    run.truth.push_back({state.time_s, measured});
   }
 
   // The axle's pose as the last outside measurement shows it.
-  Pose measured_axle() const { return truth.back().pose * inverse(scenario.vehicle.truth.axle_T_tracked); }
+  Pose measured_axle() const { return run.truth.back().pose * inverse(scenario.vehicle.truth.axle_T_tracked); }
 
   void finish() {
     if (state.finished) return;
@@ -259,31 +230,29 @@ struct Simulation::Parts {
 
   Scenario scenario;
   std::shared_ptr<const Recording> replayed;
-  DifferentialDrive drive;  // nominal
   planar::Effects effects;
   TruthMounting mounting;  // as it really is
   std::uint64_t floor_seed;
   Ground ground;
   Pose start;
-  PlanarDifferentialDrive vehicle;
+  std::unique_ptr<PlanarVehicle> vehicle;
   std::vector<Leg> route;
   PathFollower follower;
   RecordedRotation rotation;
   RecordedCommands commands;
   std::int64_t encoder_steps, truth_steps;
-  Random encoder_phases;
-  Encoder left_encoder, right_encoder;
   Random truth_noise;
 
   std::int64_t steps = 0;
   double begin_s = 0.0, duration_s = 0.0;
   bool by_route = false;
-  WheelPair set_before, set_next, rotation_now;
+  BaseCommand command_before, command_next;
+  WheelPair rotation_now;
   BaseCommand hand, hand_now, given_now;
   SimulationState state;
-  std::vector<WheelSample> wheels;
-  std::vector<BaseCommand> given;  // with each of them, where they are recorded
-  Track exact, estimated, truth;
+  SampledRun run;
+  std::vector<double> readings;  // of one sample
+  Track exact, estimated;
   Pose measured_start, measured_end;
 };
 
@@ -305,8 +274,10 @@ void Simulation::set_floor(const Floor& floor) {
   parts_->ground = Ground(parts_->effects.laid_on(floor), inside_of(parts_->scenario.path), parts_->floor_seed);
 }
 
-void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps) { parts_->hand = {speed_mps, yaw_rate_radps}; }
-void Simulation::push(Vec2 impulse_ns) { parts_->vehicle.push(impulse_ns); }
+void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps) {
+  parts_->hand = {speed_mps, yaw_rate_radps, sideways_mps};
+}
+void Simulation::push(Vec2 impulse_ns) { parts_->vehicle->push(impulse_ns); }
 
 const Track& Simulation::true_track() const { return parts_->exact; }
 const Track& Simulation::estimated_track() const { return parts_->estimated; }
@@ -318,9 +289,9 @@ TruthMounting Simulation::truth_mounting() const { return parts_->mounting; }
 Recording Simulation::recording() const {
   const Parts& parts = *parts_;
   const bool offset = parts.mounting.time_offset_s != parts.scenario.vehicle.truth.time_offset_s;
-  SampledRun run{parts.wheels, parts.given, parts.truth};
+  SampledRun run = parts.run;
   if (!parts.effects.empty())
-    for (WheelSample& w : run.wheels) w.time_s = parts.effects.robot_stamp_s(parts.begin_s, w.time_s - parts.begin_s);
+    for (double& time_s : run.time_s) time_s = parts.effects.robot_stamp_s(parts.begin_s, time_s - parts.begin_s);
   if (offset)
     for (TimedPose& t : run.truth)
       t.time_s += parts.mounting.time_offset_s - parts.scenario.vehicle.truth.time_offset_s;

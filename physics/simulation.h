@@ -9,17 +9,18 @@
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "physics/vehicles/planar_differential_drive.h"
+#include "physics/vehicles/wheel_state.h"
 
 namespace odolab {
 
 struct SimulationState {
   double time_s = 0.0;  // since the start; in a replay on the recording's clock
-  Pose true_pose;       // of the axle's centre
-  Pose estimated_pose;  // by the robot's dead reckoning, in the floor's frame from the same start
+  Pose true_pose;       // of the point that the truth measures: the axle's centre, truck A's, the platform's
+  Pose estimated_pose;  // of the same point by the robot's dead reckoning, in the floor's frame from the same start
   double true_speed_mps = 0.0;
   double true_yaw_rate_radps = 0.0;
-  WheelState left, right;
+  WheelState left, right;          // drive wheels of the first body
+  std::vector<Pose> other_bodies;  // true poses of the bodies that are coupled to the first one, in a fixed order
   bool finished = false;
 };
 
@@ -40,7 +41,7 @@ class Simulation {
 
   // While it runs: the floor may change, a person may drive (only with a HandPath), a push may come from outside.
   void set_floor(const Floor& floor);
-  void drive_by_hand(double speed_mps, double yaw_rate_radps);
+  void drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps = 0.0);
   void push(Vec2 impulse_ns);
 
   // Sampled so far. The tracks hold a pose for each encoder sample.

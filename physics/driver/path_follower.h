@@ -3,15 +3,10 @@
 
 #include <vector>
 
+#include "physics/driver/base_command.h"
 #include "physics/driver/route.h"
 
 namespace odolab {
-
-// What the driver asks of the base.
-struct BaseCommand {
-  double speed_mps = 0.0;
-  double yaw_rate_radps = 0.0;
-};
 
 // Knows only where the robot believes it is. Speeds up and slows down evenly, stops at the end of each leg that says
 // so, and steers the believed pose back onto the leg.

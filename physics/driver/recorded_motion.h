@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/recording/recording.h"
-#include "physics/vehicles/planar_differential_drive.h"
+#include "physics/wheel_pair.h"
 
 namespace odolab {
 

@@ -8,15 +8,7 @@
 #include "core/geometry/pose.h"
 #include "core/scenario/scenario.h"
 #include "physics/ground.h"
-
-namespace odolab {
-
-struct WheelPair {
-  double left = 0.0;
-  double right = 0.0;
-};
-
-}  // namespace odolab
+#include "physics/wheel_pair.h"
 
 namespace odolab::planar {
 

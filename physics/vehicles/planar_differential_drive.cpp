@@ -1,77 +1,61 @@
 #include "physics/vehicles/planar_differential_drive.h"
 
+#include "core/base/random.h"
+#include "core/odometry/differential_drive.h"
+#include "physics/vehicles/axle_commands.h"
+
 namespace odolab {
 
-namespace {
-constexpr double kGravity_mps2 = 9.81;
+PlanarDifferentialDrive::PlanarDifferentialDrive(const VehicleSetup& setup, const ActualDrive& actual)
+    : nominal_(std::get<DifferentialDrive>(setup.scenario.vehicle.kind)),
+      actual_(actual),
+      step_s_(setup.scenario.step_s),
+      world_(step_s_),
+      body_(world_.add_body({setup.start, actual.mass_kg, actual.moment_of_inertia_kgm2})),
+      axle_(world_, body_, {}, actual, setup.scenario.motor, step_s_, setup.effects),
+      effects_(&setup.effects),
+      left_encoder_(nominal_.counts_per_wheel_turn(), 0.0),
+      right_encoder_(nominal_.counts_per_wheel_turn(), 0.0),
+      believed_(setup.start) {
+  Random phases(setup.sensor_seed);
+  left_encoder_ = Encoder(nominal_.counts_per_wheel_turn(), phases.uniform());
+  right_encoder_ = Encoder(nominal_.counts_per_wheel_turn(), phases.uniform());
 }
 
-PlanarDifferentialDrive::PlanarDifferentialDrive(const ActualDrive& a, const Motor& motor, const Pose& start,
-                                                 double step_s, const planar::Effects& effects)
-    : world_(step_s),
-      step_s_(step_s),
-      mass_kg_(a.mass_kg),
-      wheel_load_n_(0.5 * a.drive_wheel_load_share * a.mass_kg * kGravity_mps2),
-      moment_of_inertia_kgm2_(a.moment_of_inertia_kgm2),
-      wheelbase_m_(a.wheelbase_m),
-      body_(world_.add_body({start, a.mass_kg, a.moment_of_inertia_kgm2})),
-      wheels_{Wheel{WheelDrive(motor, a.wheel_radius_left_m,
-                               0.5 * a.mass_kg * a.wheel_radius_left_m * a.wheel_radius_left_m),
-                    Side::left,
-                    {0.0, 0.5 * a.wheelbase_m},
-                    a.wheel_radius_left_m,
-                    a.toe_left_rad,
-                    {std::cos(a.toe_left_rad), std::sin(a.toe_left_rad)}},
-              Wheel{WheelDrive(motor, a.wheel_radius_right_m,
-                               0.5 * a.mass_kg * a.wheel_radius_right_m * a.wheel_radius_right_m),
-                    Side::right,
-                    {0.0, -0.5 * a.wheelbase_m},
-                    a.wheel_radius_right_m,
-                    a.toe_right_rad,
-                    {std::cos(a.toe_right_rad), std::sin(a.toe_right_rad)}}},
-      effects_(&effects) {
-  for (Wheel& wheel : wheels_) wheel.tread = world_.add_tread(body_, wheel.place);
+void PlanarDifferentialDrive::drive(const Ground& ground, const Floor& floor, const CommandRamp& command) {
+  drive_wheels(ground, floor,
+               between(wheel_speeds(command.before, nominal_), wheel_speeds(command.next, nominal_), command.share));
 }
 
-void PlanarDifferentialDrive::drive(const Ground& ground, const Floor& floor, WheelPair set) {
-  turn(wheels_[0], wheels_[0].drive.advance(set.left, wheels_[0].state.traction_n, step_s_));
-  turn(wheels_[1], wheels_[1].drive.advance(set.right, wheels_[1].state.traction_n, step_s_));
-  roll(ground, floor);
+void PlanarDifferentialDrive::drive_wheels(const Ground& ground, const Floor& floor, WheelPair set) {
+  for (const auto& effect : *effects_) effect->command(set);
+  axle_.turn_motors(set);
+  step(ground, floor);
 }
 
 void PlanarDifferentialDrive::turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed) {
-  for (const auto& effect : *effects_) {
-    effect->uncount(Side::left, speed.left);
-    effect->uncount(Side::right, speed.right);
-  }
-  wheels_[0].drive.turn_at(speed.left, step_s_);
-  wheels_[1].drive.turn_at(speed.right, step_s_);
-  turn(wheels_[0], speed.left);
-  turn(wheels_[1], speed.right);
-  roll(ground, floor);
+  axle_.turn_exactly(speed);
+  step(ground, floor);
+}
+
+void PlanarDifferentialDrive::step(const Ground& ground, const Floor& floor) {
+  axle_.before_step(ground, floor);
+  pull_downhill(world_, body_, actual_.mass_kg, floor);
+  world_.step();
+  axle_.after_step();
 }
 
 void PlanarDifferentialDrive::begin_in_motion(WheelPair speed) {
-  const double left_mps = wheels_[0].radius_m * speed.left, right_mps = wheels_[1].radius_m * speed.right;
+  const double left_mps = actual_.wheel_radius_left_m * speed.left,
+               right_mps = actual_.wheel_radius_right_m * speed.right;
   const Vec2 velocity = rotated({0.5 * (left_mps + right_mps), 0.0}, world_.pose(body_).heading_rad);
-  world_.set_velocity(body_, velocity, (right_mps - left_mps) / (wheelbase_m_));
+  world_.set_velocity(body_, velocity, (right_mps - left_mps) / actual_.wheelbase_m);
 }
 
-// From the motor to the encoder and to the wheel.
-void PlanarDifferentialDrive::turn(Wheel& wheel, double motor_speed_radps) {
-  wheel.mean_speed_radps = motor_speed_radps;
-  if (effects_->empty()) {
-    wheel.state.rotation_rad = wheel.state.counted_rad = wheel.drive.rotation_rad();
-    return;
-  }
-  double counted_rad = motor_speed_radps * step_s_, turned_rad = counted_rad;
-  for (const auto& effect : *effects_) {
-    effect->count(wheel.side, motor_speed_radps, counted_rad);
-    effect->gear(wheel.side, turned_rad);
-  }
-  wheel.mean_speed_radps = turned_rad / step_s_;
-  wheel.state.rotation_rad += turned_rad;
-  wheel.state.counted_rad += counted_rad;
+BaseCommand PlanarDifferentialDrive::motion_of(WheelPair speed) const {
+  const double left_mps = speed.left * nominal_.wheel_radius_left_m,
+               right_mps = speed.right * nominal_.wheel_radius_right_m;
+  return {0.5 * (left_mps + right_mps), (right_mps - left_mps) / nominal_.wheelbase_m};
 }
 
 void PlanarDifferentialDrive::push(Vec2 impulse_ns) { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
@@ -81,89 +65,20 @@ double PlanarDifferentialDrive::speed_mps() const {
   return dot(world_.velocity_mps(body_), {std::cos(heading), std::sin(heading)});
 }
 
-void PlanarDifferentialDrive::roll(const Ground& ground, const Floor& floor) {
-  // Where the wheels will stand at the middle of the step.
-  const Pose& pose = world_.pose(body_);
-  const double heading_rad = pose.heading_rad + 0.5 * step_s_ * world_.yaw_rate_radps(body_);
-  const Vec2 centre = pose.position() + (0.5 * step_s_) * world_.velocity_mps(body_);
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-  const bool plain = effects_->empty();
-  if (!plain) roll_with_effects(heading_rad);
-  for (Wheel& wheel : wheels_) {
-    const Vec2 contact_place{centre.x_m + c * wheel.place.x_m - s * wheel.place.y_m,
-                             centre.y_m + s * wheel.place.x_m + c * wheel.place.y_m};
-    const Contact contact =
-        ground.under({wheel.side, contact_place, heading_rad + wheel.toe_rad, wheel.radius_m, wheel.travelled_m});
-    const double tread_mps =
-        wheel.rolling_radius_m * wheel.mean_speed_radps * contact.horizontal_share * (1.0 - contact.slip);
-    wheel.travelled_m += tread_mps * step_s_;
-    wheel.tread_mps = tread_mps;
-    wheel.grip_n = contact.friction * wheel_load_n_ * std::cos(floor.tilt_rad);
-    if (plain) world_.set_tread(wheel.tread, tread_mps * wheel.rolling_direction, wheel.grip_n);
-    wheel.state.on_bump = contact.on_bump;
-    wheel.state.in_slip_zone = contact.in_slip_zone;
-    wheel.state.slip_speed_mps = tread_mps;  // less the floor's, below
+void PlanarDifferentialDrive::sample(double time_s, std::vector<double>& readings) {
+  WheelPair now{left_encoder_.reading_rad(left().counted_rad), right_encoder_.reading_rad(right().counted_rad)};
+  for (const auto& effect : *effects_) {
+    effect->read_encoder(Side::left, time_s, now.left);
+    effect->read_encoder(Side::right, time_s, now.right);
   }
-  if (!plain) creep_with_effects(heading_rad);
-  if (floor.tilt_rad != 0.0) {
-    const double pull_n = mass_kg_ * kGravity_mps2 * std::sin(floor.tilt_rad);
-    world_.apply_force(
-        body_, {pull_n * std::cos(floor.downhill_direction_rad), pull_n * std::sin(floor.downhill_direction_rad)});
-  }
-  world_.step();
-
-  const Vec2 v = world_.velocity_mps(body_);
-  const Vec2 velocity{c * v.x_m + s * v.y_m, -s * v.x_m + c * v.y_m};  // of the centre, in the body's frame at mid-step
-  const double rate = world_.yaw_rate_radps(body_);
-  for (Wheel& wheel : wheels_) {
-    const Vec2 above{velocity.x_m - rate * wheel.place.y_m, velocity.y_m + rate * wheel.place.x_m};
-    wheel.state.slip_speed_mps -= dot(above, wheel.rolling_direction);
-    wheel.state.traction_n = dot(world_.tread_force_n(wheel.tread), wheel.rolling_direction);
-    wheel.state.speed_radps = wheel.drive.speed_radps();
-  }
-  ++steps_;
+  if (read_) believed_ = dead_reckoned(believed_, now.left - read_->left, now.right - read_->right, nominal_);
+  read_ = now;
+  readings = {now.left, now.right};
 }
 
-planar::VehicleMotion PlanarDifferentialDrive::motion(double heading_rad) const {
-  planar::VehicleMotion motion;
-  motion.since_start_s = (static_cast<double>(steps_) + 0.5) * step_s_;
-  motion.time_s = begin_s_ + motion.since_start_s;
-  motion.heading_rad = heading_rad;
-  motion.speed_mps = speed_mps();
-  motion.yaw_rate_radps = yaw_rate_radps();
-  return motion;
-}
-
-// The rolling radius of each wheel in this step, and what it slips along its way.
-void PlanarDifferentialDrive::roll_with_effects(double heading_rad) {
-  const planar::VehicleMotion now = motion(heading_rad);
-  for (Wheel& wheel : wheels_) {
-    planar::RollingWheel rolling;
-    rolling.side = wheel.side;
-    rolling.speed_radps = wheel.mean_speed_radps;
-    rolling.rotation_rad = wheel.state.rotation_rad - 0.5 * step_s_ * wheel.mean_speed_radps;
-    rolling.radius_m = wheel.radius_m;
-    for (const auto& effect : *effects_) effect->roll(now, rolling);
-    wheel.rolling_radius_m = rolling.radius_m;
-    wheel.slip_in_effect_mps = rolling.slip_mps;
-  }
-}
-
-// Sets the treads: each rolls, less its slip, and all creep together.
-void PlanarDifferentialDrive::creep_with_effects(double heading_rad) {
-  planar::VehicleMotion now = motion(heading_rad);
-  const double left_mps = wheels_[0].tread_mps, right_mps = wheels_[1].tread_mps;
-  now.rolled_speed_mps = 0.5 * (left_mps + right_mps);
-  now.rolled_yaw_rate_radps = (right_mps - left_mps) / wheelbase_m_;
-  planar::Creep creep;
-  for (const auto& effect : *effects_) effect->creep(now, creep);
-  for (const Wheel& wheel : wheels_) {
-    const Vec2 turning{-creep.yaw_rate_radps * wheel.place.y_m, creep.yaw_rate_radps * wheel.place.x_m};
-    const Vec2 rolling = (wheel.tread_mps - wheel.slip_in_effect_mps) * wheel.rolling_direction;
-    world_.set_tread(wheel.tread, rolling + creep.velocity_mps + turning, wheel.grip_n);
-  }
-  world_.apply_force(body_, mass_kg_ * rotated(creep.push_mps2, heading_rad),
-                     moment_of_inertia_kgm2_ * creep.push_radps2);
+std::unique_ptr<PlanarVehicle> make_differential_drive(const VehicleSetup& setup) {
+  if (!std::holds_alternative<DifferentialDrive>(setup.scenario.vehicle.kind)) return nullptr;
+  return std::make_unique<PlanarDifferentialDrive>(setup, setup.effects.built_into(setup.scenario.actual));
 }
 
 }  // namespace odolab

@@ -3,6 +3,7 @@
 
 #include "core/scenario/effect_catalogue.h"
 #include "test/physics/effects/effect_runs.h"
+#include "physics/effects/effects.h"
 #include "physics/replay.h"
 
 namespace odolab {
