@@ -5,10 +5,12 @@
 namespace odolab {
 
 Experiment umbmark_one_direction();
+Experiment umbmark_table3();
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list = {
       umbmark_one_direction(),
+      umbmark_table3(),
   };
   return list;
 }
