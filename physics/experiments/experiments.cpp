@@ -6,11 +6,13 @@ namespace odolab {
 
 Experiment umbmark_one_direction();
 Experiment umbmark_table3();
+Experiment self_calibration();
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list = {
       umbmark_one_direction(),
       umbmark_table3(),
+      self_calibration(),
   };
   return list;
 }
