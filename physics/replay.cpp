@@ -42,6 +42,7 @@ Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
 }
 
 Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress) {
+  if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) return *other;
   const bool by_wheels = std::get<ReplayPath>(scenario.path).by == ReplayPath::By::wheels;
   if (by_wheels && wheel_samples(*recording, std::get<DifferentialDrive>(scenario.vehicle.kind)).size() < 2)
     return Error{recording->name + ": path.by", "'wheels', but the recording has no wheel rotation",

@@ -81,6 +81,7 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
 int execute(const CalibrateOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
+  if (const auto other = other_than_differential_drive(*nominal, "can be calibrated")) return bad_input(*other);
   std::vector<Recording> recordings;
   for (const std::string& path : options.recordings) {
     Result<ImportedRecording> loaded = load_recording(path);

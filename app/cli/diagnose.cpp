@@ -28,9 +28,8 @@ struct DiagnoseOptions {
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
   if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
     return Error{path + ": " + problems.front(), "", ""};
-  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  if (!drive) return std::nullopt;
-  const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
+  const auto& drive = std::get<DifferentialDrive>(vehicle.kind);
+  const std::size_t inputs = std::max(wheel_samples(recording, drive).size(), command_samples(recording).size());
   if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
   const std::size_t truths = truth_samples(recording).size();
   if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
@@ -95,6 +94,7 @@ Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, c
 int execute(const DiagnoseOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
+  if (const auto other = other_than_differential_drive(*nominal, "can be diagnosed")) return bad_input(*other);
   for (const std::string& seen : options.recordings)
     for (const std::string& unseen : options.hold_out)
       if (is_same_file(seen, unseen))

@@ -359,6 +359,10 @@ bool Session::open_vehicle(const std::string& path) {
     say(vehicle.error().message(), true);
     return false;
   }
+  if (const auto other = other_than_differential_drive(*vehicle, "the window drives")) {
+    say(path + ": " + other->message(), true);
+    return false;
+  }
   opened_vehicle_ = *vehicle;
   Scenario scenario = run_->scenario();
   scenario.vehicle = *vehicle;

@@ -411,8 +411,8 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
 Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
                                                         const Vehicle& nominal, const LeastSquaresOptions& options,
                                                         const Progress& progress) {
+  if (const auto other = other_than_differential_drive(nominal, "can be calibrated against a truth")) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
-  if (!drive) return Error{nominal.name, "another kind of vehicle", "a differential drive"};
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
     return Error{nominal.name, "", problems.front()};
   if (recordings.empty()) return Error{"recordings", "none", "one or more"};

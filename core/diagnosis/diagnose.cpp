@@ -257,8 +257,8 @@ ActiveEffect Finding::as_active() const {
 
 Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vector<Recording>& held_out_given,
                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  if (const auto other = other_than_differential_drive(nominal, "can be diagnosed")) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
-  if (!drive) return Error{nominal.name, "another kind of vehicle", "a differential drive"};
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
     return Error{nominal.name, "", problems.front()};
   if (given.empty()) return Error{"recordings", "none", "one or more"};

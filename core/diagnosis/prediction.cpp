@@ -13,7 +13,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
                               const std::vector<ActiveEffect>& effects) {
   if (effects.empty()) return predicted_track(recording, vehicle);
   const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  if (!drive) return Error{vehicle.name, "a kind of vehicle without dead reckoning", "a differential drive"};
+  if (const auto other = other_than_differential_drive(vehicle, "can have effects fitted to it")) return *other;
   const CheckedRecording ready = checked(recording, vehicle);
   const bool from_commands = ready.from_commands;
   Vehicle with = vehicle;

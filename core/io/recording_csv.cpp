@@ -11,16 +11,22 @@ namespace odolab {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kPlainColumns = {
+constexpr std::array<std::string_view, 16> kPlainColumns = {
     "time_s",        "left_ticks",      "right_ticks",       "command_speed_mps", "command_yaw_rate_radps",
     "truth_x_m",     "truth_y_m",       "truth_heading_rad", "link_angle_a_rad",  "link_angle_b_rad",
-    "link_length_m", "hitch_angle_rad", "left_wheel_rad",    "right_wheel_rad"};
+    "link_length_m", "hitch_angle_rad", "left_wheel_rad",    "right_wheel_rad",   "drive_wheel_rad",
+    "steering_rad"};
 
 // Channels that say nothing without each other.
-constexpr std::array<std::array<std::string_view, 2>, 4> kPairs = {{{"left_wheel_rad", "right_wheel_rad"},
-                                                                    {"left_ticks", "right_ticks"},
-                                                                    {"command_speed_mps", "command_yaw_rate_radps"},
-                                                                    {"truth_x_m", "truth_y_m"}}};
+constexpr std::array<std::array<std::string_view, 2>, 8> kPairs = {
+    {{"left_wheel_rad", "right_wheel_rad"},
+     {"a_left_wheel_rad", "a_right_wheel_rad"},
+     {"b_left_wheel_rad", "b_right_wheel_rad"},
+     {"trailer_left_wheel_rad", "trailer_right_wheel_rad"},
+     {"drive_wheel_rad", "steering_rad"},
+     {"left_ticks", "right_ticks"},
+     {"command_speed_mps", "command_yaw_rate_radps"},
+     {"truth_x_m", "truth_y_m"}}};
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;

@@ -23,7 +23,7 @@ Track through(const Track& track, double start_s, const Pose& start) {
 
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle) {
   const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  if (!drive) return Error{vehicle.name, "a kind of vehicle without dead reckoning", "a differential drive"};
+  if (const auto other = other_than_differential_drive(vehicle, "has a prediction")) return *other;
   const std::vector<WheelSample> wheels = wheel_samples(recording, *drive);
   const std::vector<CommandSample> commands = command_samples(recording);
   if (wheels.empty() && commands.empty())

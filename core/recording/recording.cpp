@@ -29,22 +29,6 @@ bool sampled(const Channel* channel) {
          std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
 }
 
-// Empty cells filled linearly between the neighbours that have a value; cells before the first and after the last stay.
-void fill_between(const std::vector<double>& time_s, std::vector<double>& values) {
-  std::size_t last = values.size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isnan(values[i])) continue;
-    if (last < i) {
-      const double span = time_s[i] - time_s[last];
-      for (std::size_t k = last + 1; k < i; ++k) {
-        const double u = span > 0.0 ? (time_s[k] - time_s[last]) / span : 1.0;
-        values[k] = values[last] + u * (values[i] - values[last]);
-      }
-    }
-    last = i;
-  }
-}
-
 }  // namespace
 
 const Channel* Recording::channel(std::string_view wanted) const {
@@ -84,6 +68,21 @@ std::vector<std::string> problems_in(const Recording& recording) {
     }
   }
   return problems;
+}
+
+void fill_between(const std::vector<double>& time_s, std::vector<double>& values) {
+  std::size_t last = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (last < i) {
+      const double span = time_s[i] - time_s[last];
+      for (std::size_t k = last + 1; k < i; ++k) {
+        const double u = span > 0.0 ? (time_s[k] - time_s[last]) / span : 1.0;
+        values[k] = values[last] + u * (values[i] - values[last]);
+      }
+    }
+    last = i;
+  }
 }
 
 std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive) {

@@ -55,6 +55,9 @@ struct TruthSample {
   std::optional<double> heading_rad;
 };
 
+// Empty cells filled linearly between the neighbours that have a value; cells before the first and after the last stay.
+void fill_between(const std::vector<double>& time_s, std::vector<double>& values);
+
 // From left_wheel_rad and right_wheel_rad, or from left_ticks and right_ticks with the vehicle's counts per turn and
 // wrap-around. Where one wheel was sampled at other times than the other, it is interpolated between its neighbours.
 std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive);

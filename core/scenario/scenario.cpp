@@ -24,8 +24,10 @@ std::vector<std::string> problems_in(const Scenario& s) {
     std::snprintf(expected, sizeof expected, "a value above 0 %s", unit);
     demand(std::isfinite(value) && value > 0.0, key, value, expected);
   };
-  if (const auto* drive = std::get_if<DifferentialDrive>(&s.vehicle.kind))
-    for (const std::string& p : problems_in(*drive)) problems.push_back("vehicle." + p);
+  for (const std::string& p : problems_in(s.vehicle.kind)) problems.push_back("vehicle." + p);
+  if (!std::holds_alternative<DifferentialDrive>(s.vehicle.kind))
+    problems.push_back("vehicle.kind: found '" + kind_name(s.vehicle) +
+                       "', expected 'differential_drive', the only kind that the simulator drives");
   demand_positive("actual.wheel_radius_left_m", s.actual.wheel_radius_left_m, "m");
   demand_positive("actual.wheel_radius_right_m", s.actual.wheel_radius_right_m, "m");
   demand_positive("actual.wheelbase_m", s.actual.wheelbase_m, "m");

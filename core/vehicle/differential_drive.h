@@ -8,6 +8,8 @@ namespace odolab {
 
 // What odometry needs to know of a differential drive. The defaults are the TRC LabMate of the UMBmark report.
 struct DifferentialDrive {
+  static constexpr const char* kKind = "differential_drive";  // of the vehicle file
+
   double wheel_radius_left_m = 0.075;   // rolling radius
   double wheel_radius_right_m = 0.075;  // rolling radius
   double wheelbase_m = 0.340;           // between the two points where the wheels touch the floor

@@ -42,6 +42,13 @@ TEST(CommandLine, EveryScenarioMeetsItsExpectations) {
   }
 }
 
+TEST(CommandLine, RefusesInOneLineWhatAKindOfVehicleCannotDo) {
+  const std::string clapper = "assets/vehicles/clapper.toml", run = "assets/recordings/simulated_eight.csv";
+  expect_refused("diagnose --vehicle " + clapper + " " + run, {"kind", "clapper", "differential_drive"});
+  expect_refused("calibrate --vehicle " + clapper + " " + run, {"clapper"});
+  expect_refused("predict --vehicle " + clapper + " " + run + " --out /dev/null", {"clapper"});
+}
+
 TEST(CommandLine, FailedExpectationExitsWithOne) {
   const fs::path folder = fresh_folder("expectation");
   std::string text = text_of_file(ODOLAB_SOURCE_DIR "/assets/scenarios/no_error.toml");

@@ -86,8 +86,10 @@ TEST(VehicleToml, SaysInOneLineWhatIsWrong) {
             "x.toml:7: wheelbase_m: found 'wide', expected a number");
   EXPECT_EQ(complaint(replaced(kLabMate, "0.340", "inf")),
             "x.toml:7: wheelbase_m: found an infinity, expected a number");
-  EXPECT_EQ(complaint(replaced(kLabMate, "differential_drive", "hovercraft")),
-            "x.toml:1: kind: found 'hovercraft', expected differential_drive");
+  EXPECT_EQ(
+      complaint(replaced(kLabMate, "differential_drive", "hovercraft")),
+      "x.toml:1: kind: found 'hovercraft', expected differential_drive, synchro_drive, tracked, clapper, omnimate, "
+      "encoder_trailer, smart_encoder_trailer or multi_castor");
   EXPECT_EQ(complaint(replaced(kLabMate, "kind = \"differential_drive\"\n", "")),
             "x.toml: found no key 'kind', expected it to be given");
   EXPECT_EQ(complaint("kind = \"differential_drive\"\n"),
