@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/adequacy.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/intervals.h"
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/select.h"
@@ -51,24 +52,6 @@ WhereFound where_of(const AcceptedEffect& a, const std::vector<std::string>& nam
   return w;
 }
 
-std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, double inflation) {
-  std::vector<double> se = a.stderr_value;
-  for (double& s : se) s *= std::sqrt(inflation);
-  std::vector<FoundParameter> out;
-  if (a.effect->to_parameters) {
-    out = a.effect->to_parameters(a.value, se);
-  } else {
-    for (std::size_t k = 0; k < a.value.size(); ++k)
-      out.push_back({a.effect->amplitudes[k].name, a.value[k], se[k], a.effect->amplitudes[k].unit});
-  }
-  if (!a.effect->shape_follows_amplitude)
-    for (std::size_t k = a.effect->of_one_recording ? 1 : 0; k < a.shape.size(); ++k) {
-      const double width = a.effect->local ? 0.1 : 0.1 * std::abs(a.shape[k]);
-      out.push_back({a.effect->shapes[k].name, a.shape[k], width, a.effect->shapes[k].unit});
-    }
-  return out;
-}
-
 std::string in_words(const Finding& f) {
   std::string s = f.sentence;
   for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
@@ -80,13 +63,12 @@ std::string in_words(const Finding& f) {
   return s;
 }
 
-Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const ScoredCandidate& evidence,
+Finding finding_of(const AcceptedEffect& a, const Eigen::MatrixXd& covariance, const ScoredCandidate& evidence,
                    const std::vector<ScoredCandidate>& alternatives, const std::vector<std::string>& names) {
-  (void)joint;
   Finding f;
   f.effect = a.effect->name;
   f.component = a.effect->component;
-  f.parameters = parameters_of(a, evidence.test.inflation);
+  f.parameters = parameters_of(a, covariance);
   f.where = where_of(a, names);
   f.log_likelihood_gain = 0.5 * evidence.test.statistic;
   f.p_value = evidence.p_value;
@@ -97,8 +79,8 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Score
 }
 
 // Mounting and clock of the truth, where they are not where the vehicle's file says.
-bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-                  const Vehicle& nominal) {
+bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+                  const LeastSquaresCalibration& fit, const Vehicle& nominal) {
   const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
     for (const ParameterEstimate& p : fit.parameters)
       if (p.name == name && p.determined) return &p;
@@ -115,8 +97,8 @@ bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   for (int k = 0; k < 3; ++k) {
     const ParameterEstimate* p = determined(keys[k]);
     if (!p) continue;
-    const double se = std::max(p->stderr_value, joint.stderr_of_nuisance(3 + k));
-    const double z = by[k] / se;
+    const double se = intervals.stderr_of_nuisance(3 + k);
+    const double z = by[k] / std::max(p->stderr_value, se);
     mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
     if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
   }
@@ -290,7 +272,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   const Progress calibrating = [&](double share) { return goes_on(progress, 0.25 * share); };
   Result<LeastSquaresCalibration> calibration = calibrate_least_squares(clean, nominal, {}, calibrating);
   if (!calibration) return calibration.error();
-  d.calibration = *calibration;
+  d.calibration = d.calibration_alone = *calibration;
   d.warnings = calibration->warnings;
 
   std::vector<InnovationRun> runs;
@@ -313,14 +295,18 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   const Selected selected = select_effects(joint, options.family_wise_error, progress);
   if (!goes_on(progress, 0.75)) return stopped;
 
+  std::vector<double> inflation;
+  for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
+  const Intervals intervals = refined(joint, inflation);
+
   std::vector<Finding> named;
   double explained = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
-    named.push_back(finding_of(joint, joint.accepted[k], selected.evidence[k], selected.alternatives[k], names));
+    named.push_back(finding_of(joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k], names));
     explained += selected.evidence[k].test.statistic;
   }
-  add_mounting(named, joint, d.calibration, nominal);
-  add_clock(named, joint, d.calibration, nominal, from_commands);
+  add_mounting(named, joint, intervals, d.calibration_alone, nominal);
+  add_clock(named, joint, d.calibration_alone, nominal, from_commands);
 
   // Adequacy.
   const std::vector<GenericTest> generic = generic_tests(joint);
@@ -415,6 +401,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   }
   if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
 
+  if (d.verdict != Verdict::unknown_effect) d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
   prove(d, joint, calibrated, generic.front().as_effect, train, held_out, ready_held_out, nominal);
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);

@@ -43,8 +43,8 @@ FittedModel model_of(const Diagnosis& diagnosis) {
 }
 
 FittedModel calibrated_model_of(const Diagnosis& diagnosis) {
-  FittedModel model{diagnosis.calibration.vehicle, {}, {}};
-  const std::vector<double>& clocks = diagnosis.calibration.time_offset_s;
+  FittedModel model{diagnosis.calibration_alone.vehicle, {}, {}};
+  const std::vector<double>& clocks = diagnosis.calibration_alone.time_offset_s;
   for (std::size_t r = 0; r < std::min(clocks.size(), diagnosis.truth_clock_s.size()); ++r)
     model.truth_clock_s.emplace_back(diagnosis.truth_clock_s[r].first, clocks[r]);
   return model;

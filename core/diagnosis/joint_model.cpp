@@ -15,6 +15,13 @@ using Eigen::VectorXd;
 
 constexpr int kBatches = 60;
 constexpr int kNoiseSamples = 5000;
+constexpr double kPriorBatches = 6.0;  // the weight of believing that the innovations are white
+
+// An inflation of one or more from the scatter of so many batches, relative to what it should be.
+double shrunk_inflation(double scatter, double count) {
+  const double own = count > 1.5 ? scatter * count / (count - 1.0) : 1.0;
+  return std::max(1.0, (kPriorBatches + count * own) / (kPriorBatches + count));
+}
 
 double& entry(InnovationModel& m, int c) {
   switch (c) {
@@ -261,6 +268,48 @@ MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Id
 
 double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
 
+int JointModel::first_column(int which) const {
+  int n = 6 + static_cast<int>(runs_.size());
+  for (int a = 0; a < which; ++a) n += static_cast<int>(accepted[static_cast<std::size_t>(a)].value.size());
+  return n;
+}
+
+VectorXd JointModel::inflation_of_columns() const {
+  const MatrixXd cov = covariance();
+  const VectorXd left = cov * zr_;  // what the last step of the fit did not take
+  int samples = 0;
+  for (const LinearisedRun& l : linear_) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches), q = columns();
+  VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const VectorXd res = residual_[r] - z_[r] * left;
+    const MatrixXd influence = z_[r] * cov;
+    const int n = linear_[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      const VectorXd u = influence.middleRows(3 * from, rows).transpose() * res.segment(3 * from, rows);
+      const VectorXd i = influence.middleRows(3 * from, rows).colwise().squaredNorm().transpose();
+      scatter += u.cwiseAbs2();
+      info += i;
+      square += i.cwiseAbs2();
+    }
+  }
+  VectorXd inflation = VectorXd::Ones(q);
+  for (int c = 0; c < q; ++c)
+    if (info(c) > 0.0 && square(c) > 0.0) inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
+  return inflation;
+}
+
+MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
+  Eigen::Index k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, m.cols());
+  MatrixXd cross = MatrixXd::Zero(gram_.rows(), k);
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    if (c.of_run[r].size() > 0)
+      cross.noalias() += z_[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()).transpose() * c.of_run[r];
+  return gram_.ldlt().solve(cross);
+}
+
 JointModel::GatheredError JointModel::gathered_error() const {
   std::vector<GatheredError> of(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
@@ -451,7 +500,6 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
     const int n = linear_[r].samples();
     for (int from = 0; from < n; from += batch) {
       const int rows = 3 * (std::min(n, from + batch) - from);
-      if (3 * from + rows < 3 * n && n - (from + batch) < batch / 2) {}
       u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
       i.push_back(column.segment(3 * from, rows).squaredNorm());
       square_all += i.back() * i.back();
@@ -464,9 +512,7 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   double scatter = 0.0;
   for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
   const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
-  const double own = count > 1.5 ? scatter / sum_i * count / (count - 1.0) : 1.0;
-  const double prior_count = 6.0;
-  out.inflation = std::max(1.0, (prior_count + count * own) / (prior_count + count));
+  out.inflation = shrunk_inflation(scatter / sum_i, count);
   for (int half = 0; half < 2; ++half) {
     double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
     for (std::size_t n = 0; n < u.size(); ++n)

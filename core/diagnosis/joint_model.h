@@ -57,6 +57,12 @@ class JointModel {
   int scalars() const { return scalars_; }
   Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, amplitudes
   double stderr_of_nuisance(int c) const;
+  int first_column(int accepted) const;  // of an accepted effect's amplitudes
+  // How much wider than the curvature says each column's estimate scatters, from the scatter of the score over batches:
+  // 1 or more.
+  Eigen::VectorXd inflation_of_columns() const;
+  // By how much the columns together stand for a candidate's: a model without the candidate errs by this.
+  Eigen::MatrixXd absorbed(const CandidateColumns& columns) const;
   // Mean square error of dead reckoning gathered over a metre or a radian, position and heading, over all runs; zero
   // windows where the truth has no headings.
   struct GatheredError {

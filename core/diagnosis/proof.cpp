@@ -62,7 +62,7 @@ std::vector<ActiveEffect> effects_in(const Diagnosis& d, const JointModel& j, co
 // Chi-square per innovation of other runs under a model that is frozen but for their clocks.
 JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
                    const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
-  LeastSquaresCalibration start = d.calibration;
+  LeastSquaresCalibration start = d.calibration_alone;
   start.vehicle = vehicle_of(source, nominal, -1);
   start.noise = noise;
   start.time_offset_s.assign(runs.size(), start.vehicle.truth.time_offset_s);

@@ -13,6 +13,8 @@ struct Case {
   Vehicle nominal;
   std::string effect;  // empty: none
   std::string component;
+  DifferentialDrive actual;
+  std::vector<std::pair<std::string, double>> truth;  // the effect's parameters by the catalogue's names, as far as it has them
 };
 
 struct CaseSettings {
@@ -195,6 +197,34 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
   return {};
 }
 
+// What was injected, in the catalogue's words. The same draws as `injected` makes.
+inline std::vector<std::pair<std::string, double>> injected_parameters(const std::string& effect, double size,
+                                                                       const DifferentialDrive& drive, double duration_s,
+                                                                       Random random) {
+  const double phase = random.uniform(0.0, 2.0 * kPi);
+  const auto at = [&](double low, double high) { return random.uniform(low, high) * duration_s; };
+  if (effect == "wheel_eccentricity") return {{"amplitude", 0.005 * size}, {"phase_rad", phase}};
+  if (effect == "encoder_missed_counts") return {{"fraction", 0.01 * size}, {"above_radps", 3.0}};
+  if (effect == "drivetrain_backlash") return {{"gap_rad", 0.03 * size}};
+  if (effect == "wheel_toe") return {{"sideways_per_metre", 0.005 * size}};
+  if (effect == "castor_reversal_kick") return {{"kick_rad", 0.01 * size}};
+  if (effect == "radius_drift") return {{"per_s", 1e-4 * size}};
+  if (effect == "tyre_compression") return {{"radius_change_m_per_mps2", 0.0005 * size}};
+  if (effect == "speed_dependent_radius") return {{"per_mps", 0.02 * size}};
+  if (effect == "payload_radius_change")
+    return {{"left", -0.0004 * size / drive.wheel_radius_left_m}, {"right", 0.0}, {"at_s", at(0.35, 0.65)}};
+  if (effect == "lateral_slip") return {{"m_per_s_per_mps2", 0.02 * size}};
+  if (effect == "traction_slip") return {{"per_mps2", 0.02 * size}};
+  if (effect == "turn_scrub") return {{"per_radps", 0.01 * size}};
+  if (effect == "one_sided_drag") return {{"rad_per_m", 0.01 * size}};
+  if (effect == "bump") return {{"extra_distance_m", 0.01 * size}};
+  if (effect == "slip_zone") return {{"slip", 0.05 * size}, {"x_m", 0.35}, {"y_m", 0.2}, {"radius_m", 0.45}};
+  if (effect == "floor_slope_creep") return {{"direction_rad", phase}, {"creep_mps", 0.002 * size}};
+  if (effect == "collision") return {{"dx_m", 0.0}, {"dy_m", 0.02 * size}, {"dheading_rad", 0.04 * size}, {"at_s", at(0.2, 0.8)}};
+  if (effect == "turn_speed_loss") return {{"per_radps", 0.02 * size}};
+  return {};
+}
+
 inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
   Random random(seed);
   GeneratorSettings g;
@@ -216,6 +246,8 @@ inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
   g.truth.time_offset_s = 0.0;
   Case out;
   out.effect = c.effect;
+  out.actual = g.drive;
+  out.truth = injected_parameters(c.effect, c.size, g.drive, c.duration_s, Random(seed_of_stream(seed, 77)));
   for (int run = 0; run < c.runs; ++run) {
     SpeedProfile profile = varied_driving(random, g.duration_s);
     if (c.drive == CaseSettings::Drive::squares)

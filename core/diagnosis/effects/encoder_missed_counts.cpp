@@ -12,7 +12,7 @@ Effect of_wheel(Wheel wheel) {
   e.name = "encoder_missed_counts";
   e.component = component_of(wheel);
   e.amplitudes = {{"fraction", "1", 0.01, 0.0, 1.0}};
-  e.shapes = {{"above_radps", "rad/s"}};
+  e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
   e.sentence = std::string("the encoder of ") +
                (wheel == Wheel::left ? "the left wheel" : wheel == Wheel::right ? "the right wheel" : "both wheels") +
                " misses a share of its counts above a speed";

@@ -11,7 +11,7 @@ std::vector<Effect> slip_zone() {
   e.name = "slip_zone";
   e.component = "floor";
   e.amplitudes = {{"slip", "1", 0.05, 0.0, 1.0}};
-  e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m"}};
+  e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m", 0.0, 0.03, 20.0}};
   e.sentence = "there is a patch of floor on which the wheels slip";
   e.regime = "on a patch of the floor";
   e.looks_like = {"bump", "collision"};

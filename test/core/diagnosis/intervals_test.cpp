@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/coverage.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+// The long measurement: --gtest_also_run_disabled_tests, with ODOLAB_CASES, ODOLAB_SIZE, ODOLAB_EFFECTS=a,b,c.
+TEST(Intervals, DISABLED_HoldTheTruthOverManyCases) {
+  const char* cases = std::getenv("ODOLAB_CASES");
+  const char* size = std::getenv("ODOLAB_SIZE");
+  const char* chosen = std::getenv("ODOLAB_EFFECTS");
+  CoverageTable table;
+  for (const char* effect : {"", "wheel_eccentricity", "encoder_missed_counts", "drivetrain_backlash", "wheel_toe",
+                             "castor_reversal_kick", "radius_drift", "tyre_compression", "speed_dependent_radius",
+                             "payload_radius_change", "lateral_slip", "traction_slip", "turn_scrub", "one_sided_drag",
+                             "bump", "slip_zone", "floor_slope_creep", "collision", "turn_speed_loss"}) {
+    if (chosen && ("," + std::string(chosen) + ",").find("," + std::string(effect) + ",") == std::string::npos)
+      continue;
+    int named = 0;
+    const int n = cases ? std::atoi(cases) : 20;
+    for (int k = 0; k < n; ++k) {
+      CaseSettings settings;
+      settings.effect = effect;
+      settings.size = size ? std::atof(size) : 1.0;
+      settings.runs = 3;
+      settings.duration_s = 40.0;
+      const Case c = generated_case(settings, 50000 + static_cast<std::uint64_t>(k));
+      const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+      ASSERT_TRUE(d);
+      named += add_to(table, *d, effect, c.truth, c.actual);
+    }
+    std::printf("%s: named in %d of %d\n", effect, named, n);
+    std::fflush(stdout);
+  }
+  print(table);
+}
+
+}  // namespace
+}  // namespace odolab::test
