@@ -10,8 +10,8 @@ namespace odolab {
 struct ActiveEffect {
   std::string effect;     // a name of the catalogue: "wheel_eccentricity", "slip_zone", ...
   std::string component;  // "left_wheel", "right_wheel", "both_wheels", "vehicle", "truth", "floor"
-  // By the catalogue's parameter names, units in the name or as the catalogue says: {"amplitude", 0.006}, {"phase_rad", 1.2}.
-  // Effects with a place have x_m, y_m, radius_m (bumps and zones) or at_s (events) too.
+  // By the catalogue's parameter names, units in the name or as the catalogue says: {"amplitude", 0.006},
+  // {"phase_rad", 1.2}. Effects with a place have x_m, y_m, radius_m (bumps and zones) or at_s (events) too.
   std::vector<std::pair<std::string, double>> parameters;
 
   double parameter(const std::string& name, double otherwise = 0.0) const {

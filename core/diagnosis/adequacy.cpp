@@ -62,13 +62,16 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
-  groups.push_back(hats_of("speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6));
-  groups.push_back(hats_of("yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7));
-  groups.push_back(hats_of("lateral acceleration [m/s2]", views,
-                           [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6));
-  groups.push_back(
-      hats_of("acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6));
-  groups.push_back(hats_of("time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8));
+  groups.push_back(hats_of(
+      "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6));
+  groups.push_back(hats_of(
+      "yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7));
+  groups.push_back(hats_of(
+      "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6));
+  groups.push_back(hats_of(
+      "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6));
+  groups.push_back(hats_of(
+      "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8));
   Group heading;
   heading.variable = "heading [rad]";
   heading.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
@@ -86,7 +89,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
       y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
     }
-  const auto unit = [](double v, double low, double high) { return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0; };
+  const auto unit = [](double v, double low, double high) {
+    return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0;
+  };
   Group place;
   place.variable = "place on the floor [m]";
   place.values = [=](const DriveView& view, std::vector<std::vector<double>>& out) {
@@ -106,7 +111,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     const std::size_t count = views.size();
     recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
       // A run that was not fitted is like the first.
-      const std::size_t number = static_cast<std::size_t>(view.number) < count ? static_cast<std::size_t>(view.number) : 0;
+      const std::size_t number =
+          static_cast<std::size_t>(view.number) < count ? static_cast<std::size_t>(view.number) : 0;
       out.assign(count, std::vector<double>(view.steps.size(), 0.0));
       std::fill(out[number].begin(), out[number].end(), 1.0);
     };
@@ -159,8 +165,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
         for (std::size_t j = 0; j < values[k].size(); ++j) {
           const EffectStep& s = view.steps[j];
           // Turning on the spot counts as way too, by the way of the wheels.
-          const double way = std::abs(s.forward_m()) +
-                             (channel == 0 ? 0.0 : 0.5 * view.drive.wheelbase_m * std::abs(s.turn_rad));
+          const double way =
+              std::abs(s.forward_m()) + (channel == 0 ? 0.0 : 0.5 * view.drive.wheelbase_m * std::abs(s.turn_rad));
           BodyMotion& m = out[k][j];
           (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = values[k][j] * way;
         }

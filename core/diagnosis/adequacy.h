@@ -12,8 +12,8 @@ namespace odolab {
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;
-  double p_value = 1.0;           // over all groups
-  std::vector<double> at;         // where the hats stand, in units of the variable; empty where it has no axis
+  double p_value = 1.0;    // over all groups
+  std::vector<double> at;  // where the hats stand, in units of the variable; empty where it has no axis
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 

@@ -13,11 +13,11 @@ namespace odolab {
 
 namespace {
 
-constexpr double kMostLeft = 0.15;         // of the evidence may stay without a name beside names that stand
-constexpr double kMostLeftOfError = 0.3;   // the same, of the error of dead reckoning, where innovations are correlated
-constexpr double kTwoExplain = 0.85;       // share of the evidence that the two strongest of three names must have
-constexpr double kTestable = 30.0;         // chi-square that a medium effect must reach to count as testable
-constexpr int kFewestInnovations = 40;     // beyond the parameters: fewer cannot judge a model
+constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
+constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
+constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
+constexpr double kTestable = 30.0;        // chi-square that a medium effect must reach to count as testable
+constexpr int kFewestInnovations = 40;    // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
   char buffer[300];
@@ -43,8 +43,8 @@ InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset
 WhereFound where_of(const AcceptedEffect& a, const std::vector<std::string>& names) {
   WhereFound w;
   w.regime = a.effect->regime;
-  const bool event = a.effect->of_one_recording;
-  if (event) {
+  if (a.effect->of_one_recording || a.effect->and_later_recordings) {
+    w.and_later_recordings = a.effect->and_later_recordings;
     w.recording = names[static_cast<std::size_t>(a.shape[0])];
     w.time_s.push_back({a.shape[1] - (a.effect->local ? 0.1 : 0.0), a.shape[1] + (a.effect->local ? 0.1 : 0.0)});
   }
@@ -73,6 +73,10 @@ Finding finding_of(const AcceptedEffect& a, const Eigen::MatrixXd& covariance, c
   f.log_likelihood_gain = 0.5 * evidence.test.statistic;
   f.p_value = evidence.p_value;
   f.sentence = a.effect->sentence;
+  if (a.effect->forms.size() > 1) {
+    f.form = static_cast<int>(a.shape.back());
+    f.form_in_words = a.effect->forms[static_cast<std::size_t>(f.form)];
+  }
   for (const ScoredCandidate& c : alternatives)
     f.alternatives.push_back({c.effect->name, c.effect->component, 0.5 * c.test.statistic, c.effect->told_apart_by});
   return f;
@@ -118,8 +122,8 @@ bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
       toe.p_value = chi_square_tail(z * z, 1);
       toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
       toe.where.regime = "wherever it drives, in proportion to the way";
-      toe.alternatives.push_back({"truth_mounting_offset", "truth", gain,
-                                  "a look at how the markers sit: the motion is the same"});
+      toe.alternatives.push_back(
+          {"truth_mounting_offset", "truth", gain, "a look at how the markers sit: the motion is the same"});
       findings.push_back(toe);
       return true;
     }
@@ -211,7 +215,8 @@ void add_not_testable(Diagnosis& d, const std::vector<ScoredCandidate>& looks) {
       if (c.effect->name != name) continue;
       double least = 1e300;
       for (std::size_t k = 0; k < c.test.value.size(); ++k)
-        least = std::min(least, std::pow(c.effect->amplitudes[k].medium / c.test.stderr_value[k], 2) / c.test.inflation);
+        least =
+            std::min(least, std::pow(c.effect->amplitudes[k].medium / c.test.stderr_value[k], 2) / c.test.inflation);
       if (c.test.value.empty()) least = 0.0;
       best = std::max(best, least);
       survives = std::max(survives, c.test.survives);
@@ -234,21 +239,17 @@ ActiveEffect Finding::as_active() const {
   a.effect = effect;
   a.component = component;
   for (const FoundParameter& p : parameters) a.parameters.push_back({p.name, p.value});
+  if (form > 0) a.parameters.push_back({"form", static_cast<double>(form)});
   return a;
 }
 
-Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vector<Recording>& held_out_given,
+Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
   if (const auto other = other_than_differential_drive(nominal, "can be diagnosed")) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
     return Error{nominal.name, "", problems.front()};
-  if (given.empty()) return Error{"recordings", "none", "one or more"};
-
-  // By run, before anything is looked at: of four recordings or more every fourth is kept back.
-  std::vector<Recording> train, held_out = held_out_given;
-  for (std::size_t r = 0; r < given.size(); ++r)
-    (held_out_given.empty() && given.size() >= 4 && r % 4 == 2 ? held_out : train).push_back(given[r]);
+  if (train.empty()) return Error{"recordings", "none", "one or more"};
 
   Diagnosis d;
   std::vector<CheckedRecording> ready, ready_held_out;
@@ -312,7 +313,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   const std::vector<GenericTest> generic = generic_tests(joint);
   const GenericTest* left = nullptr;
   for (const GenericTest& g : generic)
-    if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 && (!left || g.test.judged() > left->test.judged()))
+    if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 &&
+        (!left || g.test.judged() > left->test.judged()))
       left = &g;
   double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
   // Several causes that explain it only together are more likely one that has no name here.
@@ -337,7 +339,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
       if (in_all > 0.0 && more < kMostLeftOfError * in_all) left = nullptr;
     }
     if (!left && !joint.accepted.empty())
-      d.warnings.push_back("beside the names given something small is left that no name describes, or the truth's noise is not white");
+      d.warnings.push_back(
+          "beside the names given something small is left that no name describes, or the truth's noise is not white");
   }
   const bool inadequate = (left && remaining > kMostLeft * explained) || pieced_together;
   for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
@@ -365,9 +368,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
     // Names that did not suffice are said as what it resembles, not as what it is.
     for (std::size_t k = 0; k < joint.accepted.size(); ++k)
       unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
-                                      0.5 * selected.evidence[k].test.statistic, joint.accepted[k].effect->told_apart_by});
-    named.erase(std::remove_if(named.begin(), named.end(),
-                               [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
+                                      0.5 * selected.evidence[k].test.statistic,
+                                      joint.accepted[k].effect->told_apart_by});
+    named.erase(std::remove_if(
+                    named.begin(), named.end(),
+                    [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
                 named.end());
     named.insert(named.begin(), unknown);
     d.verdict = Verdict::unknown_effect;
@@ -402,7 +407,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
 
   if (d.verdict != Verdict::unknown_effect) d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
-  prove(d, joint, calibrated, generic.front().as_effect, train, held_out, ready_held_out, nominal);
+  prove(d, joint, calibrated, generic.front().as_effect, train, ready_held_out, nominal);
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);
 
@@ -411,7 +416,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& given, const std::vecto
   if (d.next_drive.empty() && !d.not_testable.empty()) d.next_drive = d.not_testable.front().drive_this;
 
   switch (d.verdict) {
-    case Verdict::found: d.sentences.push_back("Something is missing from the model, and it has a name:"); break;
+    case Verdict::found:
+      d.sentences.push_back("Something is missing from the model, and it has a name:");
+      break;
     case Verdict::nothing_missing:
       d.sentences.push_back("Nothing is missing: calibration leaves nothing but noise.");
       break;

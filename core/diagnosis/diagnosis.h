@@ -34,6 +34,7 @@ struct FoundParameter {
 struct WhereFound {
   std::vector<std::pair<double, double>> time_s;
   std::string recording;
+  bool and_later_recordings = false;
   struct Zone {
     double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
   };
@@ -56,19 +57,22 @@ struct Finding {
   std::vector<Alternative> alternatives;
   double share_of_mismatch = 0.0;  // of the chi-square above noise that calibration leaves
   std::string sentence;            // the finding in plain words
+  int form = 0;                    // which of the ways in which the effect shows, and in words where there are several
+  std::string form_in_words;
 
   ActiveEffect as_active() const;
 };
 
 struct FitFigures {
-  double position_rms_m = 0.0;   // gathered over a metre or a radian, from a true start
+  double position_rms_m = 0.0;  // gathered over a metre or a radian, from a true start
   double heading_rms_rad = 0.0;
   double normalised_chi2 = 0.0;
 };
 
 struct FitTable {
   std::optional<FitFigures> nominal, calibrated, with_findings, noise_floor;
-  std::optional<FitFigures> spline, placebo;  // calibrated plus a flexible spline; plus a term of equal freedom without meaning
+  std::optional<FitFigures> spline,
+      placebo;  // calibrated plus a flexible spline; plus a term of equal freedom without meaning
 };
 
 struct NotTestable {
@@ -95,6 +99,7 @@ struct Diagnosis {
   std::vector<std::pair<std::string, double>> truth_clock_s;  // the offset of the truth's clock in each recording fitted on
   std::vector<Finding> findings;  // strongest first; data faults (truth_frozen, encoder_data_fault) among them
   FitTable train, held_out;
+  bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
   std::vector<NotTestable> not_testable;
   std::string next_drive;
@@ -108,12 +113,13 @@ struct DiagnosisOptions {
   double family_wise_error = 0.01;
 };
 
-// Recordings of one vehicle. `held_out` are judged only after everything is frozen; where none are given, every fourth
-// recording is kept back if there are four or more.
+// Recordings of one vehicle. `held_out` are judged only after everything is frozen. Where none are given, each
+// recording in turn is predicted from a fit to the others (the names themselves were found on all of them).
 Result<Diagnosis> diagnose(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options = {}, const Progress& progress = {});
 
 // The track that a vehicle with effects predicts, as predicted_track does without (core/odometry/prediction.h).
-Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle, const std::vector<ActiveEffect>& effects);
+Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle,
+                              const std::vector<ActiveEffect>& effects);
 
 }  // namespace odolab

@@ -14,6 +14,25 @@ BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m) {
   return {0.5 * extra_m, 0.0, (wheel == Wheel::right ? extra_m : -extra_m) / wheelbase_m};
 }
 
+std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, double apart_s,
+                                         const std::function<bool(const EffectStep&)>& may_happen) {
+  constexpr double kMost = 2500.0;
+  double span_s = 0.0;
+  for (const DriveView& v : views)
+    if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
+  std::vector<std::vector<double>> found;
+  for (const DriveView& v : views) {
+    double next_s = -1e300, rolled_m = 0.0;
+    for (const EffectStep& s : v.steps) {
+      rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+      if (rolled_m <= 0.05 || s.time_s < next_s || !may_happen(s)) continue;
+      found.push_back({static_cast<double>(v.number), s.time_s});
+      next_s = s.time_s + std::max(apart_s, span_s / kMost);
+    }
+  }
+  return found;
+}
+
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses) {
   DriveView view;
@@ -87,26 +106,45 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
 const std::vector<Effect>& catalogue() {
   static const std::vector<Effect> all = [] {
     std::vector<Effect> list;
-    for (auto entry : {effects::wheel_eccentricity, effects::encoder_missed_counts, effects::drivetrain_backlash,
-                       effects::wheel_toe, effects::castor_reversal_kick, effects::radius_drift,
-                       effects::tyre_compression, effects::speed_dependent_radius, effects::payload_radius_change,
-                       effects::lateral_slip, effects::traction_slip, effects::turn_scrub, effects::one_sided_drag,
-                       effects::bump, effects::slip_zone, effects::floor_slope_creep, effects::collision,
-                       effects::turn_speed_loss, effects::clock_rate, effects::actuator_lag})
+    for (auto entry : {effects::wheel_eccentricity,
+                       effects::encoder_missed_counts,
+                       effects::drivetrain_backlash,
+                       effects::wheel_toe,
+                       effects::castor_reversal_kick,
+                       effects::radius_drift,
+                       effects::tyre_compression,
+                       effects::speed_dependent_radius,
+                       effects::payload_radius_change,
+                       effects::lateral_slip,
+                       effects::traction_slip,
+                       effects::turn_scrub,
+                       effects::one_sided_drag,
+                       effects::bump,
+                       effects::slip_zone,
+                       effects::floor_slope_creep,
+                       effects::collision,
+                       effects::turn_speed_loss,
+                       effects::clock_rate,
+                       effects::actuator_lag})
       for (Effect& e : entry()) list.push_back(std::move(e));
     return list;
   }();
   return all;
 }
 
-const Effect* catalogue_entry(const std::string& name, const std::string& component) {
-  const Effect* fallback = nullptr;
+const Effect* catalogue_entry(const ActiveEffect& active) {
+  const auto given = [&](const Effect::Amplitude& shape) {
+    return shape.name == "recording" || std::any_of(active.parameters.begin(), active.parameters.end(),
+                                                    [&](const auto& p) { return p.first == shape.name; });
+  };
+  const Effect* best = nullptr;
+  int best_fit = -1;
   for (const Effect& e : catalogue()) {
-    if (e.name != name) continue;
-    if (e.component == component) return &e;
-    if (!fallback) fallback = &e;
+    if (e.name != active.effect) continue;
+    const int fit = 2 * (e.component == active.component) + std::all_of(e.shapes.begin(), e.shapes.end(), given);
+    if (fit > best_fit) best = &e, best_fit = fit;
   }
-  return fallback;
+  return best;
 }
 
 }  // namespace odolab

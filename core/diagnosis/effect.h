@@ -15,11 +15,11 @@ namespace odolab {
 struct EffectStep {
   double time_s = 0.0, duration_s = 0.0;
   double since_start_s = 0.0;
-  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;   // as the wheels say
-  double left_rad = 0.0, right_rad = 0.0;               // rotation since the start, at the middle
-  double left_by_rad = 0.0, right_by_rad = 0.0;         // rotation during the interval
-  double speed_mps = 0.0, yaw_rate_radps = 0.0;         // smoothed over a few intervals
-  double left_radps = 0.0, right_radps = 0.0;           // smoothed wheel speeds
+  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;  // as the wheels say
+  double left_rad = 0.0, right_rad = 0.0;              // rotation since the start, at the middle
+  double left_by_rad = 0.0, right_by_rad = 0.0;        // rotation during the interval
+  double speed_mps = 0.0, yaw_rate_radps = 0.0;        // smoothed over a few intervals
+  double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
   double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
   double heading_rad = 0.0;
   Vec2 position;
@@ -45,19 +45,27 @@ const char* component_of(Wheel wheel);
 // The motion of a body whose wheel goes `extra_m` further.
 BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m);
 
+// Moments {recording, at_s} of all recordings in which something may have happened, this far apart and more in long
+// ones, where `may_happen`. The first centimetres are left out: they take up whatever play there is.
+std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, double apart_s,
+                                         const std::function<bool(const EffectStep&)>& may_happen);
+
 struct Effect {
   std::string name, component;
   struct Amplitude {
     std::string name, unit;
-    double medium = 0.0;             // a size that matters in practice: what "not testable" is judged by
-    double low = -1e9, high = 1e9;   // physical bounds
+    double medium = 0.0;            // a size that matters in practice: what "not testable" is judged by
+    double low = -1e9, high = 1e9;  // physical bounds
   };
-  std::vector<Amplitude> amplitudes;     // the motion is linear in these
-  std::vector<Amplitude> shapes;         // and not in these
-  std::string sentence;                  // what it is, in words
-  std::string regime;                    // where it acts, in words
-  std::vector<std::string> looks_like;   // effects that it is easily taken for
-  std::string told_apart_by;             // and the drive that decides
+  std::vector<Amplitude> amplitudes;  // the motion is linear in these
+  std::vector<Amplitude> shapes;      // and not in these
+  // Ways in which the same physics shows on different machines, the catalogue's own first. Where there are two or more,
+  // the number of one stands behind the shapes.
+  std::vector<std::string> forms;
+  std::string sentence;                 // what it is, in words
+  std::string regime;                   // where it acts, in words
+  std::vector<std::string> looks_like;  // effects that it is easily taken for
+  std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
   // Shapes to try; empty function: there is no shape.
@@ -65,6 +73,7 @@ struct Effect {
   bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement
   bool local = false;                    // acts at a moment or place: its evidence lies in few samples
   bool of_one_recording = false;         // shape[0] is the recording's number
+  bool and_later_recordings = false;     // the same, but it lasts through those after it
   bool clock_rate = false;               // acts on the wheels' clock instead of the motion
   bool only_commands = false;            // needs a base that is driven from commands
 
@@ -77,7 +86,8 @@ struct Effect {
 
 // Every entry, once for each component that it can act on.
 const std::vector<Effect>& catalogue();
-const Effect* catalogue_entry(const std::string& name, const std::string& component);
+// The entry of that name and component, or of that name alone, whose shapes are among the parameters.
+const Effect* catalogue_entry(const ActiveEffect& active);
 
 // The entries, one file each.
 namespace effects {

@@ -7,6 +7,8 @@ namespace odolab {
 
 namespace {
 
+constexpr double kBeforeAnyStart_s = -1e6;
+
 bool has_parameter(const ActiveEffect& active, const std::string& name) {
   for (const auto& [key, value] : active.parameters)
     if (key == name) return true;
@@ -32,11 +34,26 @@ Vehicle FittedModel::vehicle_in(const std::string& recording) const {
 FittedModel model_of(const Diagnosis& diagnosis) {
   FittedModel model{diagnosis.fitted_vehicle.value_or(diagnosis.calibration.vehicle), {}, diagnosis.truth_clock_s};
   for (const Finding& finding : diagnosis.findings) {
-    if (finding.effect == "unknown" || finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault") continue;
+    if (finding.effect == "unknown" || finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault")
+      continue;
     FittedEffect effect{finding.as_active(), {}, ""};
     for (const FoundParameter& p : finding.parameters) effect.stderr_values.emplace_back(p.name, p.stderr_value);
     // what is tied to a time and not to a place happened once
-    if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m")) effect.recording = finding.where.recording;
+    if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m"))
+      effect.recording = finding.where.recording;
+    if (finding.where.and_later_recordings) {
+      bool later = false;
+      for (const auto& [recording, offset_s] : diagnosis.truth_clock_s) {
+        if (later) {
+          FittedEffect again = effect;
+          again.recording = recording;
+          for (auto& [key, value] : again.active.parameters)
+            if (key == "at_s") value = kBeforeAnyStart_s;
+          model.effects.push_back(again);
+        }
+        later = later || recording == finding.where.recording;
+      }
+    }
     model.effects.push_back(effect);
   }
   return model;
@@ -52,14 +69,18 @@ FittedModel calibrated_model_of(const Diagnosis& diagnosis) {
 
 Result<Done> fits(const FittedModel& model, const Vehicle& nominal) {
   if (model.vehicle.kind.index() != nominal.kind.index())
-    return Error{"vehicle.kind", "another kind than the vehicle's", "the kind of the vehicle that is given beside the model"};
+    return Error{"vehicle.kind", "another kind than the vehicle's",
+                 "the kind of the vehicle that is given beside the model"};
   const auto* fitted = std::get_if<DifferentialDrive>(&model.vehicle.kind);
   const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (!fitted || !drive) return Done{};
-  if (fitted->counts_per_wheel_turn() != drive->counts_per_wheel_turn() || fitted->counter_bits != drive->counter_bits) {
+  if (fitted->counts_per_wheel_turn() != drive->counts_per_wheel_turn() ||
+      fitted->counter_bits != drive->counter_bits) {
     char found[96], expected[96];
-    std::snprintf(found, sizeof found, "%g counts per wheel turn, %d bits", fitted->counts_per_wheel_turn(), fitted->counter_bits);
-    std::snprintf(expected, sizeof expected, "the vehicle's %g counts, %d bits", drive->counts_per_wheel_turn(), drive->counter_bits);
+    std::snprintf(found, sizeof found, "%g counts per wheel turn, %d bits", fitted->counts_per_wheel_turn(),
+                  fitted->counter_bits);
+    std::snprintf(expected, sizeof expected, "the vehicle's %g counts, %d bits", drive->counts_per_wheel_turn(),
+                  drive->counter_bits);
     return Error{"vehicle.differential_drive", found, expected};
   }
   return Done{};

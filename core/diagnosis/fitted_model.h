@@ -21,7 +21,8 @@ struct FittedEffect {
 struct FittedModel {
   Vehicle vehicle;  // calibrated, its truth mounting and clock too
   std::vector<FittedEffect> effects;
-  // The offset of the truth's clock in the recordings that were fitted on, where each has its own; in others the vehicle's.
+  // The offset of the truth's clock in the recordings that were fitted on, where each has its own; in others the
+  // vehicle's.
   std::vector<std::pair<std::string, double>> truth_clock_s;
 
   Vehicle vehicle_in(const std::string& recording) const;

@@ -55,8 +55,8 @@ double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.
 std::vector<int> free_shapes(const Effect& effect) {
   std::vector<int> free;
   if (effect.shape_follows_amplitude) return free;
-  for (std::size_t k = effect.of_one_recording ? 1 : 0; k < effect.shapes.size(); ++k)
-    free.push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < effect.shapes.size(); ++k)
+    if (effect.shapes[k].name != "recording") free.push_back(static_cast<int>(k));
   return free;
 }
 

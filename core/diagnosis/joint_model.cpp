@@ -25,12 +25,18 @@ double shrunk_inflation(double scatter, double count) {
 
 double& entry(InnovationModel& m, int c) {
   switch (c) {
-    case 0: return m.drive.wheel_radius_left_m;
-    case 1: return m.drive.wheel_radius_right_m;
-    case 2: return m.drive.wheelbase_m;
-    case 3: return m.truth.axle_T_tracked.x_m;
-    case 4: return m.truth.axle_T_tracked.y_m;
-    default: return m.truth.axle_T_tracked.heading_rad;
+    case 0:
+      return m.drive.wheel_radius_left_m;
+    case 1:
+      return m.drive.wheel_radius_right_m;
+    case 2:
+      return m.drive.wheelbase_m;
+    case 3:
+      return m.truth.axle_T_tracked.x_m;
+    case 4:
+      return m.truth.axle_T_tracked.y_m;
+    default:
+      return m.truth.axle_T_tracked.heading_rad;
   }
 }
 
@@ -60,6 +66,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);
   for (const InnovationRun& run : runs_) masked_.push_back(run.set_aside);
+  for (std::size_t r = 0; r < runs_.size(); ++r) numbers_.push_back(static_cast<int>(r));
 }
 
 InnovationModel JointModel::model_of(int run) const {
@@ -117,7 +124,7 @@ void JointModel::linearise() {
       for (const FilterStep& s : first.steps())
         if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
     }
-    views_[r] = drive_view(r, runs_[r], m.drive, from_commands_[r] != 0, track[r]);
+    views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r]);
     made[r].emplace_back(prepared(r), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
@@ -151,7 +158,8 @@ void JointModel::linearise() {
   }
   // Priors as in calibration: wide, so that what these runs do not determine stays where it was.
   const DifferentialDrive& d = std::get<DifferentialDrive>(nominal_.kind);
-  const double size[6] = {0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
+  const double size[6] = {
+      0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
   InnovationModel nominal{d, nominal_.truth, {}}, now = model;
   for (int c = 0; c < 6; ++c) {
     gram_(c, c) += 1.0 / (size[c] * size[c]);
@@ -184,7 +192,8 @@ void JointModel::fit(int iterations) {
       int k = 6 + static_cast<int>(runs_.size());
       for (AcceptedEffect& a : accepted) {
         for (std::size_t j = 0; j < a.value.size(); ++j, ++k)
-          a.value[j] = std::clamp(a.value[j] + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
+          a.value[j] =
+              std::clamp(a.value[j] + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
         if (a.effect->shape_follows_amplitude) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
       }
       linearise();
@@ -310,6 +319,49 @@ MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
   return gram_.ldlt().solve(cross);
 }
 
+JointModel JointModel::left_out(int run) const {
+  const MatrixXd own = z_[run].transpose() * z_[run];
+  MatrixXd gram = gram_ - own;
+  VectorXd zr = zr_ - z_[run].transpose() * residual_[run];
+  JointModel one(*this);
+  one.accepted.clear();
+  // What only this run could tell is not known from the others.
+  std::vector<char> unknown(gram.rows(), 0);
+  for (Eigen::Index c = 0; c < gram.rows(); ++c)
+    if (gram(c, c) < 1e-6 * gram_(c, c)) {
+      unknown[c] = 1;
+      gram.row(c).setZero();
+      gram.col(c).setZero();
+      gram(c, c) = 1.0;
+      zr(c) = 0.0;
+    }
+  const VectorXd step = gram.ldlt().solve(zr);
+  if (step.allFinite())
+    for (int c = 0; c < 6; ++c) entry(one.model, c) += step(c);
+  int k = 6 + static_cast<int>(runs_.size());
+  for (AcceptedEffect a : accepted) {
+    bool known = true;
+    for (std::size_t j = 0; j < a.value.size(); ++j, ++k) {
+      const Effect::Amplitude& bounds = a.effect->amplitudes[j];
+      a.value[j] =
+          unknown[k] ? 0.0 : std::clamp(a.value[j] + (step.allFinite() ? step(k) : 0.0), bounds.low, bounds.high);
+      known = known && !unknown[k];
+    }
+    if (known || !a.effect->of_one_recording) one.accepted.push_back(a);
+  }
+  const auto keep = [run](auto& of) { of = {of[static_cast<std::size_t>(run)]}; };
+  keep(one.runs_);
+  keep(one.numbers_);
+  keep(one.from_commands_);
+  keep(one.masked_);
+  keep(one.clock_s);
+  keep(one.clock_active);
+  keep(one.views_);
+  one.linear_ = {linear_[run]};
+  one.linearise();
+  return one;
+}
+
 JointModel::GatheredError JointModel::gathered_error() const {
   std::vector<GatheredError> of(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
@@ -333,8 +385,8 @@ JointModel::GatheredError JointModel::gathered_error() const {
     }
     for (std::size_t i = 0; i < run.truth.size(); ++i)
       if (!run.set_aside[i] && run.truth[i].heading_rad)
-        truth.push_back({run.truth[i].time_s,
-                         {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
+        truth.push_back(
+            {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
     if (const std::optional<TrackError> e = track_error(guess, truth); e && e->windows > 0)
       of[r] = {e->windows * e->position_rms_m * e->position_rms_m, e->windows * e->heading_rms_rad * e->heading_rms_rad,
                e->windows};
@@ -455,7 +507,8 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   const VectorXd s = score - b.transpose() * base;
   if (info.trace() <= 0.0) return out;
   out.survives = 1.0;
-  for (int j = 0; j < k; ++j) out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
+  for (int j = 0; j < k; ++j)
+    out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
   // Directions that do not survive are left out of the test.
   VectorXd scale(k);
   for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;

@@ -16,10 +16,10 @@ struct AcceptedEffect {
 
 // The efficient score of a candidate: its signature with everything that is in the model projected off.
 struct CandidateTest {
-  double statistic = 0.0;   // twice the gain of log-likelihood, chi-square with `freedom` under the null
+  double statistic = 0.0;  // twice the gain of log-likelihood, chi-square with `freedom` under the null
   int freedom = 0;
-  double inflation = 1.0;   // 1 or more: how much wider than the model says its score scatters
-  double survives = 0.0;    // share of the signature's information that the projection leaves
+  double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
+  double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
   double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
   std::vector<double> shape;
@@ -44,7 +44,7 @@ class JointModel {
   void linearise();
 
   std::vector<AcceptedEffect> accepted;
-  InnovationModel model;          // without the clocks
+  InnovationModel model;  // without the clocks
   std::vector<double> clock_s;
   std::vector<char> clock_active;
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
@@ -71,11 +71,14 @@ class JointModel {
   };
   GatheredError gathered_error() const;
   bool innovations_correlated() const;  // of one channel at least, from one sample to the next
-  Track poses(int run) const;          // corrected, at the wheels' times
+  Track poses(int run) const;           // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
   CandidateTest test(const CandidateColumns& columns, int without = -1, bool thorough = false) const;
+  // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
+  // what happened in it alone is unknown to the others.
+  JointModel left_out(int run) const;
   InnovationModel model_of(int run) const;
   InnovationRun prepared(int run) const;  // with the accepted effects put in
 
@@ -84,6 +87,7 @@ class JointModel {
   int clock_column(int run) const { return 6 + run; }
 
   std::vector<InnovationRun> runs_;
+  std::vector<int> numbers_;  // of the recordings, as the effects know them
   std::vector<char> from_commands_;
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
@@ -91,7 +95,7 @@ class JointModel {
   std::vector<LinearisedRun> linear_;
   std::vector<Eigen::MatrixXd> z_;  // of each run
   std::vector<Eigen::VectorXd> residual_;
-  Eigen::MatrixXd gram_;            // with priors
+  Eigen::MatrixXd gram_;  // with priors
   Eigen::VectorXd zr_;
   double chi2_ = 0.0, log_determinant_ = 0.0;
   int scalars_ = 0;

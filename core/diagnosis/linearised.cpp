@@ -23,8 +23,7 @@ void whitener_of(const FilterStep& step, double* out) {
   const double i00 = 1.0 / l00, i11 = 1.0 / l11, i22 = step.size == 3 ? 1.0 / l22 : 0.0;
   const double i10 = -l10 * i00 * i11, i21 = -l21 * i11 * i22, i20 = (l10 * l21 - l11 * l20) * i00 * i11 * i22;
   const double w[9] = {i00 * c,           i00 * s,           0.0,  // times R'
-                       i10 * c - i11 * s, i10 * s + i11 * c, 0.0,
-                       i20 * c - i21 * s, i20 * s + i21 * c, i22};
+                       i10 * c - i11 * s, i10 * s + i11 * c, 0.0, i20 * c - i21 * s, i20 * s + i21 * c, i22};
   for (int k = 0; k < 9; ++k) out[k] = w[k];
 }
 
@@ -49,7 +48,7 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
     whitener_of(steps_[k], w);
     for (int r = 0; r < 3; ++r)
       residual_[3 * k + r] = (w[3 * r] * steps_[k].residual[0] + w[3 * r + 1] * steps_[k].residual[1] +
-                                                w[3 * r + 2] * steps_[k].residual[2]);
+                              w[3 * r + 2] * steps_[k].residual[2]);
   }
 
   // The same pieces that summed_up walks through.
@@ -95,7 +94,8 @@ Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion,
     const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
     if (parameter == column::mounting_x) d0 = -c, d1 = -s;
     if (parameter == column::mounting_y) d0 = s, d1 = -c;
-    if (parameter == column::mounting_heading && run_->truth_has_heading) d0 = -step.arm.y_m, d1 = step.arm.x_m, d2 = -1.0;
+    if (parameter == column::mounting_heading && run_->truth_has_heading)
+      d0 = -step.arm.y_m, d1 = step.arm.x_m, d2 = -1.0;
   };
   const bool mounting = parameter >= column::mounting_x && parameter <= column::mounting_heading;
   if (first == 0 && steps_[0].starts) start_at(steps_[0]);
@@ -148,13 +148,14 @@ Stretch LinearisedRun::of_motion(const std::vector<BodyMotion>& per_step, double
   const int to_step = static_cast<int>(per_step.rend() - last) - 1;
   // Truth intervals that touch these wheel intervals.
   const auto piece_of = [&](int step) {
-    return static_cast<int>(std::lower_bound(pieces_.begin(), pieces_.end(), step,
-                                             [](const Piece& p, int s) { return p.interval < s; }) -
-                            pieces_.begin());
+    return static_cast<int>(
+        std::lower_bound(pieces_.begin(), pieces_.end(), step, [](const Piece& p, int s) { return p.interval < s; }) -
+        pieces_.begin());
   };
   const int n = samples();
   const auto truth_of = [&](int piece) {
-    return static_cast<int>(std::upper_bound(first_piece_.begin(), first_piece_.end(), piece) - first_piece_.begin()) - 1;
+    return static_cast<int>(std::upper_bound(first_piece_.begin(), first_piece_.end(), piece) - first_piece_.begin()) -
+           1;
   };
   const int t0 = std::clamp(truth_of(piece_of(from_step)), 0, n - 1);
   const int t1 = std::clamp(truth_of(piece_of(to_step + 1)) + 1, 0, n - 1);
@@ -185,7 +186,8 @@ void LinearisedRun::of_clock_rate(double* out) const {
   // since the first sample. The clock's own derivative holds the difference of both; the end's part is split off.
   const auto motion = [&](int t, double* d) {
     if (first_piece_[t] >= first_piece_[t + 1]) return;
-    const double t0 = run_->truth[t].time_s - run_->truth[0].time_s, t1 = run_->truth[t + 1].time_s - run_->truth[0].time_s;
+    const double t0 = run_->truth[t].time_s - run_->truth[0].time_s,
+                 t1 = run_->truth[t + 1].time_s - run_->truth[0].time_s;
     const double* jac = &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + column::truth_clock)];
     const Piece& last = pieces_[first_piece_[t + 1] - 1];
     const WheelSample &a = run_->wheels[last.interval], &b = run_->wheels[last.interval + 1];

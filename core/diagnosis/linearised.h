@@ -51,7 +51,7 @@ class LinearisedRun {
   std::vector<Piece> pieces_;
   std::vector<int> first_piece_;  // of each truth interval
   std::vector<FilterStep> steps_;
-  std::vector<double> whitener_;   // rows of the matrix that whitens a room-frame derivative: 9 for each sample
+  std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;
   InnovationSums sums_;
   InnovationModel model_;

@@ -1,13 +1,13 @@
 // The track that a vehicle with effects switched on predicts from its encoders alone.
+#include "core/odometry/prediction.h"
+
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effect.h"
 #include "core/diagnosis/quality.h"
-#include "core/odometry/prediction.h"
 
 namespace odolab {
-
 
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle,
                               const std::vector<ActiveEffect>& effects) {
@@ -48,7 +48,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     const DriveView view = drive_view(0, run, *drive, from_commands, track);
     Motions sum(view.steps.size());
     for (const ActiveEffect& a : effects) {
-      const Effect* e = catalogue_entry(a.effect, a.component);
+      const Effect* e = catalogue_entry(a);
       if (!e || e->clock_rate || (e->only_commands && !from_commands)) continue;
       std::vector<double> value, shape;
       if (e->from_parameters)
@@ -56,6 +56,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
       else
         for (const Effect::Amplitude& p : e->amplitudes) value.push_back(a.parameter(p.name));
       for (const Effect::Amplitude& p : e->shapes) shape.push_back(p.name == "recording" ? 0.0 : a.parameter(p.name));
+      if (e->forms.size() > 1) shape.push_back(a.parameter("form"));
       const std::vector<Motions> motions = e->motions(view, shape);
       for (std::size_t k = 0; k < motions.size(); ++k)
         for (std::size_t i = 0; i < sum.size(); ++i) {
@@ -71,8 +72,8 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
       const EffectStep& s = view.steps[i];
       const double turn = s.turn_rad + sum[i].turn_rad, middle = pose.heading_rad + 0.5 * turn;
       const double f = s.forward_m() + sum[i].forward_m, l = sum[i].sideways_m;
-      pose = {pose.x_m + f * std::cos(middle) - l * std::sin(middle), pose.y_m + f * std::sin(middle) + l * std::cos(middle),
-              pose.heading_rad + turn};
+      pose = {pose.x_m + f * std::cos(middle) - l * std::sin(middle),
+              pose.y_m + f * std::sin(middle) + l * std::cos(middle), pose.heading_rad + turn};
       track.push_back({run.wheels[i + 1].time_s, pose});
     }
     const double at_s = std::min(std::max(start_s, track.front().time_s), track.back().time_s);

@@ -11,29 +11,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-struct Gathered {
-  double position = 0.0, heading = 0.0;
-  int windows = 0;
-};
-
-void gather(Gathered& g, const Recording& recording, const Vehicle& vehicle, const std::vector<ActiveEffect>& effects) {
-  const Result<Track> track = predicted_track(recording, vehicle, effects);
-  if (!track) return;
-  const std::optional<TrackError> e = track_error(*track, truth_track(recording));
-  if (!e || e->windows == 0) return;
-  g.position += e->windows * e->position_rms_m * e->position_rms_m;
-  g.heading += e->windows * e->heading_rms_rad * e->heading_rms_rad;
-  g.windows += e->windows;
-}
-
-FitFigures figures(const Gathered& g, double chi2) {
-  FitFigures f;
-  f.position_rms_m = g.windows > 0 ? std::sqrt(g.position / g.windows) : 0.0;
-  f.heading_rms_rad = g.windows > 0 ? std::sqrt(g.heading / g.windows) : 0.0;
-  f.normalised_chi2 = chi2;
-  return f;
-}
-
 Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal, int run) {
   Vehicle v = nominal;
   v.kind = j.model.drive;
@@ -42,21 +19,6 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal, int run) {
   for (double c : j.clock_s) mean += c / static_cast<double>(j.clock_s.size());
   v.truth.time_offset_s = run >= 0 ? j.clock_s[run] : mean;
   return v;
-}
-
-// The findings as far as they act in a recording: events belong to one.
-std::vector<ActiveEffect> effects_in(const Diagnosis& d, const JointModel& j, const std::string& recording, bool same) {
-  std::vector<ActiveEffect> out;
-  for (const AcceptedEffect& a : j.accepted) {
-    if (a.effect->of_one_recording && (!same || j.runs()[static_cast<std::size_t>(a.shape[0])].name != recording)) continue;
-    for (const Finding& f : d.findings)
-      if (f.effect == a.effect->name && f.component == a.effect->component) {
-        ActiveEffect e = f.as_active();
-        if (a.effect->shape_follows_amplitude || e.parameters.size() > 0) out.push_back(e);
-        break;
-      }
-  }
-  return out;
 }
 
 // Chi-square per innovation of other runs under a model that is frozen but for their clocks.
@@ -75,11 +37,19 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   return j;
 }
 
-double share(const JointModel& j) { return j.scalars() > 0 ? j.chi2() / j.scalars() : 0.0; }
-
-FitFigures figures(const JointModel& j) {
-  const JointModel::GatheredError e = j.gathered_error();
-  return {std::sqrt(e.position_m2), std::sqrt(e.heading_rad2), share(j)};
+// Of one model, or of several that hold a run each.
+FitFigures figures(const std::vector<JointModel>& models) {
+  double position_m2 = 0.0, heading_rad2 = 0.0, windows = 0.0, chi2 = 0.0, scalars = 0.0;
+  for (const JointModel& j : models) {
+    const JointModel::GatheredError e = j.gathered_error();
+    position_m2 += e.windows * e.position_m2;
+    heading_rad2 += e.windows * e.heading_rad2;
+    windows += e.windows;
+    chi2 += j.chi2();
+    scalars += j.scalars();
+  }
+  if (windows > 0.0) position_m2 /= windows, heading_rad2 /= windows;
+  return {std::sqrt(position_m2), std::sqrt(heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
 }
 
 // The same term half a run later: as free as the finding, and without meaning.
@@ -92,7 +62,8 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   const auto motions = of.motions;
   placebo.motions = [motions, shape](const DriveView& view, const std::vector<double>&) {
     std::vector<Motions> m = motions(view, shape);
-    for (Motions& one : m) std::rotate(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2), one.end());
+    for (Motions& one : m)
+      std::rotate(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2), one.end());
     return m;
   };
   return placebo;
@@ -102,10 +73,10 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
 
 void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
            const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
-           const std::vector<Recording>& held_out, const std::vector<CheckedRecording>& ready_held_out,
-           const Vehicle& nominal) {
+           const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal) {
   const FittedNoise noise = joint.model.noise;
-  const bool unnamed = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "unknown"; });
+  const bool unnamed =
+      std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "unknown"; });
   const JointModel& after = unnamed ? calibrated : joint;
   d.fitted_vehicle = vehicle_of(after, nominal, -1);
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
@@ -122,54 +93,20 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     placebo = out_of_step(*after.accepted[0].effect, after.accepted[0].shape);
     with_placebo = with_term(placebo);
   }
-  const auto table = [&](const std::vector<Recording>& recordings, bool same) {
+  JointModel as_nominal = calibrated;
+  as_nominal.model.drive = std::get<DifferentialDrive>(nominal.kind);
+  as_nominal.model.truth = nominal.truth;
+  const auto table = [&](const auto& judged) {
     FitTable t;
-    Gathered g_nominal, g_calibrated, g_found;
-    for (std::size_t r = 0; r < recordings.size(); ++r) {
-      const int run = same ? static_cast<int>(r) : -1;
-      gather(g_nominal, recordings[r], nominal, {});
-      gather(g_calibrated, recordings[r], vehicle_of(calibrated, nominal, run), {});
-      gather(g_found, recordings[r], vehicle_of(after, nominal, run), effects_in(d, after, recordings[r].name, same));
-    }
-    std::vector<InnovationRun> runs;
-    std::vector<char> commands;
-    if (same) {
-      runs = joint.runs();
-      for (const DriveView& v : joint.views()) commands.push_back(v.from_commands);
-    } else {
-      for (const CheckedRecording& c : ready_held_out) {
-        Result<InnovationRun> run = innovation_run(c.recording, nominal);
-        if (!run) continue;
-        runs.push_back(std::move(*run));
-        commands.push_back(c.from_commands);
-      }
-    }
-    if (runs.empty()) return t;
-    const auto judged = [&](const JointModel& m) {
-      if (same) {
-        JointModel copy = m;
-        copy.model.noise = noise;
-        copy.linearise();
-        return copy;
-      }
-      return frozen(m, runs, commands, d, nominal, noise);
-    };
-    JointModel as_nominal = calibrated;
-    as_nominal.model.drive = std::get<DifferentialDrive>(nominal.kind);
-    as_nominal.model.truth = nominal.truth;
-    t.nominal = figures(g_nominal, share(judged(as_nominal)));
-    t.calibrated = figures(g_calibrated, share(judged(calibrated)));
-    t.with_findings = figures(g_found, share(judged(after)));
-    // The scales of commands are no part of a vehicle's file: there the model itself is asked.
-    if (std::find(commands.begin(), commands.end(), 1) != commands.end()) {
-      t.calibrated = figures(judged(calibrated));
-      t.with_findings = figures(judged(after));
-    }
-    t.spline = figures(judged(with_spline));
-    if (with_placebo) t.placebo = figures(judged(*with_placebo));
+    t.nominal = figures(judged(as_nominal, true));
+    t.calibrated = figures(judged(calibrated, false));
+    t.with_findings = figures(judged(after, false));
+    t.spline = figures(judged(with_spline, false));
+    if (with_placebo) t.placebo = figures(judged(*with_placebo, false));
     // What noise alone leaves over a metre: truth at both ends, its heading at the start, and the wheels.
     const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m, b = joint.model.drive.wheelbase_m;
-    const double p2 = noise.truth_position_m * noise.truth_position_m, h2 = noise.truth_heading_rad * noise.truth_heading_rad;
+    const double p2 = noise.truth_position_m * noise.truth_position_m,
+                 h2 = noise.truth_heading_rad * noise.truth_heading_rad;
     FitFigures floor;
     floor.position_rms_m = std::sqrt(4.0 * p2 + h2 + 0.5 * q2 + 2.0 * q2 / (3.0 * b * b));
     floor.heading_rms_rad = std::sqrt(2.0 * h2 + 2.0 * q2 / (b * b));
@@ -177,8 +114,35 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     t.noise_floor = floor;
     return t;
   };
-  d.train = table(train, true);
-  if (!held_out.empty()) d.held_out = table(held_out, false);
+  using Models = std::vector<JointModel>;
+  const auto with_one_noise = [&](JointModel m) {
+    m.model.noise = noise;
+    m.linearise();
+    return m;
+  };
+  d.train = table([&](const JointModel& m, bool) { return Models{with_one_noise(m)}; });
+  if (!ready_held_out.empty()) {
+    std::vector<InnovationRun> runs;
+    std::vector<char> commands;
+    for (const CheckedRecording& c : ready_held_out) {
+      Result<InnovationRun> run = innovation_run(c.recording, nominal);
+      if (!run) continue;
+      runs.push_back(std::move(*run));
+      commands.push_back(c.from_commands);
+    }
+    if (!runs.empty())
+      d.held_out =
+          table([&](const JointModel& m, bool) { return Models{frozen(m, runs, commands, d, nominal, noise)}; });
+  } else if (train.size() > 1) {
+    d.left_out_in_turn = true;
+    d.held_out = table([&](const JointModel& m, bool as_it_is) {
+      const JointModel all = with_one_noise(m);
+      Models left_out;
+      for (int r = 0; r < static_cast<int>(train.size()) && !as_it_is; ++r) left_out.push_back(all.left_out(r));
+      if (as_it_is) left_out.push_back(all);
+      return left_out;
+    });
+  }
 }
 
 }  // namespace odolab

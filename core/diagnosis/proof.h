@@ -12,10 +12,10 @@
 namespace odolab {
 
 // `spline` is let in beside calibration, whatever its evidence.
-// Fills in `train` and `held_out`; nothing is fitted to the held-out runs but the truth's clock of each.
+// Fills in `train` and `held_out`; nothing is fitted to the held-out runs but the truth's clock of each. Without any
+// each run is left out in turn.
 void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
            const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
-           const std::vector<Recording>& held_out, const std::vector<CheckedRecording>& ready_held_out,
-           const Vehicle& nominal);
+           const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal);
 
 }  // namespace odolab

@@ -71,7 +71,8 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
   const auto at = [&](double time_s) {
     const auto it = std::lower_bound(wheels.begin(), wheels.end(), time_s,
                                      [](const WheelSample& w, double t) { return w.time_s < t; });
-    return static_cast<std::size_t>(std::min<std::ptrdiff_t>(it - wheels.begin(), static_cast<std::ptrdiff_t>(wheels.size()) - 1));
+    return static_cast<std::size_t>(
+        std::min<std::ptrdiff_t>(it - wheels.begin(), static_cast<std::ptrdiff_t>(wheels.size()) - 1));
   };
   DataFault frozen{"truth_frozen", "truth", recording.name, {}, ""};
   for (std::size_t i = 0; i < truth.size();) {
@@ -110,7 +111,8 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
   const auto truth_at = [&](double time_s) {
     const auto it = std::lower_bound(truth.begin(), truth.end(), time_s + vehicle.truth.time_offset_s,
                                      [](const TruthSample& t, double s) { return t.time_s < s; });
-    return static_cast<std::size_t>(std::min<std::ptrdiff_t>(it - truth.begin(), static_cast<std::ptrdiff_t>(truth.size()) - 1));
+    return static_cast<std::size_t>(
+        std::min<std::ptrdiff_t>(it - truth.begin(), static_cast<std::ptrdiff_t>(truth.size()) - 1));
   };
   const bool headings = truth.front().heading_rad.has_value() && truth.back().heading_rad.has_value();
   const double truth_gap = (truth.back().time_s - truth.front().time_s) / static_cast<double>(truth.size() - 1);
@@ -129,7 +131,8 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
         if (b > a) {
           const Vec2 d = truth[b].position - truth[a].position;
           if (headings && truth[a].heading_rad && truth[b].heading_rad) {
-            const double h0 = *truth[a].heading_rad - vehicle.truth.axle_T_tracked.heading_rad, turn = *truth[b].heading_rad - *truth[a].heading_rad;
+            const double h0 = *truth[a].heading_rad - vehicle.truth.axle_T_tracked.heading_rad,
+                         turn = *truth[b].heading_rad - *truth[a].heading_rad;
             const double forward = dot(d, Vec2{std::cos(h0 + 0.5 * turn), std::sin(h0 + 0.5 * turn)});
             way = forward + (wheel == 0 ? -0.5 : 0.5) * drive.wheelbase_m * turn;
           } else if (wheels[i].left_rad == wheels[j].left_rad && wheels[i].right_rad == wheels[j].right_rad) {
@@ -138,7 +141,8 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
         }
         const double span = wheels[j].time_s - wheels[i].time_s;
         const std::size_t i0 = at(wheels[i].time_s - 0.3);
-        const double before = radius * std::abs(rad(i) - rad(i0)) / std::max(wheels[i].time_s - wheels[i0].time_s, 1e-3);
+        const double before =
+            radius * std::abs(rad(i) - rad(i0)) / std::max(wheels[i].time_s - wheels[i0].time_s, 1e-3);
         if (std::abs(way) > least && before > 0.4 * std::abs(way) / span)
           fault.time_s.push_back({wheels[i].time_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
       }
@@ -163,8 +167,8 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
     std::sort(fault.time_s.begin(), fault.time_s.end());
     for (const auto& t : fault.time_s) out.break_s.push_back(t);
     fault.sentence = std::string("the ") + (wheel == 0 ? "left" : "right") +
-                     " encoder stands still or jumps while the vehicle drives on, " + std::to_string(fault.time_s.size()) +
-                     " time(s); left out";
+                     " encoder stands still or jumps while the vehicle drives on, " +
+                     std::to_string(fault.time_s.size()) + " time(s); left out";
     out.faults.push_back(fault);
   }
   std::sort(out.break_s.begin(), out.break_s.end());

@@ -13,7 +13,6 @@ constexpr int kMostEffects = 4;
 // A form is never quite that of the world: what is left of a strong effect is not another one.
 constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 
-
 double quantile(std::vector<double> v, double share) {
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
   std::nth_element(v.begin(), v.begin() + k, v.end());
@@ -31,8 +30,9 @@ bool physical(const Effect& e, const std::vector<double>& value) {
 
 std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<double>& shape, double scale) {
   std::vector<std::vector<double>> near;
-  for (std::size_t k = e.of_one_recording ? 1 : 0; k < shape.size(); ++k)
+  for (std::size_t k = 0; k < e.shapes.size(); ++k)
     for (double side : {-1.0, 1.0}) {
+      if (e.shapes[k].name == "recording") continue;
       std::vector<double> s = shape;
       const std::string& unit = e.shapes[k].unit;
       if (unit == "s" && !e.shape_follows_amplitude)
@@ -56,6 +56,19 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
     shapes = e.scan(joint.views());
   else
     shapes.push_back({});
+  // Few shapes are tried in every form; where there are many, the best one is.
+  const std::size_t forms = std::max<std::size_t>(1, e.forms.size());
+  const std::size_t scanned = shapes.size() * forms;
+  const bool every_form = forms > 1 && shapes.size() <= 40;
+  if (forms > 1) {
+    std::vector<std::vector<double>> with_form;
+    for (std::size_t form = 0; form < (every_form ? forms : 1); ++form)
+      for (std::vector<double> s : shapes) {
+        s.push_back(static_cast<double>(form));
+        with_form.push_back(s);
+      }
+    shapes = with_form;
+  }
   std::vector<double> statistics;
   const auto consider = [&](const std::vector<double>& shape, bool count) {
     CandidateTest t = joint.test(joint.columns_of(e, shape), without);
@@ -68,15 +81,26 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
   };
   for (const std::vector<double>& s : shapes) consider(s, true);
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests = std::log(static_cast<double>(tests)) + std::log(static_cast<double>(std::max<std::size_t>(1, shapes.size())));
+  const double log_tests =
+      std::log(static_cast<double>(tests)) + std::log(static_cast<double>(std::max<std::size_t>(1, scanned)));
+  const auto other_forms = [&] {
+    for (std::size_t form = 0; form < forms; ++form) {
+      std::vector<double> s = best.test.shape;
+      s.back() = static_cast<double>(form);
+      consider(s, false);
+    }
+  };
+  if (forms > 1 && !every_form) other_forms();
   // Refined only where there is something to refine.
-  if (e.scan && best.test.statistic > 15.0)
+  if (e.scan && best.test.statistic > 15.0) {
     for (double scale : {1.0, 0.5, 0.25, 0.12})
       for (int round = 0; round < 4; ++round) {
         bool moved = false;
         for (const std::vector<double>& s : shapes_near(e, best.test.shape, scale)) moved = consider(s, false) || moved;
         if (!moved) break;
       }
+    if (forms > 1) other_forms();
+  }
   const std::vector<double> shape = best.test.shape;
   best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
   best.test.shape = shape;
@@ -95,8 +119,10 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
 }
 
-// What is left where an event was already let in belongs to its shape.
-bool of_an_event(const JointModel& joint, const ScoredCandidate& c) {
+// What is left of something that was already let in belongs to its shape.
+bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
+  for (const AcceptedEffect& a : joint.accepted)
+    if (!a.effect->local && a.effect->name == c.effect->name && a.effect->component == c.effect->component) return true;
   if (!c.effect->local) return false;
   for (const AcceptedEffect& a : joint.accepted) {
     if (a.effect->name == "slip_zone") {
@@ -118,7 +144,7 @@ void let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
   a.shape = c.test.shape;
-  if (c.effect->shape_follows_amplitude) a.shape = {std::max(c.test.value[0], 1e-4)};
+  if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
   a.value = c.test.value;
   joint.accepted.push_back(a);
   joint.fit(3);
@@ -130,8 +156,7 @@ void let_in(JointModel& joint, const ScoredCandidate& c) {
 
 bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated) {
   if (before.windows == 0 || after.windows == 0) return true;
-  const double left =
-      0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
+  const double left = 0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
   return left < (correlated ? kMaterial : 1.01);
 }
 
@@ -162,7 +187,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     if (step == 0) out.first_look = scored;
     std::vector<const ScoredCandidate*> standing;
     for (const ScoredCandidate& c : scored)
-      if (stands(c, family_wise_error) && !of_an_event(joint, c) &&
+      if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
           c.test.statistic > explained * (c.effect->local ? kLeastShareOfEvents : kLeastShare))
         standing.push_back(&c);
     std::stable_sort(standing.begin(), standing.end(),
@@ -231,7 +256,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     for (const ScoredCandidate& c : instead) {
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
-      if (taken || c.p_value > family_wise_error) continue;
+      if (taken || c.p_value > family_wise_error || c.effect->name == own.effect->name) continue;
       if (own.test.judged() - c.test.statistic / own.test.inflation < 2.0 * kClearlyBeaten) alternatives.push_back(c);
     }
     out.evidence.push_back(own);

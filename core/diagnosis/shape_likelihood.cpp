@@ -21,7 +21,7 @@ constexpr double kWorst = 1e12;  // stands for a shape that cannot be
 // Twice the log-likelihood that a shape loses against none, negative: lower is better.
 double misfit(const JointModel& joint, int accepted, const std::vector<double>& shape) {
   const Effect& e = *joint.accepted[static_cast<std::size_t>(accepted)].effect;
-  for (std::size_t k = 0; k < shape.size(); ++k)
+  for (std::size_t k = 0; k < e.shapes.size(); ++k)
     if (shape[k] < e.shapes[k].low || shape[k] > e.shapes[k].high) return kWorst;
   const CandidateTest t = joint.test(joint.columns_of(e, shape), accepted);
   if (t.value.empty()) return kWorst;

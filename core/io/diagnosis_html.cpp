@@ -7,16 +7,16 @@
 
 #include "core/geometry/angles.h"
 #include "core/io/diagnosis_text.h"
+#include "core/io/number_text.h"
 #include "core/io/picture/bar_picture.h"
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
-#include "core/io/number_text.h"
 
 namespace odolab {
 
 namespace {
 
-constexpr std::size_t kMostRecordings = 4;  // drawn; more make a page that nobody reads
+constexpr std::size_t kMostRecordings = 4;     // drawn; more make a page that nobody reads
 constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides: short enough for a bump, long enough for what is faint
 
 // The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
@@ -35,8 +35,8 @@ struct Sizes {
 
 Sizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
 
-// How many times larger than noise would leave it the residual is, gathered over a while around each sample. What lies far
-// below the noise of one sample shows here as soon as it keeps its direction.
+// How many times larger than noise would leave it the residual is, gathered over a while around each sample. What lies
+// far below the noise of one sample shows here as soon as it keeps its direction.
 void gather(const Residuals& r, const Sizes& noise, double half_s, std::vector<double>& largest) {
   std::vector<double> sum[3] = {{0.0}, {0.0}, {0.0}};
   const std::vector<double>* channels[3] = {&r.along_m, &r.across_m, &r.heading_rad};
@@ -78,7 +78,8 @@ std::vector<const Residuals*> drawn_first(const std::vector<Residuals>& all) {
   std::vector<const Residuals*> order;
   for (const Residuals& r : all)
     if (!r.time_s.empty()) order.push_back(&r);
-  std::stable_sort(order.begin(), order.end(), [](const Residuals* a, const Residuals* b) { return mean_square(*a) > mean_square(*b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Residuals* a, const Residuals* b) { return mean_square(*a) > mean_square(*b); });
   if (order.size() > kMostRecordings) order.resize(kMostRecordings);
   return order;
 }
@@ -89,12 +90,14 @@ const Residuals* of_recording(const std::vector<Residuals>& all, const std::stri
   return nullptr;
 }
 
-std::string track_of(const Diagnosis& d, const Residuals& r, const Sizes& noise, const std::string& title, bool with_discs) {
+std::string track_of(const Diagnosis& d, const Residuals& r, const Sizes& noise, const std::string& title,
+                     bool with_discs) {
   ColouredTrackPicture picture;
   picture.title = title;
   picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
   for (const Finding& f : d.findings)
-    if (with_discs && f.where.zone) picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, with_blanks(f.effect)});
+    if (with_discs && f.where.zone)
+      picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, with_blanks(f.effect)});
   return coloured_track_picture(picture);
 }
 
@@ -106,18 +109,24 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
     const std::string name = number_text("%.0f. ", ++count) + effect_text(f.effect, f.component);
     report.sentence(f.sentence.empty() ? name : name + ": " + f.sentence);
     std::vector<std::vector<std::string>> rows;
-    for (const FoundParameter& p : f.parameters) rows.push_back({name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
+    for (const FoundParameter& p : f.parameters)
+      rows.push_back({name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
-    if (f.share_of_mismatch > 0.0) rows.push_back({"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});
+    if (f.share_of_mismatch > 0.0)
+      rows.push_back(
+          {"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});
     if (f.log_likelihood_gain > 0.0)
-      rows.push_back({"chance of such evidence if nothing were there", f.p_value < 1e-15 ? "below 1e-15" : number_text("%.1g", f.p_value)});
+      rows.push_back({"chance of such evidence if nothing were there",
+                      f.p_value < 1e-15 ? "below 1e-15" : number_text("%.1g", f.p_value)});
     if (!rows.empty()) report.table({"", f.parameters.empty() ? "" : "estimate and standard error"}, rows);
     for (const Alternative& a : f.alternatives) {
-      const std::string gains = number_text("a log-likelihood gain of %.1f", a.log_likelihood_gain) + number_text(" where this one has %.1f", f.log_likelihood_gain);
-      std::string text = f.effect == "unknown"
-                             ? "It resembles " + effect_text(a.effect, a.component) + ", which does not suffice: " + gains + "."
-                             : "Instead of it, " + effect_text(a.effect, a.component) + " would explain the data with " + gains + ".";
+      const std::string gains = number_text("a log-likelihood gain of %.1f", a.log_likelihood_gain) +
+                                number_text(" where this one has %.1f", f.log_likelihood_gain);
+      std::string text =
+          f.effect == "unknown"
+              ? "It resembles " + effect_text(a.effect, a.component) + ", which does not suffice: " + gains + "."
+              : "Instead of it, " + effect_text(a.effect, a.component) + " would explain the data with " + gains + ".";
       if (!a.told_apart_by.empty()) text += " The two are told apart by " + a.told_apart_by + ".";
       report.paragraph(text);
     }
@@ -135,15 +144,19 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
     const Residuals* after = of_recording(d.residuals_after, before->recording);
     const Sizes noise = sizes_of(after ? *after : *before);
     std::vector<std::string> tracks{track_of(d, *before, noise, before->recording + ": calibrated only", true)};
-    if (after && !d.findings.empty()) tracks.push_back(track_of(d, *after, noise, before->recording + ": with what was found", false));
-    report.pictures(tracks, "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
-                            "would leave it the error of the prediction is, gathered over up to a second.");
+    if (after && !d.findings.empty())
+      tracks.push_back(track_of(d, *after, noise, before->recording + ": with what was found", false));
+    report.pictures(
+        tracks,
+        "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
+        "would leave it the error of the prediction is, gathered over up to a second.");
     LinePicture line;
     line.title = before->recording + ": error of the prediction, gathered over up to a second";
     line.y_label = "times the noise";
     line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
     line.lines.push_back({"calibrated only", before->time_s, times_noise(*before, noise), Look::estimate});
-    if (after && !d.findings.empty()) line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
+    if (after && !d.findings.empty())
+      line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
     for (const Finding& f : d.findings)
       if (f.where.recording.empty() || f.where.recording == before->recording)
         line.marked.insert(line.marked.end(), f.where.time_s.begin(), f.where.time_s.end());
@@ -174,7 +187,8 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
   for (const Finding& f : d.findings) {
     if (!(f.log_likelihood_gain > 0.0)) continue;
     BarGroup group;
-    group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain, number_text("%.4g", f.log_likelihood_gain), ink::kBlue});
+    group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain,
+                          number_text("%.4g", f.log_likelihood_gain), ink::kBlue});
     for (const Alternative& a : f.alternatives)
       group.bars.push_back({"or " + effect_text(a.effect, a.component), std::max(0.0, a.log_likelihood_gain),
                             number_text("%.4g", a.log_likelihood_gain), ink::kSky});
@@ -188,9 +202,11 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
   report.heading("The evidence");
   picture.logarithmic = largest > 100.0 * least;
   picture.title = "How much better each effect makes the recordings fit";
-  picture.x_label = picture.logarithmic ? "gain in log-likelihood, each line ten times the one before" : "gain in log-likelihood";
-  report.picture(bar_picture(picture), "Dark: what is named. Light: what would explain the same in its stead. A gain of 10 is decisive; "
-                                       "two that differ by less than about 3 are not told apart.");
+  picture.x_label =
+      picture.logarithmic ? "gain in log-likelihood, each line ten times the one before" : "gain in log-likelihood";
+  report.picture(bar_picture(picture),
+                 "Dark: what is named. Light: what would explain the same in its stead. A gain of 10 is decisive; "
+                 "two that differ by less than about 3 are not told apart.");
 }
 
 struct FitRow {
@@ -214,30 +230,36 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
     BarGroup group{part, {}};
     const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
       if (!figures) return;
-      table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m), number_text("%.3f", degrees(figures->heading_rms_rad)),
+      table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m),
+                       number_text("%.3f", degrees(figures->heading_rms_rad)),
                        number_text("%.2f", figures->normalised_chi2)});
-      group.bars.push_back({name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
+      group.bars.push_back(
+          {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };
     for (const FitRow& row : rows_of(fit)) add_row(row.name, row.figures, row.colour);
     add_row("what noise alone would leave", fit.noise_floor, ink::kGreen);
     if (!group.bars.empty()) bars.groups.push_back(group);
   };
   add("Fitted on", d.train);
-  add("Held out", d.held_out);
+  add(d.left_out_in_turn ? "Each run left out in turn" : "Held out", d.held_out);
   BarGroup simulated{"Physics simulator, driven by the recordings", {}};
   const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
     if (!figures) return;
     table.push_back({std::string("Simulator: ") + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                     number_text("%.3f", degrees(figures->heading_rms_rad)), number_text("%.2f", figures->normalised_chi2)});
-    simulated.bars.push_back({name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
+                     number_text("%.3f", degrees(figures->heading_rms_rad)),
+                     number_text("%.2f", figures->normalised_chi2)});
+    simulated.bars.push_back(
+        {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
   };
   add_simulated("calibrated", d.simulation.calibrated, ink::kOrange);
   add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
   if (!simulated.bars.empty()) bars.groups.push_back(simulated);
   if (table.empty()) return;
   report.heading("The proof: before and after");
-  report.paragraph("The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, root mean "
-                   "square. Held-out recordings were not looked at until everything was fixed.");
+  report.paragraph(
+      "The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, "
+      "root mean "
+      "square. Held-out recordings were not looked at until everything was fixed.");
   bars.title = "Position error over each metre or radian";
   bars.x_label = "position error [mm]";
   report.picture(bar_picture(bars));
@@ -247,7 +269,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
 void add_limits(HtmlReport& report, const Diagnosis& d) {
   if (!d.not_testable.empty()) {
     report.heading("What these recordings could not show");
-    report.paragraph("Each of these may be there or not: the way that was driven leaves no trace of it beside the calibration.");
+    report.paragraph(
+        "Each of these may be there or not: the way that was driven leaves no trace of it beside the calibration.");
     std::vector<std::vector<std::string>> rows;
     for (const NotTestable& n : d.not_testable) rows.push_back({with_blanks(n.effect), n.because, n.drive_this});
     report.word_table({"effect", "because", "this drive would show it"}, rows);
@@ -267,9 +290,12 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
                     p.determined ? quantity_text(p.value, p.stderr_value, p.unit) : "not determined"});
   report.table({"parameter", "as drawn", "estimate and standard error"}, rows);
   for (const std::string& sentence : c.cannot_tell) report.paragraph("Cannot tell: " + sentence);
-  report.paragraph(number_text("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
-                   number_text(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
-                   (c.noise.truth_heading_rad > 0.0 ? number_text(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad)) : std::string()) + ".");
+  report.paragraph(
+      number_text("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
+      number_text(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
+      (c.noise.truth_heading_rad > 0.0 ? number_text(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad))
+                                       : std::string()) +
+      ".");
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ std::string decimals_of(double value, int decimals) {
   return text;
 }
 
-int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6)); }  // 0.0999999 is 0.1
+int exponent_of(double value) {
+  return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6));
+}  // 0.0999999 is 0.1
 
 // What a unit becomes on the screen, and by what its numbers are multiplied.
 struct Shown {
@@ -56,7 +58,8 @@ std::string figures_text(const FitFigures& f) {
 }
 
 // Broken between words; every line but the first is indented by `indent`.
-void append_wrapped(std::vector<std::string>& lines, const std::string& text, std::size_t columns, const std::string& indent) {
+void append_wrapped(std::vector<std::string>& lines, const std::string& text, std::size_t columns,
+                    const std::string& indent) {
   std::size_t from = std::min(text.find_first_not_of(' '), text.size());
   std::string line = text.substr(0, from);
   bool empty = true;
@@ -83,11 +86,13 @@ std::string finding_line(const Finding& f) {
   if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
   std::string parameters;
   for (const FoundParameter& p : f.parameters)
-    parameters += (parameters.empty() ? "; " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+    parameters +=
+        (parameters.empty() ? "; " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
-  if (f.log_likelihood_gain > 0.0) line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
+  if (f.log_likelihood_gain > 0.0)
+    line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
   if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   return line;
 }
@@ -117,13 +122,16 @@ std::string name_text(const std::string& key) {
 
 std::string component_text(const std::string& component) {
   const std::size_t dot = component.find('.');
-  if (dot != std::string::npos) return component_text(component.substr(dot + 1)) + " of " + with_blanks(component.substr(0, dot));
-  if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0) return with_blanks(component);
+  if (dot != std::string::npos)
+    return component_text(component.substr(dot + 1)) + " of " + with_blanks(component.substr(0, dot));
+  if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0)
+    return with_blanks(component);
   return "the " + with_blanks(component);
 }
 
 std::string effect_text(const std::string& effect, const std::string& component) {
-  if (effect == "unknown") return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_text(component);
+  if (effect == "unknown")
+    return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_text(component);
   std::string text = with_blanks(effect);
   // "truth frozen of the truth" says it twice
   if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_text(component);
@@ -148,7 +156,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       break;
     case Verdict::unknown_effect:
       sentence = "Something is missing that no known effect describes.";
-      names.erase(std::remove_if(names.begin(), names.end(), [](const std::string& n) { return n.rfind("an effect in no list", 0) == 0; }),
+      names.erase(std::remove_if(names.begin(), names.end(),
+                                 [](const std::string& n) { return n.rfind("an effect in no list", 0) == 0; }),
                   names.end());
       if (!names.empty()) sentence += " Beside it: " + list_of(names, "and") + ".";
       break;
@@ -199,12 +208,17 @@ std::string where_text(const WhereFound& where) {
   const std::size_t shown = std::min<std::size_t>(where.time_s.size(), 3);
   for (std::size_t i = 0; i < shown; ++i) {
     const auto [from_s, to_s] = where.time_s[i];
-    when += (when.empty() ? "" : i == 0 ? " at " : ", ") + (to_s > from_s ? number_text("%.2f to ", from_s) : std::string()) + number_text("%.2f s", to_s);
+    when += (when.empty() ? ""
+             : i == 0     ? " at "
+                          : ", ") +
+            (to_s > from_s ? number_text("%.2f to ", from_s) : std::string()) + number_text("%.2f s", to_s);
   }
-  if (where.time_s.size() > shown) when += number_text(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
+  if (where.time_s.size() > shown)
+    when += number_text(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
   if (!when.empty()) parts.push_back(when);
   if (where.zone)
-    parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) + number_text(", y %.2f m", where.zone->y_m));
+    parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) +
+                    number_text(", y %.2f m", where.zone->y_m));
   if (!where.regime.empty()) parts.push_back(where.regime);
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
@@ -220,22 +234,29 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
     append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
     if (f.alternatives.empty()) continue;
     const Alternative& a = f.alternatives.front();
-    std::string other = (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) + effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
-    if (f.alternatives.size() > 1) other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
+    std::string other =
+        (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) +
+        effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
+    if (f.alternatives.size() > 1)
+      other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
     if (!a.told_apart_by.empty()) other += "; told apart by " + a.told_apart_by;
     append_wrapped(lines, other, columns, "   ");
   }
   if (diagnosis.findings.size() > kMostFindings)
-    lines.push_back(number_text("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
+    lines.push_back(
+        number_text("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
 
   std::vector<std::string> end;
   std::string calibration;
   for (const ParameterEstimate& p : diagnosis.calibration.parameters)
     if (p.determined && p.name.find('.') == std::string::npos)
-      calibration += (calibration.empty() ? "" : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+      calibration +=
+          (calibration.empty() ? "" : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
   if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
-  for (const std::string& line : {fit_line("   fitted on: ", diagnosis.train), fit_line("   held out:  ", diagnosis.held_out)})
+  for (const std::string& line :
+       {fit_line("   fitted on: ", diagnosis.train),
+        fit_line(diagnosis.left_out_in_turn ? "   left out:  " : "   held out:  ", diagnosis.held_out)})
     if (!line.empty()) end.push_back(line);
   if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings)
     end.push_back("   simulator:  before " + figures_text(*diagnosis.simulation.calibrated) + "  ->  after " +

@@ -1,70 +1,131 @@
-// One wheel climbs something: it turns more than it travels, within about a tenth of a metre of its way.
+// One wheel climbs something: it turns more than it travels, at one moment of one recording, or each time that it
+// comes to one place on the floor.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/diagnosis/effect.h"
 
 namespace odolab::effects {
 
 namespace {
-constexpr double kLength_m = 0.06;  // of the way on which the extra distance is rolled
+
+constexpr double kLength_m[3] = {0.06, 0.02, 0.2};  // of the way on which the extra distance is rolled
+constexpr double kReach_m[3] = {0.1, 0.05, 0.2};    // from the place to where a wheel meets it
+
+double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
+
+// Where the wheel stands.
+Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
+  const double half = wheel == Wheel::left ? 0.5 * wheelbase_m : -0.5 * wheelbase_m;
+  return {s.position.x_m - half * std::sin(s.heading_rad), s.position.y_m + half * std::cos(s.heading_rad)};
+}
+
+// The extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
+void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to) {
+  double total = 0.0;
+  for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
+  if (total <= 0.01) return;
+  for (std::size_t i = from; i <= to; ++i)
+    m[i] = by_wheel(wheel, -way(wheel, view.steps[i]) / total, view.drive.wheelbase_m);
+}
+
+Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length_m) {
+  Motions m(view.steps.size());
+  std::size_t middle = 0;
+  while (middle + 1 < view.steps.size() && view.steps[middle].time_s < at_s) ++middle;
+  std::size_t from = middle, to = middle;
+  double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
+  while (from > 0 && before < 0.5 * length_m && view.steps[middle].time_s - view.steps[from].time_s < 1.0)
+    before += std::abs(way(wheel, view.steps[--from]));
+  while (to + 1 < view.steps.size() && behind < 0.5 * length_m &&
+         view.steps[to].time_s - view.steps[middle].time_s < 1.0)
+    behind += std::abs(way(wheel, view.steps[++to]));
+  spread(m, view, wheel, from, to);
+  return m;
+}
+
+Motions at_place(const DriveView& view, Wheel wheel, Vec2 place, double reach_m) {
+  Motions m(view.steps.size());
+  const auto near = [&](std::size_t i) {
+    return length(contact(wheel, view.steps[i], view.drive.wheelbase_m) - place) < reach_m;
+  };
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    if (!near(i)) continue;
+    std::size_t to = i;
+    while (to + 1 < view.steps.size() && near(to + 1)) ++to;
+    spread(m, view, wheel, i, to);
+    i = to;
+  }
+  return m;
+}
 
 Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "bump";
   e.component = component_of(wheel);
   e.amplitudes = {{"extra_distance_m", "m", 0.005, 0.0, 0.3}};
-  e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.sentence = std::string("the ") + (wheel == Wheel::left ? "left" : "right") +
                " wheel climbs over something: it turns more than it travels";
   e.regime = "at one place";
   e.looks_like = {"collision", "slip_zone"};
   e.told_apart_by = "the same way driven again: a bump comes back at its place";
   e.local = true;
+  return e;
+}
+
+Effect once(Wheel wheel) {
+  Effect e = of_wheel(wheel);
+  e.shapes = {{"recording", "1"}, {"at_s", "s"}};
+  e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm"};
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    Motions m(view.steps.size());
-    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{m};
-    const auto way = [&](std::size_t i) {
-      return std::abs(wheel == Wheel::left ? view.steps[i].left_m : view.steps[i].right_m);
-    };
-    std::size_t middle = 0;
-    while (middle + 1 < view.steps.size() && view.steps[middle].time_s < shape[1]) ++middle;
-    std::size_t from = middle, to = middle;  // [from, to]
-    double before = 0.5 * way(middle), behind = before;
-    while (from > 0 && before < 0.5 * kLength_m && view.steps[middle].time_s - view.steps[from].time_s < 1.0)
-      before += way(--from);
-    while (to + 1 < view.steps.size() && behind < 0.5 * kLength_m && view.steps[to].time_s - view.steps[middle].time_s < 1.0)
-      behind += way(++to);
-    double total = 0.0;
-    for (std::size_t i = from; i <= to; ++i) total += way(i);
-    if (total <= 0.01) return std::vector<Motions>{m};
-    for (std::size_t i = from; i <= to; ++i) {
-      const double d = wheel == Wheel::left ? view.steps[i].left_m : view.steps[i].right_m;
-      m[i] = by_wheel(wheel, -d / total, view.drive.wheelbase_m);
-    }
-    return std::vector<Motions>{m};
+    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions(view.steps.size())};
+    return std::vector<Motions>{at_moment(view, wheel, shape[1], kLength_m[static_cast<int>(shape.back())])};
   };
   e.scan = [](const std::vector<DriveView>& views) {
-    std::vector<std::vector<double>> shapes;
-    double span_s = 0.0;
-    for (const DriveView& v : views)
-      if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
-    const double stride_s = span_s / 2500.0;  // long recordings are scanned more coarsely
+    return moments(views, 0.15,
+                   [](const EffectStep& s) { return std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01; });
+  };
+  return e;
+}
+
+Effect each_time(Wheel wheel) {
+  Effect e = of_wheel(wheel);
+  e.shapes = {{"x_m", "m"}, {"y_m", "m"}};
+  e.forms = {"within 10 cm", "within 5 cm", "within 20 cm"};
+  e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
+    return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kReach_m[static_cast<int>(shape.back())])};
+  };
+  // Only places to which the wheel came more than once: else it is a moment.
+  e.scan = [wheel](const std::vector<DriveView>& views) {
+    constexpr double kGrid_m = 0.1;
+    std::set<std::pair<int, int>> seen, again;
     for (const DriveView& v : views) {
-      double next = -1e300, rolled_m = 0.0;
-      for (const EffectStep& s : v.steps)
-        if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next && std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01) {
-          shapes.push_back({static_cast<double>(v.number), s.time_s});
-          next = s.time_s + std::max(0.15, stride_s);
-        }
+      std::pair<int, int> last{1 << 30, 0};
+      for (const EffectStep& s : v.steps) {
+        const Vec2 at = contact(wheel, s, v.drive.wheelbase_m);
+        const std::pair<int, int> cell{static_cast<int>(std::lround(at.x_m / kGrid_m)),
+                                       static_cast<int>(std::lround(at.y_m / kGrid_m))};
+        if (cell == last) continue;
+        last = cell;
+        if (!seen.insert(cell).second) again.insert(cell);
+      }
     }
+    std::vector<std::vector<double>> shapes;
+    const std::size_t stride = again.size() / 800 + 1;
+    std::size_t i = 0;
+    for (const auto& [x, y] : again)
+      if (i++ % stride == 0) shapes.push_back({x * kGrid_m, y * kGrid_m});
     return shapes;
   };
   return e;
 }
+
 }  // namespace
 
-std::vector<Effect> bump() { return {of_wheel(Wheel::left), of_wheel(Wheel::right)}; }
+std::vector<Effect> bump() {
+  return {once(Wheel::left), once(Wheel::right), each_time(Wheel::left), each_time(Wheel::right)};
+}
 
 }  // namespace odolab::effects

@@ -7,29 +7,39 @@
 namespace odolab::effects {
 
 namespace {
-// One kick at each reversal, spread over the castor's swing: its trail is about three centimetres.
-Motions kicks(const DriveView& view) {
-  constexpr double kSwing_m = 0.05;
-  Motions m(view.steps.size());
+constexpr double kReversed_m = 0.003;  // way back that counts; less is the trembling of a turn on the spot
+
+// The first steps of each way back, with the new direction of travel.
+std::vector<std::pair<std::size_t, int>> reversals(const DriveView& view) {
+  std::vector<std::pair<std::size_t, int>> found;
+  double travelled_m = 0.0, furthest_m = 0.0;
+  std::size_t furthest = 0;
   int direction = 0;
-  double since_m = 1.0, sign = 0.0;
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const EffectStep& s = view.steps[i];
-    const double f = s.forward_m();
-    // A turn on the spot is no travel.
-    const bool travels = std::abs(s.speed_mps) > 0.005 && std::abs(s.speed_mps) > 0.02 * std::abs(s.yaw_rate_radps);
-    if (travels && f != 0.0) {
-      const int now = f > 0.0 ? 1 : -1;
-      if (direction != 0 && now != direction) {
-        since_m = 0.0;
-        sign = now;
-      }
-      direction = now;
+    travelled_m += view.steps[i].forward_m();
+    const double back_m = (direction == 0 ? -1 : direction) * (furthest_m - travelled_m);
+    if (direction == 0 && std::abs(travelled_m) > kReversed_m) direction = travelled_m > 0.0 ? 1 : -1;
+    if (direction != 0 && back_m > kReversed_m) {
+      direction = -direction;
+      found.emplace_back(furthest, direction);
     }
-    if (since_m < kSwing_m) {
-      const double share = std::min(std::abs(f), kSwing_m - since_m) / kSwing_m;
-      m[i].turn_rad = sign * share;
-      since_m += std::abs(f);
+    if (direction == 0 || direction * (travelled_m - furthest_m) >= 0.0 || back_m > kReversed_m) {
+      furthest_m = travelled_m;
+      furthest = i + 1;
+    }
+  }
+  return found;
+}
+
+// One kick at each reversal, spread over the way on which the castor swings round.
+Motions kicks(const DriveView& view, bool to_one_side, double swing_m) {
+  Motions m(view.steps.size());
+  for (const auto& [first, direction] : reversals(view)) {
+    double since_m = 0.0;
+    for (std::size_t i = first; i < view.steps.size() && since_m < swing_m; ++i) {
+      const double way_m = std::abs(view.steps[i].forward_m());
+      m[i].turn_rad += (to_one_side ? 1.0 : direction) * std::min(way_m, swing_m - since_m) / swing_m;
+      since_m += way_m;
     }
   }
   return m;
@@ -41,11 +51,21 @@ std::vector<Effect> castor_reversal_kick() {
   e.name = "castor_reversal_kick";
   e.component = "vehicle";
   e.amplitudes = {{"kick_rad", "rad", 0.01, -0.5, 0.5}};
+  e.forms = {"always to the same side, within 5 cm of way",
+             "to one side forwards and the other in reverse, within 5 cm",
+             "always to the same side, within 20 cm",
+             "to one side forwards and the other in reverse, within 20 cm",
+             "always to the same side, at once",
+             "to one side forwards and the other in reverse, at once"};
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.looks_like = {"drivetrain_backlash", "one_sided_drag"};
   e.told_apart_by = "a turn on the spot and then a straight, without reversing a wheel";
-  e.motions = [](const DriveView& view, const std::vector<double>&) { return std::vector<Motions>{kicks(view)}; };
+  e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    constexpr double kSwing_m[3] = {0.05, 0.2, 0.001};
+    const int form = static_cast<int>(shape.back());
+    return std::vector<Motions>{kicks(view, form % 2 == 0, kSwing_m[form / 2])};
+  };
   return {e};
 }
 

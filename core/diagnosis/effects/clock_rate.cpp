@@ -8,7 +8,7 @@ namespace odolab::effects {
 std::vector<Effect> clock_rate() {
   Effect e;
   e.name = "clock_rate";
-  e.component = "truth";
+  e.component = "vehicle";
   e.amplitudes = {{"rate", "1", 5e-4, -0.05, 0.05}};
   e.sentence = "the vehicle's clock and the truth's run at different rates";
   e.regime = "grows with the time since the start";

@@ -1,4 +1,4 @@
-// A push from outside: a step of the pose, in the frame of the vehicle, at one time of one recording.
+// A push from outside: a step of the pose, in the floor's frame, at one time of one recording.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,10 @@ std::vector<Effect> collision() {
   Effect e;
   e.name = "collision";
   e.component = "vehicle";
-  e.amplitudes = {{"dx_m", "m", 0.02, -2.0, 2.0}, {"dy_m", "m", 0.02, -2.0, 2.0}, {"dheading_rad", "rad", 0.03, -4.0, 4.0}};
+  e.amplitudes = {
+      {"dx_m", "m", 0.02, -2.0, 2.0}, {"dy_m", "m", 0.02, -2.0, 2.0}, {"dheading_rad", "rad", 0.03, -4.0, 4.0}};
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
+  e.forms = {"at once", "within 0.25 s", "within 0.5 s"};
   e.sentence = "something pushed the vehicle: its pose jumps while the wheels know nothing of it";
   e.regime = "at one moment";
   e.looks_like = {"bump", "truth_frozen"};
@@ -19,33 +21,33 @@ std::vector<Effect> collision() {
   e.local = true;
   e.of_one_recording = true;
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     std::vector<Motions> m(3, Motions(view.steps.size()));
     if (view.number != static_cast<int>(shape[0])) return m;
+    const double half = 0.5 * kLasts_s[static_cast<int>(shape.back())];
+    double total_s = 0.0;
+    // The share of each interval that lies within the push; at least the interval in which its middle lies.
+    const auto within = [&](const EffectStep& s) {
+      const double from = s.time_s - 0.5 * s.duration_s, to = s.time_s + 0.5 * s.duration_s;
+      if (half <= 0.0) return shape[1] > from - 1e-9 && shape[1] <= to + 1e-9 && total_s == 0.0 ? to - from : 0.0;
+      return std::max(0.0, std::min(to, shape[1] + half) - std::max(from, shape[1] - half));
+    };
+    std::vector<std::pair<std::size_t, double>> acts;
     for (std::size_t i = 0; i < view.steps.size(); ++i)
-      if (std::abs(view.steps[i].time_s - shape[1]) <= 0.5 * view.steps[i].duration_s + 1e-9) {
-        m[0][i].forward_m = 1.0;
-        m[1][i].sideways_m = 1.0;
-        m[2][i].turn_rad = 1.0;
-        break;
+      if (const double share = within(view.steps[i]); share > 0.0) {
+        acts.emplace_back(i, share);
+        total_s += share;
       }
+    for (const auto& [i, share] : acts) {
+      const double h = view.steps[i].heading_rad, part = share / total_s;
+      m[0][i] = {part * std::cos(h), -part * std::sin(h), 0.0};
+      m[1][i] = {part * std::sin(h), part * std::cos(h), 0.0};
+      m[2][i].turn_rad = part;
+    }
     return m;
   };
   e.scan = [](const std::vector<DriveView>& views) {
-    std::vector<std::vector<double>> shapes;
-    double span_s = 0.0;
-    for (const DriveView& v : views)
-      if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
-    const double stride_s = span_s / 2500.0;  // long recordings are scanned more coarsely
-    for (const DriveView& v : views) {
-      double next = -1e300, rolled_m = 0.0;
-      for (const EffectStep& s : v.steps)
-        // The first centimetres take up whatever play there is, and are no push.
-        if ((rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m))) > 0.05 && s.time_s >= next) {
-          shapes.push_back({static_cast<double>(v.number), s.time_s});
-          next = s.time_s + std::max(0.12, stride_s);
-        }
-    }
-    return shapes;
+    return moments(views, 0.12, [](const EffectStep&) { return true; });
   };
   return {e};
 }

@@ -8,13 +8,13 @@ namespace odolab::effects {
 
 namespace {
 // Rotation lost in the play, as a share of the gap, for one wheel.
-std::vector<double> lost(const DriveView& view, bool left, double gap_rad) {
+std::vector<double> lost(const DriveView& view, bool left, double gap_rad, bool begins_engaged) {
   std::vector<double> share(view.steps.size());
   const double half = 0.5 * std::max(gap_rad, 1e-4);
   double place = 0.0;  // of the encoder's side within the play, -half to half
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     const double by = left ? view.steps[i].left_by_rad : view.steps[i].right_by_rad;
-    if (i == 0) {  // where the play stood at the start shows only in the first movement's direction
+    if (i == 0 && begins_engaged) {  // where the play stood at the start shows only in the first movement's direction
       for (const EffectStep& s : view.steps)
         if (const double b = left ? s.left_by_rad : s.right_by_rad; b != 0.0) {
           place = b > 0.0 ? half : -half;
@@ -35,8 +35,10 @@ Effect of_wheel(Wheel wheel) {
   e.amplitudes = {{"gap_rad", "rad", 0.03, 0.0, 1.0}};
   e.shapes = {{"gap_rad", "rad"}};
   e.shape_follows_amplitude = true;
-  e.sentence = std::string("there is play between the encoder and ") +
-               (wheel == Wheel::left ? "the left wheel" : wheel == Wheel::right ? "the right wheel" : "both wheels");
+  e.forms = {"engaged at the start", "in the middle of the play at the start"};
+  e.sentence = std::string("there is play between the encoder and ") + (wheel == Wheel::left    ? "the left wheel"
+                                                                        : wheel == Wheel::right ? "the right wheel"
+                                                                                                : "both wheels");
   e.regime = "after a wheel reverses";
   e.looks_like = {"castor_reversal_kick", "traction_slip"};
   e.told_apart_by = "a stop and then on in the same direction, and a turn on the spot and then a straight";
@@ -44,7 +46,7 @@ Effect of_wheel(Wheel wheel) {
     Motions m(view.steps.size());
     const DifferentialDrive& drive = view.drive;
     const auto add = [&](Wheel w) {
-      const std::vector<double> share = lost(view, w == Wheel::left, shape[0]);
+      const std::vector<double> share = lost(view, w == Wheel::left, shape[0], shape.back() < 0.5);
       const double r = w == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
       for (std::size_t i = 0; i < share.size(); ++i) {
         const BodyMotion b = by_wheel(w, -r * share[i], drive.wheelbase_m);

@@ -14,7 +14,9 @@ Effect of_wheel(Wheel wheel) {
   e.amplitudes = {{"fraction", "1", 0.01, 0.0, 1.0}};
   e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
   e.sentence = std::string("the encoder of ") +
-               (wheel == Wheel::left ? "the left wheel" : wheel == Wheel::right ? "the right wheel" : "both wheels") +
+               (wheel == Wheel::left    ? "the left wheel"
+                : wheel == Wheel::right ? "the right wheel"
+                                        : "both wheels") +
                " misses a share of its counts above a speed";
   e.regime = "above a wheel speed";
   e.looks_like = {"speed_dependent_radius", "turn_scrub"};

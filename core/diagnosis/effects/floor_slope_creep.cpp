@@ -29,7 +29,8 @@ std::vector<Effect> floor_slope_creep() {
   e.to_parameters = [](const std::vector<double>& v, const std::vector<double>& se) {
     const double a = std::hypot(v[0], v[1]);
     return std::vector<FoundParameter>{
-        {"direction_rad", std::atan2(v[1], v[0]), std::hypot(v[1] * se[0], v[0] * se[1]) / std::max(a * a, 1e-300), "rad"},
+        {"direction_rad", std::atan2(v[1], v[0]), std::hypot(v[1] * se[0], v[0] * se[1]) / std::max(a * a, 1e-300),
+         "rad"},
         {"creep_mps", a, std::hypot(v[0] * se[0], v[1] * se[1]) / std::max(a, 1e-300), "m/s"}};
   };
   e.from_parameters = [](const ActiveEffect& active) {

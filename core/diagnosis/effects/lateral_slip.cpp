@@ -17,7 +17,8 @@ std::vector<Effect> lateral_slip() {
   e.motions = [](const DriveView& view, const std::vector<double>&) {
     Motions m;
     m.reserve(view.steps.size());
-    for (const EffectStep& s : view.steps) m.push_back(BodyMotion{0.0, -s.speed_mps * s.yaw_rate_radps * s.duration_s, 0.0});
+    for (const EffectStep& s : view.steps)
+      m.push_back(BodyMotion{0.0, -s.speed_mps * s.yaw_rate_radps * s.duration_s, 0.0});
     return std::vector<Motions>{m};
   };
   return {e};

@@ -1,33 +1,48 @@
-// A load that is put on or off squeezes the wheels: a step of both radii, in shares of them, at a time of one recording.
+// A load is put on or off: both rolling radii step at one time, in one recording, in each of them, or from one on.
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/effect.h"
 
 namespace odolab::effects {
 
-std::vector<Effect> payload_radius_change() {
+namespace {
+
+// `loaded` says from when on, in the recording's time; infinity for never.
+Effect from_when(std::function<double(const DriveView&, const std::vector<double>& shape)> loaded) {
   Effect e;
   e.name = "payload_radius_change";
   e.component = "both_wheels";
   e.amplitudes = {{"left", "1", 0.004, -0.25, 0.25}, {"right", "1", 0.004, -0.25, 0.25}};
-  e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.sentence = "the wheel radii step at one time, as when a load is put on or off";
   e.regime = "from one time on";
   e.looks_like = {"radius_drift"};
   e.told_apart_by = "a longer run, with the same straight several times";
-  e.of_one_recording = true;
-  e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+  e.motions = [loaded](const DriveView& view, const std::vector<double>& shape) {
     Motions left(view.steps.size()), right(view.steps.size());
-    if (view.number == static_cast<int>(shape[0]))
-      for (std::size_t i = 0; i < view.steps.size(); ++i) {
-        const EffectStep& s = view.steps[i];
-        if (s.time_s < shape[1]) continue;
-        left[i] = by_wheel(Wheel::left, view.drive.wheel_radius_left_m * s.left_by_rad, view.drive.wheelbase_m);
-        right[i] = by_wheel(Wheel::right, view.drive.wheel_radius_right_m * s.right_by_rad, view.drive.wheelbase_m);
-      }
+    const double from_s = loaded(view, shape), b = view.drive.wheelbase_m;
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      if (s.time_s < from_s) continue;
+      left[i] = by_wheel(Wheel::left, s.left_m, b);
+      right[i] = by_wheel(Wheel::right, s.right_m, b);
+    }
     return std::vector<Motions>{left, right};
   };
-  e.scan = [](const std::vector<DriveView>& views) {
+  return e;
+}
+
+constexpr double kNever = 1e300;
+
+}  // namespace
+
+std::vector<Effect> payload_radius_change() {
+  Effect once = from_when([](const DriveView& view, const std::vector<double>& shape) {
+    return view.number == static_cast<int>(shape[0]) ? shape[1] : kNever;
+  });
+  once.shapes = {{"recording", "1"}, {"at_s", "s"}};
+  once.of_one_recording = true;
+  once.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
     for (const DriveView& v : views) {
       if (v.steps.empty()) continue;
@@ -36,7 +51,33 @@ std::vector<Effect> payload_radius_change() {
     }
     return shapes;
   };
-  return {e};
+
+  Effect in_each = from_when([](const DriveView&, const std::vector<double>& shape) { return shape[0]; });
+  in_each.shapes = {{"at_s", "s"}};
+  in_each.regime = "from one time on in every recording";
+  in_each.scan = [](const std::vector<DriveView>& views) {
+    std::vector<std::vector<double>> shapes;
+    double from = 1e300, to = -1e300;
+    for (const DriveView& v : views)
+      if (!v.steps.empty()) from = std::min(from, v.steps.front().time_s), to = std::max(to, v.steps.back().time_s);
+    for (int k = 1; k < 24 && views.size() > 1; ++k) shapes.push_back({from + (to - from) * k / 24.0});
+    return shapes;
+  };
+
+  Effect onwards = from_when([](const DriveView& view, const std::vector<double>& shape) {
+    const int first = static_cast<int>(shape[0]);
+    return view.number == first ? shape[1] : view.number > first ? -kNever : kNever;
+  });
+  onwards.shapes = {{"recording", "1"}, {"at_s", "s"}};
+  onwards.and_later_recordings = true;
+  onwards.regime = "from one recording on";
+  onwards.scan = [](const std::vector<DriveView>& views) {
+    std::vector<std::vector<double>> shapes;
+    for (std::size_t k = 1; k < views.size(); ++k)
+      if (!views[k].steps.empty()) shapes.push_back({static_cast<double>(k), views[k].steps.front().time_s - 1.0});
+    return shapes;
+  };
+  return {once, in_each, onwards};
 }
 
 }  // namespace odolab::effects

@@ -12,7 +12,9 @@ Effect of_wheel(Wheel wheel) {
   e.component = component_of(wheel);
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
   e.sentence = std::string("the radius of the ") +
-               (wheel == Wheel::left ? "left wheel" : wheel == Wheel::right ? "right wheel" : "wheels") +
+               (wheel == Wheel::left    ? "left wheel"
+                : wheel == Wheel::right ? "right wheel"
+                                        : "wheels") +
                " drifts with time";
   e.regime = "grows with the time since the start";
   e.looks_like = {"one_sided_drag", "payload_radius_change", "clock_rate"};

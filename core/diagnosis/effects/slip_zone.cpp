@@ -12,6 +12,8 @@ std::vector<Effect> slip_zone() {
   e.component = "floor";
   e.amplitudes = {{"slip", "1", 0.05, 0.0, 1.0}};
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m", 0.0, 0.03, 20.0}};
+  e.forms = {"each wheel that is on the patch", "both wheels while the axle's centre is on it",
+             "travel alone while the axle's centre is on it"};
   e.sentence = "there is a patch of floor on which the wheels slip";
   e.regime = "on a patch of the floor";
   e.looks_like = {"bump", "collision"};
@@ -27,8 +29,12 @@ std::vector<Effect> slip_zone() {
       if (dot(to, to) > (shape[2] + b) * (shape[2] + b)) continue;
       const Vec2 side{-0.5 * b * std::sin(s.heading_rad), 0.5 * b * std::cos(s.heading_rad)};
       const Vec2 left = to + side, right = to - side;
-      const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;
-      m[i] = {0.5 * (l + r), 0.0, (r - l) / b};
+      if (shape.back() < 0.5) {
+        const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;
+        m[i] = {0.5 * (l + r), 0.0, (r - l) / b};
+      } else if (dot(to, to) < r2) {
+        m[i] = {-s.forward_m(), 0.0, shape.back() < 1.5 ? -s.turn_rad : 0.0};
+      }
     }
     return std::vector<Motions>{m};
   };

@@ -17,7 +17,8 @@ std::vector<Effect> turn_speed_loss() {
   e.motions = [](const DriveView& view, const std::vector<double>&) {
     Motions m;
     m.reserve(view.steps.size());
-    for (const EffectStep& s : view.steps) m.push_back(BodyMotion{-std::abs(s.yaw_rate_radps) * s.forward_m(), 0.0, 0.0});
+    for (const EffectStep& s : view.steps)
+      m.push_back(BodyMotion{-std::abs(s.yaw_rate_radps) * s.forward_m(), 0.0, 0.0});
     return std::vector<Motions>{m};
   };
   return {e};

@@ -1,4 +1,5 @@
-// Toe: the wheels point a little to one side of where the body does; to the left is positive, in reverse it turns round.
+// Toe: the wheels point a little to one side of where the body does; to the left is positive, in reverse it turns
+// round.
 #include <cmath>
 
 #include "core/diagnosis/effect.h"

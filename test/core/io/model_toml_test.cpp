@@ -18,8 +18,10 @@ FittedModel eccentric_robot() {
   model.vehicle.kind = drive;
   model.vehicle.truth = {{0.01, -0.02, 1.0 / 7.0}, -0.0123};
   model.effects.push_back({{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.0061}, {"phase_rad", -1.0 / 3.0}}},
-                           {{"amplitude", 1e-4}, {"phase_rad", 0.02}}, ""});
-  model.effects.push_back({{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 2.0}, {"y_m", -0.5}, {"radius_m", 0.7}}}, {{"slip", 0.002}}, ""});
+                           {{"amplitude", 1e-4}, {"phase_rad", 0.02}},
+                           ""});
+  model.effects.push_back(
+      {{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 2.0}, {"y_m", -0.5}, {"radius_m", 0.7}}}, {{"slip", 0.002}}, ""});
   model.effects.push_back({{"collision", "vehicle", {{"dx_m", 0.02}, {"at_s", 12.5}}}, {}, "run_3.csv"});
   return model;
 }
@@ -66,11 +68,15 @@ TEST(ModelToml, RefusesWhatItDoesNotKnow) {
   EXPECT_NE(message_with("model/1", "model/2").find("m.toml:2: schema: found 'odolab.model/2'"), std::string::npos)
       << message_with("model/1", "model/2");
   EXPECT_NE(message_with("wheelbase_m", "wheelbas_m").find("wheelbase_m"), std::string::npos);
-  EXPECT_NE(message_with("[effect.stderr]\n", "[effect.stderr]\nphase = 1.0\n").find("the key 'phase'"), std::string::npos)
+  EXPECT_NE(message_with("[effect.stderr]\n", "[effect.stderr]\nphase = 1.0\n").find("the key 'phase'"),
+            std::string::npos)
       << message_with("[effect.stderr]\n", "[effect.stderr]\nphase = 1.0\n");
-  EXPECT_NE(message_with("amplitude = 0.0061", "amplitude = \"much\"").find("amplitude: found 'much'"), std::string::npos)
+  EXPECT_NE(message_with("amplitude = 0.0061", "amplitude = \"much\"").find("amplitude: found 'much'"),
+            std::string::npos)
       << message_with("amplitude = 0.0061", "amplitude = \"much\"");
-  EXPECT_NE(message_with("amplitude = 0.0061", "amplitud = 0.0061").find("the key 'amplitud', expected a known key; the nearest is 'amplitude'"), std::string::npos)
+  EXPECT_NE(message_with("amplitude = 0.0061", "amplitud = 0.0061")
+                .find("the key 'amplitud', expected a known key; the nearest is 'amplitude'"),
+            std::string::npos)
       << message_with("amplitude = 0.0061", "amplitud = 0.0061");
   EXPECT_NE(message_with("\"wheel_eccentricity\"", "\"wheel_excentricity\"").find("m.toml:"), std::string::npos);
   EXPECT_NE(message_with("component = \"left_wheel\"\n", "").find("component"), std::string::npos);
@@ -83,12 +89,14 @@ TEST(ModelToml, HoldsEveryEffectThatADiagnosisCanName) {
     FittedEffect effect{{entry.name, entry.component, {}}, {}, ""};
     const std::vector<double> ones(entry.amplitudes.size(), 0.01);
     if (entry.to_parameters)
-      for (const FoundParameter& p : entry.to_parameters(ones, ones)) effect.active.parameters.emplace_back(p.name, p.value);
+      for (const FoundParameter& p : entry.to_parameters(ones, ones))
+        effect.active.parameters.emplace_back(p.name, p.value);
     else
       for (const Effect::Amplitude& a : entry.amplitudes) effect.active.parameters.emplace_back(a.name, 0.01);
     if (!entry.shape_follows_amplitude)
-      for (std::size_t k = entry.of_one_recording ? 1 : 0; k < entry.shapes.size(); ++k)
-        effect.active.parameters.emplace_back(entry.shapes[k].name, 0.5);
+      for (std::size_t k = 0; k < entry.shapes.size(); ++k)
+        if (entry.shapes[k].name != "recording") effect.active.parameters.emplace_back(entry.shapes[k].name, 0.5);
+    if (entry.forms.size() > 1) effect.active.parameters.emplace_back("form", 1.0);
     FittedModel model;
     model.effects = {effect};
     ASSERT_TRUE(write_model(folder.path("m.toml"), model));
