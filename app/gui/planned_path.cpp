@@ -28,6 +28,30 @@ struct Line {
   }
   std::vector<Vec2> operator()(const WheelSpeedPath&) const { return {}; }
   std::vector<Vec2> operator()(const HandPath&) const { return {}; }
+  std::vector<Vec2> operator()(const RectanglePath& p) const {
+    const double r = p.corner_radius_m, side = p.clockwise ? -1.0 : 1.0;
+    std::vector<Vec2> line{{0, 0}};
+    Pose pose;
+    constexpr int kParts = 12;
+    for (int k = 0; k < 4; ++k) {
+      pose = pose * Pose{(k % 2 == 0 ? p.length_m : p.width_m) - 2.0 * r, 0.0, 0.0};
+      for (int i = 0; i <= kParts; ++i) {
+        const double angle = 0.5 * kPi * i / kParts;
+        line.push_back(pose * Vec2{r * std::sin(angle), side * r * (1.0 - std::cos(angle))});
+      }
+      pose = pose * Pose{r, side * r, side * 0.5 * kPi};
+    }
+    return line;
+  }
+  std::vector<Vec2> operator()(const ManoeuvrePath& p) const {
+    std::vector<Vec2> line{{0, 0}};
+    Pose pose;
+    for (const Manoeuvre& move : p.moves) {
+      pose = pose * Pose{move.forward_m, move.left_m, move.turn_rad};
+      line.push_back(pose.position());
+    }
+    return line;
+  }
   std::vector<Vec2> operator()(const ReplayPath&) const { return {}; }
 };
 

@@ -336,6 +336,10 @@ bool Session::open_scenario(const std::string& path) {
     say(scenario.error().message(), true);
     return false;
   }
+  if (const auto other = other_than_differential_drive(scenario->vehicle, "the window drives")) {
+    say(path + ": " + other->message(), true);
+    return false;
+  }
   if (const ReplayPath* replays = std::get_if<ReplayPath>(&scenario->path)) {
     Result<ImportedRecording> imported = load_recording(beside(path, replays->recording));
     if (!imported) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/io/actual_toml.h"
 #include "core/io/toml_table.h"
 #include "core/io/toml_text.h"
 #include "core/io/vehicle_toml.h"
@@ -14,18 +15,6 @@ namespace odolab {
 namespace {
 
 // One list of fields for each struct; TomlTable reads it, TomlText writes it.
-
-template <typename S, typename Toml>
-void actual_fields(S& actual, Toml& toml) {
-  toml.field("wheel_radius_left_m", actual.wheel_radius_left_m);
-  toml.field("wheel_radius_right_m", actual.wheel_radius_right_m);
-  toml.field("wheelbase_m", actual.wheelbase_m);
-  toml.field("toe_left_rad", actual.toe_left_rad);
-  toml.field("toe_right_rad", actual.toe_right_rad);
-  toml.field("mass_kg", actual.mass_kg);
-  toml.field("moment_of_inertia_kgm2", actual.moment_of_inertia_kgm2);
-  toml.field("drive_wheel_load_share", actual.drive_wheel_load_share);
-}
 
 template <typename S, typename Toml>
 void motor_fields(S& motor, Toml& toml) {
@@ -79,6 +68,7 @@ void driving_fields(S& driving, Toml& toml) {
   toml.field("turn_rate_radps", driving.turn_rate_radps);
   toml.field("acceleration_mps2", driving.acceleration_mps2);
   toml.field("turn_acceleration_radps2", driving.turn_acceleration_radps2);
+  toml.field("internal_correction", driving.internal_correction);
 }
 
 template <typename S, typename Toml>
@@ -103,6 +93,13 @@ void expectation_fields(S& expectation, Toml& toml) {
   toml.field("figure", expectation.figure);
   toml.field("at_least", expectation.at_least);
   toml.field("at_most", expectation.at_most);
+}
+
+template <typename S, typename Toml>
+void manoeuvre_fields(S& move, Toml& toml) {
+  toml.field("forward_m", move.forward_m);
+  toml.field("left_m", move.left_m);
+  toml.field("turn_rad", move.turn_rad);
 }
 
 template <typename S, typename Toml>
@@ -148,10 +145,10 @@ void zone_fields(Zone& zone, Toml& toml) {
 
 // Paths, in the order of Path. Points and phases are tables of their own.
 
-const std::vector<std::string> kPaths = {"square",       "straight", "figure_eight", "waypoints",
-                                         "wheel_speeds", "hand",     "replay"};
-const Path kEmptyPaths[] = {SquarePath{},     StraightPath{}, FigureEightPath{}, WaypointPath{},
-                            WheelSpeedPath{}, HandPath{},     ReplayPath{}};
+const std::vector<std::string> kPaths = {"square", "straight",  "figure_eight", "waypoints", "wheel_speeds",
+                                         "hand",   "rectangle", "manoeuvres",   "replay"};
+const Path kEmptyPaths[] = {SquarePath{}, StraightPath{},  FigureEightPath{}, WaypointPath{}, WheelSpeedPath{},
+                            HandPath{},   RectanglePath{}, ManoeuvrePath{},   ReplayPath{}};
 const std::vector<std::string> kReplayBy = {"wheels", "commands"};
 
 template <typename Toml>
@@ -170,6 +167,11 @@ struct PathFields {
     } else if constexpr (std::is_same_v<Plain, FigureEightPath>) {
       toml.field("radius_m", path.radius_m);
       toml.field("loops", path.loops);
+    } else if constexpr (std::is_same_v<Plain, RectanglePath>) {
+      toml.field("length_m", path.length_m);
+      toml.field("width_m", path.width_m);
+      toml.field("corner_radius_m", path.corner_radius_m);
+      toml.field("clockwise", path.clockwise);
     } else if constexpr (std::is_same_v<Plain, WheelSpeedPath>) {
       toml.field("ramp_s", path.ramp_s);
     } else if constexpr (std::is_same_v<Plain, HandPath>) {
@@ -247,6 +249,8 @@ void read_path(TomlTable table, Path& path) {
     }
   if (auto* wheel = std::get_if<WheelSpeedPath>(&path))
     for (TomlTable& element : table.tables("phase")) wheel_speed_fields(wheel->phases.emplace_back(), element);
+  if (auto* manoeuvres = std::get_if<ManoeuvrePath>(&path))
+    for (TomlTable& element : table.tables("move")) manoeuvre_fields(manoeuvres->moves.emplace_back(), element);
   if (std::holds_alternative<ReplayPath>(path)) table.require("recording");
 }
 
@@ -263,6 +267,11 @@ void write_path(TomlText& text, const Path& path) {
     for (const WheelSpeeds& phase : wheel->phases) {
       text.table_element("path.phase");
       wheel_speed_fields(phase, text);
+    }
+  if (const auto* manoeuvres = std::get_if<ManoeuvrePath>(&path))
+    for (const Manoeuvre& move : manoeuvres->moves) {
+      text.table_element("path.move");
+      manoeuvre_fields(move, text);
     }
 }
 
@@ -303,9 +312,7 @@ Result<Scenario> read_scenario(const std::string& path) {
   const Result<Done> nominal = read_nominal(top, path, scenario);
   if (!nominal) return nominal.error();
 
-  if (const auto* drive = std::get_if<DifferentialDrive>(&scenario.vehicle.kind)) scenario.actual = as_drawn(*drive);
-  TomlTable actual = top.table("actual");
-  actual_fields(scenario.actual, actual);
+  read_actual(top.table("actual"), scenario);
   TomlTable motor = top.table("motor");
   motor_fields(scenario.motor, motor);
   read_floor(top.table("floor"), scenario.floor);
@@ -343,8 +350,7 @@ Result<Done> write_scenario(const std::string& path, const Scenario& scenario) {
   } else {
     text.field("vehicle", scenario.vehicle_file);
   }
-  text.table("actual");
-  actual_fields(scenario.actual, text);
+  write_actual(text, scenario);
   text.table("motor");
   motor_fields(scenario.motor, text);
   text.table("floor");

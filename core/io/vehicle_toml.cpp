@@ -230,6 +230,16 @@ void write_vehicle_to(TomlText& text, const Vehicle& vehicle, const std::string&
   mounting_fields(vehicle.truth, text);
 }
 
+void read_vehicle_kind(TomlTable& table, VehicleKind& kind) {
+  Vehicle vehicle;
+  kKinds[kind.index()].read(table, vehicle);
+  kind = vehicle.kind;
+}
+
+void write_vehicle_kind(TomlText& text, const VehicleKind& kind, const std::string& path) {
+  kKinds[kind.index()].write(text, {{}, kind, {}}, path);
+}
+
 Result<Vehicle> read_vehicle(const std::string& path) {
   Result<TomlTable> table = TomlTable::read(path);
   if (!table) return table.error();

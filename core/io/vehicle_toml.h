@@ -20,4 +20,8 @@ Result<Done> write_vehicle(const std::string& path, const Vehicle& vehicle);
 Vehicle vehicle_from(TomlTable& table, const std::string& key_path);
 void write_vehicle_to(TomlText& text, const Vehicle& vehicle, const std::string& key_path);
 
+// The table of a kind alone, without its name and mounting. `kind` holds the kind that is to be read.
+void read_vehicle_kind(TomlTable& table, VehicleKind& kind);
+void write_vehicle_kind(TomlText& text, const VehicleKind& kind, const std::string& path);
+
 }  // namespace odolab

@@ -9,7 +9,12 @@ namespace odolab {
 
 namespace {
 constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
+
+bool is_driven_by_the_simulator(const VehicleKind& kind) {
+  return std::holds_alternative<DifferentialDrive>(kind) || std::holds_alternative<Clapper>(kind) ||
+         std::holds_alternative<OmniMate>(kind);
 }
+}  // namespace
 
 std::vector<std::string> problems_in(const Scenario& s) {
   std::vector<std::string> problems;
@@ -25,9 +30,19 @@ std::vector<std::string> problems_in(const Scenario& s) {
     demand(std::isfinite(value) && value > 0.0, key, value, expected);
   };
   for (const std::string& p : problems_in(s.vehicle.kind)) problems.push_back("vehicle." + p);
-  if (!std::holds_alternative<DifferentialDrive>(s.vehicle.kind))
-    problems.push_back("vehicle.kind: found '" + kind_name(s.vehicle) +
-                       "', expected 'differential_drive', the only kind that the simulator drives");
+  const bool one_drive = std::holds_alternative<DifferentialDrive>(s.vehicle.kind);
+  if (!is_driven_by_the_simulator(s.vehicle.kind))
+    problems.push_back("vehicle.kind: found '" + kind_name(s.vehicle) + "', expected a kind that the simulator drives");
+  for (const std::string& p : problems_in(s.machine, s.vehicle.kind)) problems.push_back("actual." + p);
+  if (!one_drive) {
+    for (const ActiveEffect& effect : s.effects)
+      if (effect.component != "truth" && effect.effect != "slip_zone")
+        problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
+                           ", expected slip zones or effects of the truth for this kind of vehicle");
+    if (s.benchmark) problems.push_back("benchmark: found one, expected none for this kind of vehicle");
+    if (std::holds_alternative<WheelSpeedPath>(s.path) || std::holds_alternative<ReplayPath>(s.path))
+      problems.push_back("path.kind: found wheel speeds or a replay, expected a path for any kind of vehicle");
+  }
   demand_positive("actual.wheel_radius_left_m", s.actual.wheel_radius_left_m, "m");
   demand_positive("actual.wheel_radius_right_m", s.actual.wheel_radius_right_m, "m");
   demand_positive("actual.wheelbase_m", s.actual.wheelbase_m, "m");
@@ -45,7 +60,8 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand(s.motor.proportional_gain > 0.0, "motor.proportional_gain", s.motor.proportional_gain, "a gain above 0");
   demand(s.motor.integral_gain >= 0.0, "motor.integral_gain", s.motor.integral_gain, "a gain of 0 or more");
   for (const std::string& p : problems_in(s.floor)) problems.push_back(p);
-  const double smallest_radius_m = std::min(s.actual.wheel_radius_left_m, s.actual.wheel_radius_right_m);
+  const double smallest_radius_m = one_drive ? std::min(s.actual.wheel_radius_left_m, s.actual.wheel_radius_right_m)
+                                             : typical_wheel_radius_m(s.vehicle.kind);
   for (const Bump& bump : s.floor.bumps)
     demand(bump.height_m < 0.5 * smallest_radius_m, "floor.bump.height_m", bump.height_m,
            "less than half a wheel's radius");
@@ -81,6 +97,25 @@ std::vector<std::string> problems_in(const Scenario& s) {
   }
   if (const auto* way = std::get_if<WaypointPath>(&s.path))
     demand(!way->points.empty(), "path.point", 0.0, "one point or more");
+  if (const auto* rectangle = std::get_if<RectanglePath>(&s.path)) {
+    demand_positive("path.corner_radius_m", rectangle->corner_radius_m, "m");
+    for (const auto& [key, side_m] :
+         {std::pair{"path.length_m", rectangle->length_m}, std::pair{"path.width_m", rectangle->width_m}})
+      demand(side_m >= 2.0 * rectangle->corner_radius_m && side_m <= 1e4, key, side_m,
+             "a side no shorter than two corner radii");
+  }
+  if (const auto* manoeuvres = std::get_if<ManoeuvrePath>(&s.path)) {
+    demand(!manoeuvres->moves.empty(), "path.move", 0.0, "one move or more");
+    for (std::size_t i = 0; i < manoeuvres->moves.size(); ++i) {
+      const Manoeuvre& move = manoeuvres->moves[i];
+      const std::string key = "path.move[" + std::to_string(i + 1) + "].";
+      demand(std::abs(move.forward_m) <= 1e4, (key + "forward_m").c_str(), move.forward_m, "a way within 1e4 m");
+      demand(std::abs(move.left_m) <= 1e4, (key + "left_m").c_str(), move.left_m, "a way within 1e4 m");
+      demand(std::abs(move.turn_rad) <= 1e4, (key + "turn_rad").c_str(), move.turn_rad, "a turn within 1e4 rad");
+      demand(move.left_m == 0.0 || moves_sideways(s.vehicle.kind), (key + "left_m").c_str(), move.left_m,
+             "0 for a vehicle that cannot move sideways");
+    }
+  }
   if (const auto* wheel = std::get_if<WheelSpeedPath>(&s.path)) {
     demand(!wheel->phases.empty(), "path.phase", 0.0, "one phase or more");
     demand(wheel->ramp_s >= 0.0, "path.ramp_s", wheel->ramp_s, "0 s or more");

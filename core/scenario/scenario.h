@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "core/diagnosis/active_effect.h"
+#include "core/scenario/actual_machine.h"
 #include "core/scenario/floor.h"
 #include "core/vehicle/vehicle.h"
 
 namespace odolab {
 
-// The machine itself, of which its odometry knows nothing. The lengths replace the nominal ones.
+// The machine itself, of which its odometry knows nothing. The lengths replace the nominal ones. Of vehicles other than
+// a differential drive the lengths stand in ActualMachine, and these are the toe and weight of the base or of each
+// truck.
 struct ActualDrive {
   double wheel_radius_left_m = 0.075;
   double wheel_radius_right_m = 0.075;
@@ -50,6 +53,8 @@ struct Driving {
   double turn_rate_radps = 1.0;
   double acceleration_mps2 = 0.2;
   double turn_acceleration_radps2 = 1.0;
+  // Vehicles that can correct their odometry from the inside (IPEC, CAST) steer by it; false: by plain dead reckoning.
+  bool internal_correction = true;
 };
 
 // Closed square with a stop and a turn on the spot at each corner, a fourth turn at the end (UMBmark report, section
@@ -65,6 +70,22 @@ struct StraightPath {
 struct FigureEightPath {
   double radius_m = 1.0;
   int loops = 1;
+};
+// Round a rectangle without a stop, each corner an arc; it starts and ends where the last arc touches the first side.
+struct RectanglePath {
+  double length_m = 7.0;  // along the start's heading
+  double width_m = 4.0;
+  double corner_radius_m = 0.45;
+  bool clockwise = false;
+};
+// One after the other: a straight shift without turning, then a turn on the spot. Sideways for vehicles that can.
+struct Manoeuvre {
+  double forward_m = 0.0;
+  double left_m = 0.0;
+  double turn_rad = 0.0;
+};
+struct ManoeuvrePath {
+  std::vector<Manoeuvre> moves;
 };
 // Straight lines between points, a turn on the spot at each.
 struct WaypointPath {
@@ -90,8 +111,8 @@ struct ReplayPath {
   enum class By { wheels, commands } by = By::wheels;
 };
 
-using Path =
-    std::variant<SquarePath, StraightPath, FigureEightPath, WaypointPath, WheelSpeedPath, HandPath, ReplayPath>;
+using Path = std::variant<SquarePath, StraightPath, FigureEightPath, WaypointPath, WheelSpeedPath, HandPath,
+                          RectanglePath, ManoeuvrePath, ReplayPath>;
 
 // UMBmark: the square path driven several times in each direction.
 struct Benchmark {
@@ -112,6 +133,7 @@ struct Scenario {
   Vehicle vehicle;           // nominal: what odometry believes
   std::string vehicle_file;  // where it came from, relative to the scenario's file; may be empty
   ActualDrive actual;
+  ActualMachine machine;  // what else there is of vehicles other than a differential drive
   Motor motor;
   Floor floor;
   std::vector<ActiveEffect>

@@ -37,6 +37,7 @@ PathFollower::PathFollower(std::vector<Leg> route, const Driving& driving, doubl
     : route_(std::move(route)), driving_(driving), period_s_(period_s) {}
 
 void PathFollower::next_leg() {
+  flowing_ = !route_[leg_].stops;
   ++leg_;
   resting_s_ = 0.0;
   turned_rad_ = 0.0;
@@ -59,10 +60,28 @@ BaseCommand PathFollower::along_line(const Leg& leg, const Pose& believed) {
   const Pose seen = between(leg.from, believed);
   const double sign = leg.length_m < 0.0 ? -1.0 : 1.0;
   const double remaining_m = std::abs(leg.length_m) - sign * seen.x_m;
+  if (!leg.stops && remaining_m < kLineDone_m) {
+    next_leg();
+    return last_;
+  }
   if (arrived(remaining_m < kLineDone_m)) return {};
-  const double speed =
-      sign * eased(remaining_m, driving_.speed_mps, driving_.acceleration_mps2, last_.speed_mps, period_s_);
-  return {speed, steering(speed, seen.y_m, wrapped(seen.heading_rad))};
+  const double speed = sign * eased(remaining_m + way_beyond_m(), driving_.speed_mps, driving_.acceleration_mps2,
+                                    last_.speed_mps, period_s_);
+  const double wanted = steering(speed, seen.y_m, wrapped(seen.heading_rad));
+  return {speed, flowing_ ? steered(wanted) : wanted};
+}
+
+// Sideways too: what is off the line is moved back, not steered back.
+BaseCommand PathFollower::shifting(const Leg& leg, const Pose& believed) {
+  const Vec2 along{std::cos(leg.direction_rad), std::sin(leg.direction_rad)}, across{-along.y_m, along.x_m};
+  const Pose seen = between(leg.from, believed);
+  const double remaining_m = leg.length_m - dot(seen.position(), along);
+  if (arrived(remaining_m < kLineDone_m)) return {};
+  const double last_mps = std::hypot(last_.speed_mps, last_.sideways_mps);
+  const double speed = eased(remaining_m, driving_.speed_mps, driving_.acceleration_mps2, last_mps, period_s_);
+  const double back_mps = -speed / std::max(kReturnLength_m, kReturnTime_s * speed) * dot(seen.position(), across);
+  const Vec2 velocity = rotated(speed * along + back_mps * across, -seen.heading_rad);
+  return {velocity.x_m, steering(speed, 0.0, wrapped(seen.heading_rad)), velocity.y_m};
 }
 
 BaseCommand PathFollower::turning(const Leg& leg, const Pose& believed) {
@@ -93,9 +112,13 @@ BaseCommand PathFollower::around_arc(const Leg& leg, const Pose& believed) {
   const double left_of_arc_m = radius_m > 0.0 ? radius_m - length(from_centre) : length(from_centre) + radius_m;
   const double tangent_rad = leg.from.heading_rad + turned_rad_;
   const double wanted = speed / radius_m + steering(speed, left_of_arc_m, wrapped(believed.heading_rad - tangent_rad));
-  // Between two arcs the curvature jumps; the turn rate may not.
+  return {speed, steered(wanted)};
+}
+
+// Between two arcs the curvature jumps; the turn rate may not.
+double PathFollower::steered(double yaw_rate_radps) const {
   const double change = kCurvatureHaste * driving_.turn_acceleration_radps2 * period_s_;
-  return {speed, std::clamp(wanted, last_.yaw_rate_radps - change, last_.yaw_rate_radps + change)};
+  return std::clamp(yaw_rate_radps, last_.yaw_rate_radps - change, last_.yaw_rate_radps + change);
 }
 
 BaseCommand PathFollower::update(const Pose& believed) {
@@ -107,6 +130,8 @@ BaseCommand PathFollower::update(const Pose& believed) {
       return last_ = along_line(leg, believed);
     case Leg::Kind::turn:
       return last_ = turning(leg, believed);
+    case Leg::Kind::shift:
+      return last_ = shifting(leg, believed);
     case Leg::Kind::arc:
       break;
   }

@@ -21,8 +21,10 @@ class PathFollower {
  private:
   BaseCommand along_line(const Leg& leg, const Pose& believed);
   BaseCommand around_arc(const Leg& leg, const Pose& believed);
+  BaseCommand shifting(const Leg& leg, const Pose& believed);
   BaseCommand turning(const Leg& leg, const Pose& believed);
   double way_beyond_m() const;
+  double steered(double yaw_rate_radps) const;
   bool arrived(bool within_reach);
   void next_leg();
 
@@ -33,6 +35,7 @@ class PathFollower {
   BaseCommand last_;
   double resting_s_ = 0.0;   // time at rest so far at the end of a leg
   double turned_rad_ = 0.0;  // on this arc, believed
+  bool flowing_ = false;     // the leg before this one had no stop
 };
 
 }  // namespace odolab

@@ -51,6 +51,20 @@ struct Legs {
       route.line(length(ahead));
     }
   }
+  void operator()(const RectanglePath& rectangle) const {
+    const double r = rectangle.corner_radius_m;
+    for (int side = 0; side < 4; ++side) {
+      route.add({Leg::Kind::line, {}, (side % 2 == 0 ? rectangle.length_m : rectangle.width_m) - 2.0 * r, 0.0, false});
+      route.arc(r, rectangle.clockwise ? -0.5 * kPi : 0.5 * kPi, side == 3);
+    }
+  }
+  void operator()(const ManoeuvrePath& path) const {
+    for (const Manoeuvre& move : path.moves) {
+      const double way_m = std::hypot(move.forward_m, move.left_m);
+      if (way_m > 0.0) route.add({Leg::Kind::shift, {}, way_m, 0.0, true, std::atan2(move.left_m, move.forward_m)});
+      if (move.turn_rad != 0.0) route.turn(move.turn_rad);
+    }
+  }
   template <typename Other>
   void operator()(const Other&) const {}
 };
@@ -63,6 +77,8 @@ Pose Leg::end() const {
       return from * Pose{length_m, 0.0, 0.0};
     case Kind::turn:
       return from * Pose{0.0, 0.0, turn_rad};
+    case Kind::shift:
+      return from * Pose{length_m * std::cos(direction_rad), length_m * std::sin(direction_rad), 0.0};
     case Kind::arc:
       break;
   }

@@ -18,6 +18,10 @@ Path default_path(int kind) {
       return WaypointPath{{{2.0, 0.0}, {2.0, 2.0}, {0.0, 1.0}, {0.0, 0.0}}};
     case 4:
       return WheelSpeedPath{{{5.0, 2.0, 3.0}, {5.0, 3.0, 2.0}}, 0.5};
+    case 6:
+      return RectanglePath{};
+    case 7:
+      return ManoeuvrePath{{{2.0, 0.0, 0.0}, {0.0, 0.0, 0.5 * kPi}}};
     default:
       return HandPath{};
   }
@@ -105,6 +109,31 @@ struct PathFields {
     return number_row("Longest", {"##longest", {"s", 1.0, 0, 1.0}, 1.0, 36000.0, "The run ends after this time."},
                       p.duration_s, theme);
   }
+  Edited operator()(RectanglePath& p) const {
+    Edited result =
+        number_row("Length", {"##length", kMetres, 0.1, 1000.0, "First and third side."}, p.length_m, theme);
+    result = more(result,
+                  number_row("Width", {"##width", kMetres, 0.1, 1000.0, "Second and fourth side."}, p.width_m, theme));
+    return more(result, number_row("Corner", {"##corner", kMetres, 0.01, 100.0, "Radius of the corners."},
+                                   p.corner_radius_m, theme));
+  }
+  Edited operator()(ManoeuvrePath& p) const {
+    Edited result = Edited::no;
+    for (std::size_t i = 0; i < p.moves.size(); ++i) {
+      ImGui::PushID(int(i));
+      const float third = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
+      result = more(result, number_field({"##f", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "Way forward."}, p.moves[i].forward_m,
+                                         third, theme));
+      ImGui::SameLine();
+      result = more(result, number_field({"##l", {"m", 1.0, 2, 0.01}, 0.0, 0.0, "Way to the left."}, p.moves[i].left_m,
+                                         third, theme));
+      ImGui::SameLine();
+      result = more(result, number_field({"##t", kDegrees, 0.0, 0.0, "Then a turn on the spot."}, p.moves[i].turn_rad,
+                                         third, theme));
+      ImGui::PopID();
+    }
+    return result;
+  }
   Edited operator()(ReplayPath& p) const {
     note("As recorded in " + p.recording, theme);
     return Edited::no;
@@ -136,10 +165,11 @@ Actions path_panel(Scenario& draft, bool& editing, const Theme& theme) {
     ImGui::SetNextItemWidth(-1.0f);
     int kind = int(draft.path.index());
     const bool replay = std::holds_alternative<ReplayPath>(draft.path);
-    if (ImGui::Combo("##kind", &kind,
-                     replay ? "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0Replay\0"
-                            : "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0") &&
-        kind < 6) {
+    if (ImGui::Combo(
+            "##kind", &kind,
+            replay ? "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0Rectangle\0Manoeuvres\0Replay\0"
+                   : "Square\0Straight\0Figure-eight\0Waypoints\0Wheel speeds\0By hand\0Rectangle\0Manoeuvres\0") &&
+        kind < 8) {
       draft.path = default_path(kind);
       if (kind != 0) draft.benchmark.reset();
       result = Edited::done;

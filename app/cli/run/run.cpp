@@ -88,8 +88,11 @@ Result<Judgement> judge(const Scenario& scenario, const RunOutputs& out, const s
 }
 
 std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
-  const auto& nominal = std::get<DifferentialDrive>(scenario.vehicle.kind);
   const ActualDrive& actual = scenario.actual;
+  if (!std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind))
+    return {{"kind", kind_name(scenario.vehicle), scenario.machine.lengths ? "with lengths of its own" : "as drawn"},
+            {"mass_kg", "", text_of("%.4g", actual.mass_kg)}};
+  const auto& nominal = std::get<DifferentialDrive>(scenario.vehicle.kind);
   const auto row = [](const char* name, double believed, double real) {
     return std::vector<std::string>{name, text_of("%.7g", believed), text_of("%.7g", real)};
   };

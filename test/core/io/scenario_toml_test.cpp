@@ -106,8 +106,8 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
             "s.toml:15: found the key 'radius_m', expected a known key: x_m, y_m, direction_rad, length_m, height_m, "
             "under or round");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "\"square\"", "\"circle\"")),
-            "s.toml:23: kind: found 'circle', expected square, straight, figure_eight, waypoints, wheel_speeds, hand "
-            "or replay");
+            "s.toml:23: kind: found 'circle', expected square, straight, figure_eight, waypoints, wheel_speeds, hand, "
+            "rectangle, manoeuvres or replay");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "inside_wheel", "outside_wheel")),
             "s.toml:16: under: found 'outside_wheel', expected any_wheel, left_wheel, right_wheel or inside_wheel");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "0.010", "0.2")),
@@ -140,7 +140,8 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
 
 TEST(ScenarioToml, AnEffectThatIsMisspeltIsNamedWithTheNearest) {
   Scene scene;
-  const std::string good = "seed = 1\n[[effect]]\neffect = \"wheel_eccentricity\"\ncomponent = \"left_wheel\"\namplitude = 0.01\n";
+  const std::string good =
+      "seed = 1\n[[effect]]\neffect = \"wheel_eccentricity\"\ncomponent = \"left_wheel\"\namplitude = 0.01\n";
   ASSERT_TRUE(scene.read(good).ok());
   EXPECT_EQ(scene.complaint(replaced(good, "eccentricity", "excentricity")),
             "s.toml:3: effect: found 'wheel_excentricity', expected a known word; the nearest is 'wheel_eccentricity'");
@@ -150,8 +151,10 @@ TEST(ScenarioToml, AnEffectThatIsMisspeltIsNamedWithTheNearest) {
             "s.toml:5: found the key 'amplitud', expected a known key; the nearest is 'amplitude'");
   EXPECT_EQ(scene.complaint(replaced(good, "amplitude = 0.01", "phase_rad = 1")),
             "s.toml:2: found no key 'amplitude', expected it to be given");
-  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "0.7")), "s.toml:5: effect[1].amplitude: found 0.7, expected 0 to 0.5");
-  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "\"much\"")), "s.toml:5: amplitude: found 'much', expected a number");
+  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "0.7")),
+            "s.toml:5: effect[1].amplitude: found 0.7, expected 0 to 0.5");
+  EXPECT_EQ(scene.complaint(replaced(good, "0.01", "\"much\"")),
+            "s.toml:5: amplitude: found 'much', expected a number");
   EXPECT_EQ(scene.complaint("[sensors]\nrecord_encoders = false\n"),
             "s.toml:2: sensors.record_encoders: found 0, expected true, or else record_commands = true");
 }
@@ -191,7 +194,8 @@ Scenario full_scenario() {
   s.start = {0.1, -0.2, 0.3};
   s.driving = {0.21, 1.1, 0.22, 1.2};
   s.sensors = {0.025, 0.015, 0.002, 0.007, false, false, true};
-  s.effects = {{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.01}, {"phase_rad", 1.0 / 3.0}}}, {"truth_frozen", "truth", {}}};
+  s.effects = {{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.01}, {"phase_rad", 1.0 / 3.0}}},
+               {"truth_frozen", "truth", {}}};
   s.expectations = {{"a", 1.0, std::nullopt}, {"b", std::nullopt, 2.0}, {"c", -1.0, 1.0}};
   s.step_s = 0.002;
   s.seed = 9223372036854775807ULL;
@@ -243,8 +247,38 @@ INSTANTIATE_TEST_SUITE_P(AllKinds, ScenarioTomlPaths,
                          testing::Values(Path(SquarePath{3.9, true}), Path(StraightPath{7.0, true}),
                                          Path(FigureEightPath{0.7, 3}), Path(WaypointPath{{{1, 2}, {3.5, -4}}}),
                                          Path(WheelSpeedPath{{{1.0, 2.0, 3.0}, {4.0, -5.0, 6.0}}, 0.25}),
-                                         Path(HandPath{12.0}),
+                                         Path(HandPath{12.0}), Path(RectanglePath{6.0, 3.0, 0.4, true}),
+                                         Path(ManoeuvrePath{{{1.0, 0.0, 0.5}, {-2.0, 0.0, 0.0}}}),
                                          Path(ReplayPath{"runs/one.csv", ReplayPath::By::commands})));
+
+TEST(ScenarioToml, ActualLengthsOfLinkedTrucksStandInATableOfTheirKind) {
+  ScratchFolder folder;
+  Scenario scenario;
+  Clapper trucks;
+  scenario.vehicle.kind = trucks;
+  trucks.truck_b.wheel_radius_left_m = 0.0751;
+  trucks.link_length_offset_m = 0.002;
+  scenario.machine.lengths = trucks;
+  scenario.machine.link.length_eccentricity_m = 0.0005;
+  scenario.path = ManoeuvrePath{{{0.0, 1.0, 0.0}}};
+  const std::string first = folder.path("first.toml"), second = folder.path("second.toml");
+  ASSERT_TRUE(write_scenario(first, scenario).ok());
+  const Result<Scenario> back = read_scenario(first);
+  ASSERT_TRUE(back.ok()) << back.error().message();
+  ASSERT_TRUE(write_scenario(second, *back).ok());
+  EXPECT_EQ(text_of(first), text_of(second));
+  EXPECT_EQ(true_lengths<Clapper>(back->machine, back->vehicle).truck_b.wheel_radius_left_m, 0.0751);
+  EXPECT_EQ(true_lengths<Clapper>(back->machine, back->vehicle).link_length_offset_m, 0.002);
+  EXPECT_EQ(std::get<Clapper>(back->vehicle.kind).link_length_offset_m, 0.0);
+  EXPECT_EQ(back->machine.link.length_eccentricity_m, 0.0005);
+}
+
+TEST(ScenarioToml, OnlyVehiclesThatCanMoveSidewaysAreToldTo) {
+  Scene scene;
+  EXPECT_EQ(scene.complaint("vehicle = \"vehicles/labmate.toml\"\n[path]\nkind = \"manoeuvres\"\n"
+                            "[[path.move]]\nleft_m = 1\n"),
+            "s.toml:5: path.move[1].left_m: found 1, expected 0 for a vehicle that cannot move sideways");
+}
 
 TEST(ScenarioToml, NamesItsVehicleFileWhereThereIsOne) {
   ScratchFolder folder;

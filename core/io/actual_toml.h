@@ -1,0 +1,16 @@
+// The [actual] table of a scenario: how the machine itself differs from its drawing.
+#pragma once
+
+#include "core/scenario/scenario.h"
+
+namespace odolab {
+
+class TomlTable;
+class TomlText;
+
+// The nominal vehicle must be there already: its kind decides which keys may stand here, and what is absent is as it
+// says.
+void read_actual(TomlTable table, Scenario& scenario);
+void write_actual(TomlText& text, const Scenario& scenario);
+
+}  // namespace odolab

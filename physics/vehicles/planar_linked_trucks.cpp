@@ -1,0 +1,117 @@
+#include "physics/vehicles/planar_linked_trucks.h"
+
+#include "core/odometry/differential_drive.h"
+#include "physics/sensors/absolute_encoder.h"
+#include "physics/vehicles/axle_commands.h"
+
+namespace odolab {
+
+PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTrucks& nominal,
+                                       const LinkedTrucks& lengths, bool with_platform)
+    : nominal_(nominal),
+      lengths_(lengths),
+      link_(setup.scenario.machine.link),
+      step_s_(setup.scenario.step_s),
+      no_effects_({}, {}),
+      world_(step_s_),
+      phases_(setup.sensor_seed),
+      a_(world_, setup.start, nominal.truck_a, with_wheels_of(lengths.truck_a, setup.scenario.actual), setup,
+         no_effects_, 0, phases_),
+      b_(world_, setup.start * Pose{-lengths.link_length_m, 0.0, 0.0}, nominal.truck_b,
+         with_wheels_of(lengths.truck_b, setup.scenario.actual), setup, no_effects_, 1, phases_),
+      control_(nominal.link_length_m, setup.scenario.sensors.encoder_period_s),
+      believed_(setup.start) {
+  const double length_m = lengths.link_length_m;
+  if (with_platform) {
+    // A bar of the link's length and half as wide.
+    const double inertia_kgm2 = link_.platform_mass_kg * length_m * length_m * (1.0 + 0.25) / 12.0;
+    platform_ = world_.add_body({setup.start * Pose{-0.5 * length_m, 0.0, 0.0}, link_.platform_mass_kg, inertia_kgm2});
+    world_.add_pin({a_.body(), *platform_, {}, {0.5 * length_m, 0.0}});
+    world_.add_slider(
+        {*platform_, b_.body(), {-0.5 * length_m, 0.0}, {}, 0.0, link_.spring_frequency_hz, link_.damping_ratio});
+  } else {
+    world_.add_spring({a_.body(), b_.body(), {}, {}, length_m, link_.spring_frequency_hz, link_.damping_ratio});
+  }
+}
+
+void PlanarLinkedTrucks::drive(const Ground& ground, const Floor& floor, const CommandRamp& command) {
+  if (sampled_) {
+    sampled_ = false;
+    const TruckCommands commands = control_.update(command.next, readings_);
+    set_a_before_ = set_a_next_;
+    set_b_before_ = set_b_next_;
+    set_a_next_ = wheel_speeds(commands.a, a_.nominal());
+    set_b_next_ = wheel_speeds(commands.b, b_.nominal());
+  }
+  a_.axle().turn_motors(between(set_a_before_, set_a_next_, command.share));
+  b_.axle().turn_motors(between(set_b_before_, set_b_next_, command.share));
+  for (Truck* truck : {&a_, &b_}) {
+    truck->axle().before_step(ground, floor);
+    pull_downhill(world_, truck->body(), truck->mass_kg(), floor);
+  }
+  if (platform_) pull_downhill(world_, *platform_, link_.platform_mass_kg, floor);
+  world_.step();
+  a_.axle().after_step();
+  b_.axle().after_step();
+}
+
+void PlanarLinkedTrucks::push(Vec2 impulse_ns) { world_.apply_force(a_.body(), (1.0 / step_s_) * impulse_ns); }
+
+void PlanarLinkedTrucks::place_other_bodies(std::vector<Pose>& poses) const {
+  poses.resize(platform_ ? 2 : 1);
+  poses[0] = b_.pose();
+  if (platform_) poses[1] = world_.pose(*platform_);
+}
+
+std::vector<std::string> PlanarLinkedTrucks::channels() const {
+  return {"a_left_wheel_rad", "a_right_wheel_rad", "b_left_wheel_rad", "b_right_wheel_rad",
+          "link_angle_a_rad", "link_angle_b_rad",  "link_length_m"};
+}
+
+LinkReadings PlanarLinkedTrucks::read_link() const {
+  const Vec2 link = a_.pose().position() - b_.pose().position();
+  const double heading_rad = std::atan2(link.y_m, link.x_m);
+  const double angle_a_rad = a_.pose().heading_rad - heading_rad, angle_b_rad = b_.pose().heading_rad - heading_rad;
+  const double swing_m = link_.length_eccentricity_m * std::cos(angle_a_rad + link_.length_eccentricity_phase_rad);
+  LinkReadings out;
+  out.angle_a_rad =
+      wrapped(quantised(angle_a_rad + lengths_.link_angle_a_offset_rad, nominal_.link_angle_resolution_rad));
+  out.angle_b_rad =
+      wrapped(quantised(angle_b_rad + lengths_.link_angle_b_offset_rad, nominal_.link_angle_resolution_rad));
+  out.length_m = quantised(length(link) + lengths_.link_length_offset_m + swing_m, nominal_.link_length_resolution_m);
+  return out;
+}
+
+void PlanarLinkedTrucks::sample(double /*time_s*/, std::vector<double>& readings) {
+  const WheelPair a = a_.read(), b = b_.read();
+  const LinkReadings link = read_link();
+  readings = {a.left, a.right, b.left, b.right, link.angle_a_rad, link.angle_b_rad, link.length_m};
+  // The offsets that the vehicle file knows are taken off what the controller sees.
+  readings_ = {link.angle_a_rad - nominal_.link_angle_a_offset_rad, link.angle_b_rad - nominal_.link_angle_b_offset_rad,
+               link.length_m - nominal_.link_length_offset_m};
+  if (read_a_) believed_ = dead_reckoned(believed_, a.left - read_a_->left, a.right - read_a_->right, nominal_.truck_a);
+  read_a_ = a;
+  sampled_ = true;
+}
+
+Pose PlanarLinkedTrucks::believed_driven_point() const {
+  const Pose link{believed_.x_m, believed_.y_m, believed_.heading_rad - readings_.angle_a_rad};
+  return link * Pose{-0.5 * nominal_.link_length_m, 0.0, 0.0};
+}
+
+namespace {
+
+template <typename Kind>
+std::unique_ptr<PlanarVehicle> make(const VehicleSetup& setup, bool with_platform) {
+  const auto* nominal = std::get_if<Kind>(&setup.scenario.vehicle.kind);
+  if (!nominal) return nullptr;
+  const Kind& lengths = true_lengths<Kind>(setup.scenario.machine, setup.scenario.vehicle);
+  return std::make_unique<PlanarLinkedTrucks>(setup, *nominal, lengths, with_platform);
+}
+
+}  // namespace
+
+std::unique_ptr<PlanarVehicle> make_clapper(const VehicleSetup& setup) { return make<Clapper>(setup, false); }
+std::unique_ptr<PlanarVehicle> make_omnimate(const VehicleSetup& setup) { return make<OmniMate>(setup, true); }
+
+}  // namespace odolab
