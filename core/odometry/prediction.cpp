@@ -1,6 +1,11 @@
 #include "core/odometry/prediction.h"
 
+#include "core/odometry/cast.h"
 #include "core/odometry/differential_drive.h"
+#include "core/odometry/encoder_trailer.h"
+#include "core/odometry/ipec.h"
+#include "core/odometry/synchro_drive.h"
+#include "core/recording/vehicle_samples.h"
 
 namespace odolab {
 
@@ -19,18 +24,45 @@ Track through(const Track& track, double start_s, const Pose& start) {
   return moved;
 }
 
+// The encoders' own track, from the origin; empty where the recording lacks them.
+struct ReckonedTrack {
+  const Recording& recording;
+
+  Track operator()(const DifferentialDrive& drive) const {
+    return dead_reckoned(wheel_samples(recording, drive), drive, Pose{});
+  }
+  Track operator()(const Tracked& vehicle) const { return (*this)(as_differential_drive(vehicle)); }
+  Track operator()(const SynchroDrive& drive) const {
+    return synchro_reckoned(synchro_samples(recording), drive, Pose{});
+  }
+  Track operator()(const LinkedTrucks& vehicle) const {
+    return track_of_truck_a(ipec(linked_samples(recording), vehicle, Pose{}));
+  }
+  Track operator()(const EncoderTrailer& vehicle) const {
+    return trailer_reckoned(trailer_samples(recording), vehicle, Pose{});
+  }
+  Track operator()(const SmartEncoderTrailer& vehicle) const {
+    return track_of_truck_a(ipec(trailer_samples(recording), vehicle, Pose{}));
+  }
+  Track operator()(const MultiCastor& vehicle) const {
+    return castor_track(castor_samples(recording, vehicle.castors.size()), vehicle, Pose{});
+  }
+};
+
 }  // namespace
 
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle) {
-  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  if (const auto other = other_than_differential_drive(vehicle, "has a prediction")) return *other;
-  const std::vector<WheelSample> wheels = wheel_samples(recording, *drive);
-  const std::vector<CommandSample> commands = command_samples(recording);
-  if (wheels.empty() && commands.empty())
-    return Error{recording.name, "no wheel rotation and no commands",
-                 "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks, or command_speed_mps and "
-                 "command_yaw_rate_radps"};
-  Track axle = wheels.empty() ? dead_reckoned(commands, Pose{}) : dead_reckoned(wheels, *drive, Pose{});
+  Track axle = std::visit(ReckonedTrack{recording}, vehicle.kind);
+  if (axle.empty()) axle = dead_reckoned(command_samples(recording), Pose{});
+  if (axle.empty()) {
+    if (std::holds_alternative<DifferentialDrive>(vehicle.kind) || std::holds_alternative<Tracked>(vehicle.kind))
+      return Error{recording.name, "no wheel rotation and no commands",
+                   "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks, or command_speed_mps and "
+                   "command_yaw_rate_radps"};
+    const std::string missing = missing_columns(recording, vehicle);
+    return Error{recording.name, missing.empty() ? "no row in which all encoders can be told" : "no " + missing,
+                 "the encoders of a " + kind_name(vehicle) + ", or commands"};
+  }
 
   const Pose& mounting = vehicle.truth.axle_T_tracked;
   const std::vector<TruthSample> truth = truth_samples(recording);

@@ -47,6 +47,20 @@ std::vector<Sample> samples_of(const AlignedRows& rows, const Make& make) {
   return samples;
 }
 
+// The inverse: a channel for each of the values that `values(sample)` gives.
+template <typename Sample, typename Values>
+Recording recording_by(const std::vector<Sample>& samples, const std::vector<AlignedChannel>& channels,
+                       const Values& values) {
+  Recording recording;
+  for (const Sample& sample : samples) recording.time_s.push_back(sample.time_s);
+  for (const AlignedChannel& channel : channels) recording.add_channel(channel.name);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::vector<double> row = values(samples[i]);
+    for (std::size_t k = 0; k < channels.size(); ++k) recording.channels[k].values[i] = row[k];
+  }
+  return recording;
+}
+
 }  // namespace
 
 std::vector<SynchroSample> synchro_samples(const Recording& recording) {
@@ -78,6 +92,36 @@ std::vector<CastorSample> castor_samples(const Recording& recording, std::size_t
                                       sample.castors.push_back({{v[3 * i], v[3 * i + 1]}, v[3 * i + 2]});
                                     return sample;
                                   });
+}
+
+Recording recording_of(const std::vector<SynchroSample>& samples) {
+  return recording_by(samples, synchro_channels(), [](const SynchroSample& s) {
+    return std::vector<double>{s.wheel_rad, s.steering_rad};
+  });
+}
+
+Recording recording_of(const std::vector<LinkedSample>& samples) {
+  return recording_by(samples, linked_channels(), [](const LinkedSample& s) {
+    return std::vector<double>{s.a.left_rad,       s.a.right_rad,      s.b.left_rad,   s.b.right_rad,
+                               s.link_angle_a_rad, s.link_angle_b_rad, s.link_length_m};
+  });
+}
+
+Recording recording_of(const std::vector<TrailerSample>& samples) {
+  return recording_by(samples, trailer_channels(), [](const TrailerSample& s) {
+    return std::vector<double>{s.tow.left_rad, s.tow.right_rad, s.trailer.left_rad, s.trailer.right_rad,
+                               s.hitch_angle_rad};
+  });
+}
+
+Recording recording_of(const std::vector<CastorSample>& samples) {
+  const std::size_t castors = samples.empty() ? 0 : samples.front().castors.size();
+  return recording_by(samples, castor_channels(castors), [](const CastorSample& s) {
+    std::vector<double> values;
+    for (const CastorReading& c : s.castors)
+      for (double v : {c.wheels.left_rad, c.wheels.right_rad, c.pivot_rad}) values.push_back(v);
+    return values;
+  });
 }
 
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle) {

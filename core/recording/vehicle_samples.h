@@ -55,6 +55,12 @@ struct CastorSample {
 };
 std::vector<CastorSample> castor_samples(const Recording& recording, std::size_t castors);
 
+// The other way: a recording that holds these samples and nothing else.
+Recording recording_of(const std::vector<SynchroSample>& samples);
+Recording recording_of(const std::vector<LinkedSample>& samples);
+Recording recording_of(const std::vector<TrailerSample>& samples);
+Recording recording_of(const std::vector<CastorSample>& samples);
+
 // The columns that an encoder-based estimate of such a vehicle needs and this recording lacks, e.g. "link_angle_a_rad,
 // link_length_m"; empty where nothing is missing.
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle);
