@@ -96,7 +96,8 @@ struct Diagnosis {
   LeastSquaresCalibration calibration;        // together with the findings: what predicts with them
   LeastSquaresCalibration calibration_alone;  // as if nothing were missing: what the findings are held against
   std::optional<Vehicle> fitted_vehicle;      // of `calibration`, unset where no model could be fitted
-  std::vector<std::pair<std::string, double>> truth_clock_s;  // the offset of the truth's clock in each recording fitted on
+  std::vector<std::pair<std::string, double>>
+      truth_clock_s;              // the offset of the truth's clock in each recording fitted on
   std::vector<Finding> findings;  // strongest first; data faults (truth_frozen, encoder_data_fault) among them
   FitTable train, held_out;
   bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others

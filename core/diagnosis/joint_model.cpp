@@ -305,7 +305,8 @@ VectorXd JointModel::inflation_of_columns() const {
   }
   VectorXd inflation = VectorXd::Ones(q);
   for (int c = 0; c < q; ++c)
-    if (info(c) > 0.0 && square(c) > 0.0) inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
+    if (info(c) > 0.0 && square(c) > 0.0)
+      inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
   return inflation;
 }
 

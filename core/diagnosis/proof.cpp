@@ -23,7 +23,7 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal, int run) {
 
 // Chi-square per innovation of other runs under a model that is frozen but for their clocks.
 JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
-                   const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
+                  const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
   LeastSquaresCalibration start = d.calibration_alone;
   start.vehicle = vehicle_of(source, nominal, -1);
   start.noise = noise;

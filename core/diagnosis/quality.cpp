@@ -74,13 +74,19 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
     return static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(it - wheels.begin(), static_cast<std::ptrdiff_t>(wheels.size()) - 1));
   };
+  // Of a truth that is rounded, poses within one step of it are the same.
+  double step_m = 0.01;
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    if (const double by = std::abs(truth[i].position.x_m - truth[i - 1].position.x_m); by > 0.0)
+      step_m = std::min(step_m, by);
+  const double least_rolled_m = std::max(0.005, 2.0 * step_m);
   DataFault frozen{"truth_frozen", "truth", recording.name, {}, ""};
   for (std::size_t i = 0; i < truth.size();) {
     std::size_t j = i + 1;
     while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
            truth[j].position.y_m == truth[i].position.y_m && truth[j].heading_rad == truth[i].heading_rad)
       ++j;
-    if (j - i >= 3 && rolled[at(truth[j - 1].time_s)] - rolled[at(truth[i].time_s)] > 0.02)
+    if (j - i >= 3 && rolled[at(truth[j - 1].time_s)] - rolled[at(truth[i].time_s)] > least_rolled_m)
       frozen.time_s.push_back({truth[i].time_s, truth[j - 1].time_s});
     i = j;
   }
@@ -147,6 +153,23 @@ CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
           fault.time_s.push_back({wheels[i].time_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
       }
       i = j > i ? j : i + 1;
+    }
+    // Readings that hold and then catch up at once: no wheel does that, whatever the truth says.
+    double count_rad = 1e9;
+    for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
+      if (const double by = std::abs(rad(i + 1) - rad(i)); by > 0.0) count_rad = std::min(count_rad, by);
+    for (std::size_t i = 5; i + 1 < wheels.size();) {
+      std::size_t j = i;
+      while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
+      if (j >= i + 3 && j + 1 < wheels.size()) {
+        const std::size_t end = std::min(j + 6, wheels.size() - 1);
+        const double before = (rad(i) - rad(i - 5)) / 5.0, next = rad(j + 1) - rad(j),
+                     after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
+        if (std::abs(next) > 5.0 * count_rad && std::abs(next) > 3.0 * std::max(std::abs(before), std::abs(after)) &&
+            wheels[j + 1].time_s - wheels[j].time_s < 0.5)
+          fault.time_s.push_back({wheels[i].time_s, wheels[j + 1].time_s});
+      }
+      i = j + 1;
     }
     // Steps: five times faster than all but the fastest thousandth, and two centimetres at least.
     std::vector<double> rates;

@@ -13,6 +13,8 @@ constexpr int kMostEffects = 4;
 // A form is never quite that of the world: what is left of a strong effect is not another one.
 constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 
+double least_share(const Effect& effect) { return effect.local ? kLeastShareOfEvents : kLeastShare; }
+
 double quantile(std::vector<double> v, double share) {
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
   std::nth_element(v.begin(), v.begin() + k, v.end());
@@ -181,14 +183,18 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
 
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
   Selected out;
-  double share = 0.3, explained = 0.0;
+  double share = 0.3;
   for (int step = 0; step < kMostEffects; ++step) {
+    double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
+    for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+      explained += joint.test(joint.columns_of(*joint.accepted[k].effect, joint.accepted[k].shape), static_cast<int>(k))
+                       .statistic;
     std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
     if (step == 0) out.first_look = scored;
     std::vector<const ScoredCandidate*> standing;
     for (const ScoredCandidate& c : scored)
       if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
-          c.test.statistic > explained * (c.effect->local ? kLeastShareOfEvents : kLeastShare))
+          c.test.statistic > explained * least_share(*c.effect))
         standing.push_back(&c);
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
@@ -200,12 +206,22 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       let_in(joint, *standing[tried]);
       accepted = is_material(before.gathered_error(), joint.gathered_error(), correlated) &&
                  joint.minus_two_log_likelihood() < before.minus_two_log_likelihood() - 8.0;
-      if (accepted)
-        explained += standing[tried]->test.statistic;
-      else
-        joint = before;
+      if (!accepted) joint = before;
     }
     if (!accepted) break;
+    // Its place and time were found under the noise that it made itself.
+    for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+      AcceptedEffect& a = joint.accepted[k];
+      if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
+      const double now = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+      const ScoredCandidate again = best_of(joint, *a.effect, static_cast<int>(k), 1);
+      if (again.test.statistic < now + 1.0) continue;
+      a.shape = again.test.shape;
+      a.value = again.test.value;
+      joint.fit(2);
+      joint.fit_noise();
+      joint.fit(2);
+    }
     if (!goes_on(progress, share += 0.08)) return out;
     // A name may have been the best only while another was missing.
     if (joint.accepted.size() > 1)
@@ -225,12 +241,23 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       }
   }
   // Backward, and what else could have been said in the place of each.
+  const auto share_of = [&](std::size_t k) {
+    double all = 0.0, own = 0.0;
+    for (std::size_t j = 0; j < joint.accepted.size(); ++j) {
+      const double t =
+          joint.test(joint.columns_of(*joint.accepted[j].effect, joint.accepted[j].shape), static_cast<int>(j))
+              .statistic;
+      all += t;
+      if (j == k) own = t;
+    }
+    return all > 0.0 ? own / all : 1.0;
+  };
   for (std::size_t k = 0; k < joint.accepted.size();) {
     std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
-    if (!own.effect || !stands(own, family_wise_error)) {
+    if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least_share(*joint.accepted[k].effect)) {
       // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
       JointModel without = joint;
       without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
@@ -238,7 +265,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       without.fit_noise();
       without.fit(2);
       const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
-      const bool needed = lost > 100.0 && is_material(without.gathered_error(), joint.gathered_error(), true);
+      const bool needed = lost > 100.0 && share_of(k) > least_share(*joint.accepted[k].effect) &&
+                          is_material(without.gathered_error(), joint.gathered_error(), true);
       if (!needed) {
         joint = without;
         out.evidence.clear();
