@@ -42,10 +42,11 @@ std::int64_t steps_in(double period_s, double step_s) {
 }  // namespace
 
 struct Simulation::Parts {
-  Parts(const Scenario& given, std::uint64_t seed, std::shared_ptr<const Recording> recorded)
+  Parts(const Scenario& given, std::uint64_t seed, std::shared_ptr<const Recording> recorded,
+        const std::vector<std::shared_ptr<planar::Effect>>& own)
       : scenario(given),
         replayed(std::move(recorded)),
-        effects(scenario.effects, {scenario.actual, scenario.step_s}),
+        effects(scenario.effects, {scenario.actual, scenario.step_s}, own),
         mounting(effects.mounted(scenario.vehicle.truth)),
         floor_seed(seed_of_stream(seed, kFloorStream)),
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
@@ -256,8 +257,9 @@ struct Simulation::Parts {
   Pose measured_start, measured_end;
 };
 
-Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed)
-    : parts_(std::make_unique<Parts>(scenario, seed, std::move(replayed))) {}
+Simulation::Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed,
+                       const std::vector<std::shared_ptr<planar::Effect>>& own)
+    : parts_(std::make_unique<Parts>(scenario, seed, std::move(replayed), own)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

@@ -13,6 +13,10 @@
 
 namespace odolab {
 
+namespace planar {
+class Effect;
+}
+
 struct SimulationState {
   double time_s = 0.0;  // since the start; in a replay on the recording's clock
   Pose true_pose;       // of the point that the truth measures: the axle's centre, truck A's, the platform's
@@ -28,7 +32,9 @@ struct SimulationState {
 class Simulation {
  public:
   // The scenario has no problems (problems_in). `replayed` is the recording of a ReplayPath and may be null otherwise.
-  Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed = nullptr);
+  // `own` are effects that no scenario can name, fresh for this run; they act after the scenario's.
+  Simulation(const Scenario& scenario, std::uint64_t seed, std::shared_ptr<const Recording> replayed = nullptr,
+             const std::vector<std::shared_ptr<planar::Effect>>& own = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

@@ -54,11 +54,13 @@ bool has_effect(const std::string& name) {
   return false;
 }
 
-Effects::Effects(const std::vector<ActiveEffect>& active, const Machine& machine) {
+Effects::Effects(const std::vector<ActiveEffect>& active, const Machine& machine,
+                 const std::vector<std::shared_ptr<Effect>>& own) {
   for (const ActiveEffect& effect : active)
     for (const Entry& entry : kEffects)
       if (effect.effect == entry.name) effects_.push_back(entry.make(effect, machine));
   assert(effects_.size() == active.size());
+  effects_.insert(effects_.end(), own.begin(), own.end());
 }
 
 Floor Effects::laid_on(Floor floor) const {

@@ -11,8 +11,9 @@ namespace odolab::planar {
 // Effects that share a hook act one after the other in the scenario's order.
 class Effects {
  public:
-  // The effects have no problems (problems_in).
-  Effects(const std::vector<ActiveEffect>& active, const Machine& machine);
+  // The effects have no problems (problems_in). `own` are others that no list names; they act last.
+  Effects(const std::vector<ActiveEffect>& active, const Machine& machine,
+          const std::vector<std::shared_ptr<Effect>>& own = {});
 
   bool empty() const { return effects_.empty(); }
   auto begin() const { return effects_.begin(); }
@@ -26,7 +27,7 @@ class Effects {
   double since_start_of_stamp_s(double begin_s, double stamp_s) const;
 
  private:
-  std::vector<std::unique_ptr<Effect>> effects_;
+  std::vector<std::shared_ptr<Effect>> effects_;
 };
 
 // True where the planar world has an effect of this name.

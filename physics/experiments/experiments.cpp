@@ -7,12 +7,14 @@ namespace odolab {
 Experiment umbmark_one_direction();
 Experiment umbmark_table3();
 Experiment self_calibration();
+Experiment concealed_physics();
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> list = {
       umbmark_one_direction(),
       umbmark_table3(),
       self_calibration(),
+      concealed_physics(),
   };
   return list;
 }

@@ -1,0 +1,58 @@
+// Drawn cases of `odolab reproduce concealed`, one line each, for whoever looks for failures.
+//
+//   concealed_cases SEED FIRST LAST [kind=nothing|one|two|outside] [level=strong|medium|weak] [squares=0|1]
+//                   [effects=NAME,NAME] [write=FOLDER]
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "core/base/parallel.h"
+#include "physics/experiments/concealed/judged.h"
+
+using namespace odolab;
+using namespace odolab::concealed;
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr,
+                 "concealed_cases SEED FIRST LAST [kind=one] [level=weak] [squares=1] [effects=a,b] [write=FOLDER]\n");
+    return 2;
+  }
+  const auto seed = static_cast<std::uint64_t>(std::atoll(argv[1]));
+  const int first = std::atoi(argv[2]), last = std::atoi(argv[3]);
+  Wish wish;
+  std::string folder;
+  for (int i = 4; i < argc; ++i) {
+    const std::string word = argv[i], value = word.substr(word.find('=') + 1), key = word.substr(0, word.find('='));
+    if (key == "kind")
+      wish.kind = value == "nothing" ? Kind::nothing
+                  : value == "one"   ? Kind::one
+                  : value == "two"   ? Kind::two
+                                     : Kind::outside;
+    if (key == "level")
+      wish.level = value == "strong" ? Level::strong : value == "medium" ? Level::medium : Level::weak;
+    if (key == "squares") wish.poor = value == "1";
+    if (key == "effects")
+      for (std::size_t at = 0; at <= value.size();) {
+        const std::size_t end = std::min(value.find(',', at), value.size());
+        wish.effects.push_back(value.substr(at, end - at));
+        at = end + 1;
+      }
+    if (key == "write") folder = value;
+  }
+  std::vector<std::string> lines(static_cast<std::size_t>(last - first));
+  parallel_for(
+      last - first,
+      [&](int i) {
+        const DrawnCase drawn = drawn_case(seed, first + i, wish);
+        lines[static_cast<std::size_t>(i)] = judged(drawn).line();
+        if (!folder.empty())
+          if (const Result<Done> written = write_case(drawn, folder + "/case_" + std::to_string(first + i)); !written)
+            lines[static_cast<std::size_t>(i)] += " " + written.error().message();
+      },
+      [&](int i) {
+        std::printf("%s\n", lines[static_cast<std::size_t>(i)].c_str());
+        std::fflush(stdout);
+      });
+  return 0;
+}
