@@ -51,7 +51,7 @@ RunPlan plan_of(const DrawnCase& c, const DrawnDrive& drive, int number) {
   RunPlan plan;
   plan.robot = c.robot;
   plan.drive = drive;
-  plan.seed = seed_of_stream(c.seed, 1000 + static_cast<std::uint64_t>(number));
+  plan.seed = seed_of_stream(c.seed, 1000 + static_cast<std::uint64_t>(number)) >> 1;  // as large as a file can say
   for (const DrawnEffect& e : c.effects)
     if (e.only_in_run < 0 || e.only_in_run == number) plan.effects.push_back(e);
   return plan;

@@ -27,6 +27,7 @@ bool contains(const std::vector<std::string>& list, const std::string& one) {
 void judge_names(Judged& j, const Diagnosis& d) {
   for (const Finding& f : d.findings) {
     j.found.push_back(label(f.effect, f.component));
+    if (j.found.size() == 1) j.regime = f.where.regime;
     if (j.found.size() == 1)
       for (const Alternative& a : f.alternatives) j.listed.push_back(label(a.effect, a.component));
     if (f.effect != "unknown" && f.alternatives.empty() && !contains(j.truth, j.found.back())) j.wrong_alone = true;
@@ -166,6 +167,7 @@ std::string Judged::line() const {
   text += kind == Kind::nothing ? "" : std::string(name_of(level)) + " ";
   text +=
       (poor ? "squares " : "") + joined(truth) + " -> " + kVerdicts[static_cast<int>(verdict)] + " " + joined(found);
+  if (verdict == Verdict::unknown_effect) text += " (" + regime + ")";
   if (!listed.empty()) text += " or " + joined(listed);
   text += number_text(" | mm %.2f", 1e3 * std::sqrt(calibrated_m2)) +
           number_text(" %.2f", 1e3 * std::sqrt(with_findings_m2)) +

@@ -34,7 +34,8 @@ struct Judged {
   bool poor = false;
   std::vector<std::string> truth;   // "wheel_eccentricity.left_wheel"; wheels only where it is one of the two
   std::vector<std::string> found;   // the findings in their order; "unknown" where that is what was said
-  std::vector<std::string> listed;  // their alternatives
+  std::vector<std::string> listed;  // alternatives of the first
+  std::string regime;               // where the first acts, in its own words
   Verdict verdict = Verdict::cannot_say;
   std::vector<double> significance;
   Concealment concealed;
