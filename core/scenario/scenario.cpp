@@ -12,7 +12,8 @@ constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
 
 bool is_driven_by_the_simulator(const VehicleKind& kind) {
   return std::holds_alternative<DifferentialDrive>(kind) || std::holds_alternative<Clapper>(kind) ||
-         std::holds_alternative<OmniMate>(kind);
+         std::holds_alternative<OmniMate>(kind) || std::holds_alternative<SmartEncoderTrailer>(kind) ||
+         std::holds_alternative<MultiCastor>(kind);
 }
 }  // namespace
 

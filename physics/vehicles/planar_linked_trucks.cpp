@@ -1,6 +1,5 @@
 #include "physics/vehicles/planar_linked_trucks.h"
 
-#include "core/odometry/differential_drive.h"
 #include "physics/sensors/absolute_encoder.h"
 #include "physics/vehicles/axle_commands.h"
 
@@ -20,7 +19,8 @@ PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTr
       b_(world_, setup.start * Pose{-lengths.link_length_m, 0.0, 0.0}, nominal.truck_b,
          with_wheels_of(lengths.truck_b, setup.scenario.actual), setup, no_effects_, 1, phases_),
       control_(nominal.link_length_m, setup.scenario.sensors.encoder_period_s),
-      believed_(setup.start) {
+      belief_({nominal.truck_a, nominal.truck_b, nominal.link_angle_resolution_rad, nominal.link_angle_resolution_rad},
+              setup.start, setup.scenario.driving.internal_correction) {
   const double length_m = lengths.link_length_m;
   if (with_platform) {
     // A bar of the link's length and half as wide.
@@ -82,21 +82,16 @@ LinkReadings PlanarLinkedTrucks::read_link() const {
   return out;
 }
 
-void PlanarLinkedTrucks::sample(double /*time_s*/, std::vector<double>& readings) {
+void PlanarLinkedTrucks::sample(double time_s, std::vector<double>& readings) {
   const WheelPair a = a_.read(), b = b_.read();
   const LinkReadings link = read_link();
   readings = {a.left, a.right, b.left, b.right, link.angle_a_rad, link.angle_b_rad, link.length_m};
   // The offsets that the vehicle file knows are taken off what the controller sees.
   readings_ = {link.angle_a_rad - nominal_.link_angle_a_offset_rad, link.angle_b_rad - nominal_.link_angle_b_offset_rad,
                link.length_m - nominal_.link_length_offset_m};
-  if (read_a_) believed_ = dead_reckoned(believed_, a.left - read_a_->left, a.right - read_a_->right, nominal_.truck_a);
-  read_a_ = a;
+  belief_.advance(
+      {time_s, {a.left, a.right}, {b.left, b.right}, readings_.angle_a_rad, readings_.angle_b_rad, readings_.length_m});
   sampled_ = true;
-}
-
-Pose PlanarLinkedTrucks::believed_driven_point() const {
-  const Pose link{believed_.x_m, believed_.y_m, believed_.heading_rad - readings_.angle_a_rad};
-  return link * Pose{-0.5 * nominal_.link_length_m, 0.0, 0.0};
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/vehicle/linked_trucks.h"
 #include "physics/driver/linked_trucks_control.h"
+#include "physics/vehicles/linked_belief.h"
 #include "physics/vehicles/planar_vehicle.h"
 #include "physics/vehicles/truck.h"
 
@@ -29,8 +30,8 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
 
   std::vector<std::string> channels() const override;
   void sample(double time_s, std::vector<double>& readings) override;
-  Pose believed() const override { return believed_; }
-  Pose believed_driven_point() const override;
+  Pose believed() const override { return belief_.truck_a(); }
+  Pose believed_driven_point() const override { return belief_.link_centre(nominal_.link_length_m); }
 
  private:
   LinkReadings read_link() const;
@@ -44,11 +45,10 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   Truck a_, b_;
   std::optional<int> platform_;
   LinkedTrucksControl control_;
-  LinkReadings readings_;            // last
-  std::optional<WheelPair> read_a_;  // last
-  bool sampled_ = false;             // since the last command
+  LinkReadings readings_;  // last
+  bool sampled_ = false;   // since the last command
   WheelPair set_a_before_, set_a_next_, set_b_before_, set_b_next_;
-  Pose believed_;
+  LinkedBelief belief_;
 };
 
 }  // namespace odolab

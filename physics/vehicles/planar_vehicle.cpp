@@ -5,7 +5,11 @@
 namespace odolab {
 
 // Every kind: its file defines the function that makes it, null where the scenario's vehicle is of another kind.
-#define ODOLAB_EACH_VEHICLE(X) X(differential_drive) X(clapper) X(omnimate)
+#define ODOLAB_EACH_VEHICLE(X) \
+  X(differential_drive)        \
+  X(clapper)                   \
+  X(omnimate)                  \
+  X(smart_encoder_trailer)
 
 #define ODOLAB_DECLARE(kind) std::unique_ptr<PlanarVehicle> make_##kind(const VehicleSetup&);
 ODOLAB_EACH_VEHICLE(ODOLAB_DECLARE)

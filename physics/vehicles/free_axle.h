@@ -1,0 +1,44 @@
+// Two wheels on one axle line of a body that roll freely and only count.
+#pragma once
+
+#include <array>
+
+#include "core/vehicle/differential_drive.h"
+#include "physics/ground.h"
+#include "physics/planar_world.h"
+#include "physics/sensors/encoder.h"
+#include "physics/wheel_pair.h"
+
+namespace odolab {
+
+class Random;
+
+// The axle lies across the body's origin. It holds the body sideways, whatever the force (see PlanarWorld).
+class FreeAxle {
+ public:
+  // `actual` are the true wheels, `counts_per_turn` the encoders'; the number tells its roughness from other axles'.
+  FreeAxle(PlanarWorld& world, int body, const DifferentialDrive& actual, double counts_per_turn, int number,
+           Random& phases);
+
+  void before_step();
+  void after_step(const Ground& ground);  // a wheel turns by what it travelled, and on a bump by more
+  WheelPair read() const;
+
+ private:
+  struct Wheel {
+    Side side;
+    Vec2 place;
+    double radius_m;
+    Encoder encoder;
+    double rotation_rad = 0.0;
+    double travelled_m = 0.0;
+  };
+
+  PlanarWorld* world_;
+  int body_;
+  int number_;
+  Pose before_;
+  std::array<Wheel, 2> wheels_;
+};
+
+}  // namespace odolab
