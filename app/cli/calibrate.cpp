@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "app/cli/command.h"
+#include "app/cli/internal_calibration.h"
 #include "app/cli/terminal.h"
+#include "core/calibration/internal.h"
 #include "core/calibration/least_squares.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
@@ -81,7 +83,10 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
 int execute(const CalibrateOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
-  if (const auto other = other_than_differential_drive(*nominal, "can be calibrated")) return bad_input(*other);
+  const bool from_inside = can_calibrate_internally(*nominal);
+  if (!from_inside)
+    if (const auto other = other_than_differential_drive(*nominal, "can be calibrated against a truth"))
+      return bad_input(*other);
   std::vector<Recording> recordings;
   for (const std::string& path : options.recordings) {
     Result<ImportedRecording> loaded = load_recording(path);
@@ -90,7 +95,7 @@ int execute(const CalibrateOptions& options) {
     recordings.push_back(std::move(loaded->recording));
   }
   for (std::size_t i = 0; i < recordings.size(); ++i)
-    if (wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() &&
+    if (!from_inside && wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() &&
         !command_samples(recordings[i]).empty())
       return bad_input({options.recordings[i], "commands alone",
                         "wheel rotation: how a base follows its commands is not calibrated yet"});
@@ -98,6 +103,7 @@ int execute(const CalibrateOptions& options) {
     for (std::size_t k = 0; k < i; ++k)
       if (same_run(recordings[i], recordings[k]))
         return bad_input({options.recordings[i], "the same run as in " + options.recordings[k], "each run once"});
+  if (from_inside) return calibrate_from_inside(recordings, *nominal, options.out);
   const Result<LeastSquaresCalibration> calibration =
       calibrate_least_squares(recordings, *nominal, {}, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());
