@@ -295,7 +295,10 @@ void PlanarWorld::step() {
     const Vec2 force = turned(twice(wheel.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
     wheel.force_n = dot(force, {-std::sin(wheel.direction_rad), std::cos(wheel.direction_rad)});
   }
-  for (const Rigid& joint : solver_->rigid_joints) solver_->close_gap(joint);
+  // Joints that share a body open each other's gaps a little; a second sweep closes those.
+  const int sweeps = solver_->rigid_joints.size() > 1 ? 2 : 1;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const Rigid& joint : solver_->rigid_joints) solver_->close_gap(joint);
 }
 
 const Pose& PlanarWorld::pose(int body) const { return solver_->bodies[body].pose; }

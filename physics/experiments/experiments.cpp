@@ -7,6 +7,10 @@ namespace odolab {
 Experiment umbmark_one_direction();
 Experiment umbmark_table3();
 Experiment self_calibration();
+Experiment clapper_straight();
+Experiment clapper_rectangle();
+Experiment clapper_link_bias();
+Experiment clapper_bump();
 Experiment concealed_physics();
 
 const std::vector<Experiment>& experiments() {
@@ -14,6 +18,10 @@ const std::vector<Experiment>& experiments() {
       umbmark_one_direction(),
       umbmark_table3(),
       self_calibration(),
+      clapper_straight(),
+      clapper_rectangle(),
+      clapper_link_bias(),
+      clapper_bump(),
       concealed_physics(),
   };
   return list;

@@ -9,7 +9,8 @@ namespace odolab {
   X(differential_drive)        \
   X(clapper)                   \
   X(omnimate)                  \
-  X(smart_encoder_trailer)
+  X(smart_encoder_trailer)     \
+  X(multi_castor)
 
 #define ODOLAB_DECLARE(kind) std::unique_ptr<PlanarVehicle> make_##kind(const VehicleSetup&);
 ODOLAB_EACH_VEHICLE(ODOLAB_DECLARE)

@@ -1,0 +1,173 @@
+// A platform on active split offset castors: each castor a body of its own on two driven wheels, pinned beside its
+// axle.
+#include <memory>
+
+#include "core/base/random.h"
+#include "core/odometry/cast.h"
+#include "physics/sensors/absolute_encoder.h"
+#include "physics/sensors/encoder.h"
+#include "physics/vehicles/axle_commands.h"
+#include "physics/vehicles/driven_axle.h"
+#include "physics/vehicles/planar_vehicle.h"
+
+namespace odolab {
+
+namespace {
+
+// The wheels of a castor as an axle under an even share of the whole weight.
+ActualDrive axle_of(const Castor& castor, double carried_kg, const ActualCastors& weight) {
+  ActualDrive axle;
+  axle.wheel_radius_left_m = castor.wheel_radius_left_m;
+  axle.wheel_radius_right_m = castor.wheel_radius_right_m;
+  axle.wheelbase_m = castor.track_m();
+  axle.mass_kg = carried_kg;
+  axle.moment_of_inertia_kgm2 = weight.moment_of_inertia_kgm2;
+  axle.drive_wheel_load_share = 1.0;
+  return axle;
+}
+
+// Six wheels for three freedoms push against each other through a rigid frame. Motors that feel their wheels' traction
+// from the step before would chatter between slipping one way and the other (260 mm of slip seen on a figure-eight of
+// 12.6 m); so these turn exactly as told, like wheel servos much stiffer than the grip.
+Motor servo() {
+  Motor motor;
+  motor.ideal = true;
+  return motor;
+}
+
+// An encoder without steps counts finely enough for doubles.
+double counts_per_turn(double resolution_rad) { return resolution_rad > 0.0 ? 2.0 * kPi / resolution_rad : 1e12; }
+
+class PlanarMultiCastor final : public PlanarVehicle {
+ public:
+  PlanarMultiCastor(const VehicleSetup& setup, const MultiCastor& nominal, const MultiCastor& lengths)
+      : nominal_(nominal),
+        lengths_(lengths),
+        weight_(setup.scenario.machine.castors),
+        platform_kg_(setup.scenario.actual.mass_kg),
+        step_s_(setup.scenario.step_s),
+        no_effects_({}, {}),
+        world_(step_s_),
+        platform_(world_.add_body({setup.start, platform_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
+        believed_(setup.start) {
+    Random phases(setup.sensor_seed);
+    const double n = static_cast<double>(lengths.castors.size());
+    for (std::size_t i = 0; i < lengths.castors.size(); ++i) {
+      const Castor& castor = lengths.castors[i];
+      const Pose pivot = setup.start * Pose{castor.pivot().x_m, castor.pivot().y_m, 0.0};
+      const int body =
+          world_.add_body({pivot * Pose{-castor.offset_m, 0.0, 0.0}, weight_.mass_kg, weight_.moment_of_inertia_kgm2});
+      world_.add_pin({platform_, body, castor.pivot(), {castor.offset_m, 0.0}});
+      const Vec2 axle_centre{0.0, 0.5 * (castor.wheel_offset_left_m - castor.wheel_offset_right_m)};
+      const ActualDrive axle = axle_of(castor, platform_kg_ / n + weight_.mass_kg, weight_);
+      const double counts = counts_per_turn(nominal.wheel_encoder_resolution_rad);
+      const double left_phase = phases.uniform(), right_phase = phases.uniform();
+      castors_.push_back(
+          {body, DrivenAxle(world_, body, axle_centre, axle, servo(), step_s_, no_effects_, static_cast<int>(i)),
+           Encoder(counts, left_phase), Encoder(counts, right_phase)});
+    }
+  }
+
+  void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
+    const double u = command.share;
+    const BaseCommand& a = command.before;
+    const BaseCommand& b = command.next;
+    const Vec2 velocity{a.speed_mps + u * (b.speed_mps - a.speed_mps),
+                        a.sideways_mps + u * (b.sideways_mps - a.sideways_mps)};
+    const double rate = a.yaw_rate_radps + u * (b.yaw_rate_radps - a.yaw_rate_radps);
+    for (std::size_t i = 0; i < castors_.size(); ++i) {
+      castors_[i].axle.turn_motors(wheel_speeds_of(i, velocity, rate));
+      castors_[i].axle.before_step(ground, floor);
+      pull_downhill(world_, castors_[i].body, weight_.mass_kg, floor);
+    }
+    pull_downhill(world_, platform_, platform_kg_, floor);
+    world_.step();
+    for (DrivenCastor& castor : castors_) castor.axle.after_step();
+  }
+  void push(Vec2 impulse_ns) override { world_.apply_force(platform_, (1.0 / step_s_) * impulse_ns); }
+
+  Pose pose() const override { return world_.pose(platform_); }
+  double speed_mps() const override { return world_.velocity_of_point_mps(platform_, {}).x_m; }
+  double yaw_rate_radps() const override { return world_.yaw_rate_radps(platform_); }
+  WheelState left() const override { return castors_.front().axle.left(); }  // of the first castor
+  WheelState right() const override { return castors_.front().axle.right(); }
+  void place_other_bodies(std::vector<Pose>& poses) const override {
+    poses.resize(castors_.size());
+    for (std::size_t i = 0; i < castors_.size(); ++i) poses[i] = world_.pose(castors_[i].body);
+  }
+
+  std::vector<std::string> channels() const override {
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i <= castors_.size(); ++i)
+      for (const char* reading : {"_left_wheel_rad", "_right_wheel_rad", "_pivot_rad"})
+        names.push_back("castor" + std::to_string(i) + reading);
+    return names;
+  }
+  void sample(double time_s, std::vector<double>& readings) override {
+    readings.clear();
+    CastorSample now{time_s, {}};
+    for (std::size_t i = 0; i < castors_.size(); ++i) {
+      const DrivenCastor& castor = castors_[i];
+      const double left_rad = castor.left_encoder.reading_rad(castor.axle.left().counted_rad);
+      const double right_rad = castor.right_encoder.reading_rad(castor.axle.right().counted_rad);
+      const double pivot_rad = wrapped(quantised(pivot_rad_of(i) + lengths_.castors[i].pivot_encoder_offset_rad,
+                                                 nominal_.pivot_encoder_resolution_rad));
+      readings.insert(readings.end(), {left_rad, right_rad, pivot_rad});
+      const double unwrapped_rad = last_.castors.empty() ? pivot_rad : unwrapped(pivot_rad, last_.castors[i].pivot_rad);
+      now.castors.push_back({{left_rad, right_rad}, unwrapped_rad});
+    }
+    if (!last_.castors.empty())
+      believed_ = moved_by_pivots(
+          believed_, pivot_ways(nominal_, last_, now, believed_, HeadingRule::middle, no_one_left_out()), {});
+    last_ = now;
+  }
+  Pose believed() const override { return believed_; }
+
+ private:
+  struct DrivenCastor {
+    int body;
+    DrivenAxle axle;
+    Encoder left_encoder, right_encoder;
+  };
+
+  double pivot_rad_of(std::size_t i) const {
+    return world_.pose(castors_[i].body).heading_rad - world_.pose(platform_).heading_rad;
+  }
+  std::vector<char> no_one_left_out() const { return std::vector<char>(castors_.size(), 0); }
+
+  // The pivot moves with the body; along the castor that is the axle's travel, across it the castor's turn about its
+  // axle. By the nominal geometry, and by the pivot's encoder, which the motors' electronics read without pause.
+  WheelPair wheel_speeds_of(std::size_t i, Vec2 velocity, double rate) const {
+    const Castor& castor = nominal_.castors[i];
+    const double pivot_rad =
+        pivot_rad_of(i) + lengths_.castors[i].pivot_encoder_offset_rad - castor.pivot_encoder_offset_rad;
+    const Vec2 p = castor.pivot();
+    const Vec2 over_floor{velocity.x_m - rate * p.y_m, velocity.y_m + rate * p.x_m};
+    const Vec2 in_castor = rotated(over_floor, -pivot_rad);
+    const double turn_radps = in_castor.y_m / castor.offset_m;
+    return {(in_castor.x_m - castor.wheel_offset_left_m * turn_radps) / castor.wheel_radius_left_m,
+            (in_castor.x_m + castor.wheel_offset_right_m * turn_radps) / castor.wheel_radius_right_m};
+  }
+
+  MultiCastor nominal_, lengths_;
+  ActualCastors weight_;
+  double platform_kg_;
+  double step_s_;
+  planar::Effects no_effects_;
+  PlanarWorld world_;
+  int platform_;
+  std::vector<DrivenCastor> castors_;
+  CastorSample last_;
+  Pose believed_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlanarVehicle> make_multi_castor(const VehicleSetup& setup) {
+  const auto* nominal = std::get_if<MultiCastor>(&setup.scenario.vehicle.kind);
+  if (!nominal) return nullptr;
+  return std::make_unique<PlanarMultiCastor>(setup, *nominal,
+                                             true_lengths<MultiCastor>(setup.scenario.machine, setup.scenario.vehicle));
+}
+
+}  // namespace odolab
