@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kLongestStep_s = 1e-3;
+constexpr double kLongestStep_s = 2e-3;
 
 // Velocity of a castor's pivot in the body's frame.
 Vec2 pivot_velocity(const Castor& castor, const BodyTwist& twist) {

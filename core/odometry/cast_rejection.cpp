@@ -56,6 +56,11 @@ Testimony testimony(const Castor& castor, const CastorReading& before, const Cas
   Matrix3d covariance = left * by_left * by_left.transpose() + right * by_right * by_right.transpose() +
                         pivot_variance * (by_pivot_at_start * by_pivot_at_start.transpose() +
                                           by_pivot_at_end * by_pivot_at_end.transpose());
+  // Where in the interval the castor swung round is not known: its travel was laid down somewhere between both
+  // headings.
+  const double aside_m = motion.travel_m * motion.turn_rad;
+  const Vector3d aside(-s, c, 0.0);
+  covariance += aside_m * aside_m / 12.0 * aside * aside.transpose();
   covariance += Vector3d(1e-12, 1e-12, 1e-12).asDiagonal();  // a micrometre: ideal encoders at rest
   t.information = covariance.inverse();
   return t;

@@ -66,8 +66,8 @@ IpecState ipec_step(const IpecState& state, const LinkedSample& before, const Li
   const double expected_beta = b.heading_rad - theta_l;                        // Eq. 11b
   const double difference_a = wrapped(now.link_angle_a_rad - expected_alpha);  // Eq. 12a
   const double difference_b = wrapped(now.link_angle_b_rad - expected_beta);   // Eq. 12b
-  const double correction_a = correction_rad(difference_a, trucks.angle_step_a_rad, options.resolution);
-  const double correction_b = correction_rad(difference_b, trucks.angle_step_b_rad, options.resolution);
+  const double correction_a = options.gain * correction_rad(difference_a, trucks.angle_step_a_rad, options.resolution);
+  const double correction_b = options.gain * correction_rad(difference_b, trucks.angle_step_b_rad, options.resolution);
   a.heading_rad += correction_a;  // Eq. 13a
   b.heading_rad += correction_b;  // Eq. 13b
   const double travel_m = trucks.a.wheel_radius_left_m * (now.a.left_rad - before.a.left_rad) +

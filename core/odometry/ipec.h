@@ -32,6 +32,8 @@ struct IpecOptions {
   LinkDirection direction = LinkDirection::from_b_to_a;
   ResolutionRule resolution = ResolutionRule::least_correction;
   CompositeCorrection composite = CompositeCorrection::against_travel;
+  // Share of a correction that is applied at once, 1 as printed: less where readings have noise of their own each time.
+  double gain = 1.0;
 };
 
 // The two trucks and the steps of the encoders on the link; readings are those of LinkedSample without offsets.

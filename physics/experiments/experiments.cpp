@@ -11,6 +11,10 @@ Experiment clapper_straight();
 Experiment clapper_rectangle();
 Experiment clapper_link_bias();
 Experiment clapper_bump();
+Experiment castor_calibration();
+Experiment castor_umbmark();
+Experiment castor_rejection();
+Experiment ipec_unconnected();
 Experiment concealed_physics();
 
 const std::vector<Experiment>& experiments() {
@@ -22,6 +26,10 @@ const std::vector<Experiment>& experiments() {
       clapper_rectangle(),
       clapper_link_bias(),
       clapper_bump(),
+      castor_calibration(),
+      castor_umbmark(),
+      castor_rejection(),
+      ipec_unconnected(),
       concealed_physics(),
   };
   return list;

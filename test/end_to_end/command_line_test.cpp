@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "test/end_to_end/program.h"
 
@@ -47,6 +48,47 @@ TEST(CommandLine, RefusesInOneLineWhatAKindOfVehicleCannotDo) {
   expect_refused("diagnose --vehicle " + clapper + " " + run, {"kind", "clapper", "differential_drive"});
   expect_refused("calibrate --vehicle " + clapper + " " + run, {"clapper"});
   expect_refused("predict --vehicle " + clapper + " " + run + " --out /dev/null", {"a_left_wheel_rad", "clapper"});
+}
+
+// A body that turns about castor 1's pivot, the two others settled on their circle: by hand from Eqs. 4 to 7 with
+// wheels of 51 mm where the file says 50.
+std::string about_castor_1(bool clockwise) {
+  const double pivots_apart_m = 0.25 * std::sqrt(3.0), gamma = std::asin(0.05 / pivots_apart_m);
+  const double axle_m = pivots_apart_m * std::cos(gamma), pi = std::acos(-1.0);
+  std::string text = "time_s";
+  for (int i = 1; i <= 3; ++i)
+    for (const char* what : {"_left_wheel_rad", "_right_wheel_rad", "_pivot_rad"})
+      text += ",castor" + std::to_string(i) + what;
+  for (int k = 0; k <= 40; ++k) {
+    const double turn = 0.05 * k, inner = turn * (axle_m - 0.06) / 0.051, outer = turn * (axle_m + 0.06) / 0.051;
+    const double sign = clockwise ? 1.0 : -1.0;
+    text += "\n" + std::to_string(0.1 * k) + ",0,0," + std::to_string(sign * turn);
+    for (const double bearing : {5.0 / 6.0 * pi, -5.0 / 6.0 * pi}) {
+      const double pivot = bearing - sign * (0.5 * pi - gamma);
+      text += "," + std::to_string(clockwise ? outer : inner) + "," + std::to_string(clockwise ? inner : outer) + "," +
+              std::to_string(pivot);
+    }
+  }
+  return text + "\n";
+}
+
+TEST(CommandLine, CalibratesCastorsFromTheirOwnEncoders) {
+  const fs::path folder = fresh_folder("castors");
+  write(folder / "cw.csv", about_castor_1(true));
+  write(folder / "ccw.csv", about_castor_1(false));
+  const Outcome outcome =
+      odolab("calibrate --vehicle assets/vehicles/three_castors.toml " + (folder / "cw.csv").string() + " " +
+             (folder / "ccw.csv").string() + " --out " + (folder / "calibrated.toml").string());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  const std::size_t row = outcome.output.find("castor[2].wheel_radius_left_m");
+  ASSERT_NE(row, std::string::npos) << outcome.output;
+  // 2 rad of turn by encoders of 1.2 and 5 mrad: a part in a thousand
+  EXPECT_NE(outcome.output.substr(row, 80).find(" 0.051 "), std::string::npos) << outcome.output.substr(row, 80);
+  EXPECT_NE(outcome.output.find("cannot tell: castor[1]"), std::string::npos);  // it was the still one
+  EXPECT_EQ(odolab("predict --vehicle " + (folder / "calibrated.toml").string() + " " + (folder / "cw.csv").string() +
+                   " --out " + (folder / "track.csv").string())
+                .exit_code,
+            0);
 }
 
 TEST(CommandLine, FailedExpectationExitsWithOne) {
