@@ -165,6 +165,10 @@ std::vector<DriveStep> drive_steps(const InnovationRun& run, const DifferentialD
   return steps;
 }
 
+// A wheel on which the vehicle pivots scrubs: this share of its noise comes from the other wheel's way. Without it such
+// turns would be believed without end.
+constexpr double kScrub = 0.3;
+
 SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   const DifferentialDrive& drive = model.drive;
   const double b = drive.wheelbase_m;
@@ -187,7 +191,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     RelativeMotion& out = summed.motions[t];
     double* const jac = &summed.derivatives[3 * static_cast<std::size_t>(p) * t];
     const double end_s = time_of(t + 1);
-    Matrix3d wheel_noise = Matrix3d::Zero(), count_noise = Matrix3d::Zero();
+    Matrix3d wheel_noise = Matrix3d::Zero(), body_noise = Matrix3d::Zero(), count_noise = Matrix3d::Zero();
+    const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
     bool counts_left_behind = false;
     Pose& pose = out.motion;
 
@@ -261,8 +266,18 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         }
       };
       carry_noise(wheel_noise);
-      wheel_noise.noalias() += by_left * (std::abs(left_m) * by_left.transpose());
-      wheel_noise.noalias() += by_right * (std::abs(right_m) * by_right.transpose());
+      const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
+      const double left_way_m = (1.0 - kScrub) * std::abs(left_m) + kScrub * way_m;
+      const double right_way_m = (1.0 - kScrub) * std::abs(right_m) + kScrub * way_m;
+      wheel_noise.noalias() += by_left * (left_way_m * by_left.transpose());
+      wheel_noise.noalias() += by_right * (right_way_m * by_right.transpose());
+      if (body_is_noisy) {
+        carry_noise(body_noise);
+        const Vector3d by_turn = (2.0 / b) * Vector3d(-0.5 * dy, 0.5 * dx, 1.0);
+        body_noise(0, 0) += way_m;  // forward and sideways alike
+        body_noise(1, 1) += way_m;
+        body_noise.noalias() += by_turn * (way_m * by_turn.transpose());
+      }
       if (counts_left_behind) carry_noise(count_noise);
       if (count > 0.0 && i > 0 && now_s == w0.time_s) {
         const WheelSample& before = run.wheels[i - 1];
@@ -287,6 +302,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     clock[1] += start_velocity(1) + start_velocity(2) * pose.x_m - moved_end(1);
     clock[2] += start_velocity(2) - moved_end(2);
     add_symmetric(wheel_noise, out.wheel_noise);
+    if (body_is_noisy) add_symmetric(body_noise, out.body_noise);
     if (counts_left_behind) add_symmetric(count_noise, out.count_noise);
   }
   return summed;
@@ -437,7 +453,8 @@ class PoseFilter {
     f(1, 2) = dx;
     const double q2 = model_.noise.wheel_m_per_sqrt_m * model_.noise.wheel_m_per_sqrt_m;
     double noise[6];
-    for (int k = 0; k < 6; ++k) noise[k] = q2 * step.wheel_noise[k] + step.count_noise[k];
+    const double body2 = model_.noise.body_m_per_sqrt_m * model_.noise.body_m_per_sqrt_m;
+    for (int k = 0; k < 6; ++k) noise[k] = q2 * step.wheel_noise[k] + body2 * step.body_noise[k] + step.count_noise[k];
     Matrix3d turn;
     turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
     covariance_ = f * covariance_ * f.transpose() + turn * symmetric(noise) * turn.transpose();

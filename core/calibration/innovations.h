@@ -20,6 +20,9 @@ struct FittedNoise {
   double wheel_m_per_sqrt_m = 0.0;  // each wheel's distance error grows with the square root of its travel
   double truth_position_m = 0.0;    // of each coordinate, white
   double truth_heading_rad = 0.0;   // white
+  // Of the body as a whole, forward, sideways and as the turn of half a wheelbase, independent of each other: what
+  // scrubs while one wheel stands still. Grows with the square root of the wheels' mean travel.
+  double body_m_per_sqrt_m = 0.0;
 };
 
 // The columns of every derivative: seven fixed ones, then the extra ones of the run.
@@ -89,6 +92,7 @@ struct InnovationModel {
 struct RelativeMotion {
   Pose motion;
   double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
+  double body_noise[6] = {};   // the same for a body noise of 1 m per root metre; 0 where the model has none
   double count_noise[6] = {};  // covariance of the count fractions that a wheel leaves behind when it starts from rest
 };
 struct SummedRun {

@@ -62,6 +62,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   model.truth = start.vehicle.truth;
   model.noise = start.noise;
   if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
+  if (model.noise.body_m_per_sqrt_m <= 0.0) model.noise.body_m_per_sqrt_m = 0.3 * model.noise.wheel_m_per_sqrt_m;
   clock_s = start.time_offset_s;
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);
@@ -222,7 +223,7 @@ void JointModel::fit_noise() {
   const double parameters = columns();
   const auto noise_of = [&](const std::vector<double>& logs) {
     return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
-                       any_heading ? std::exp(logs[2]) : model.noise.truth_heading_rad};
+                       any_heading ? std::exp(logs[3]) : model.noise.truth_heading_rad, std::exp(logs[2])};
   };
   const auto value = [&](const std::vector<double>& logs) {
     double sum = 0.0;
@@ -244,13 +245,14 @@ void JointModel::fit_noise() {
     }
     // The freedom that the parameters took, as an average: exact where all scales move together.
     if (every == 1 && scalars > 2 * parameters) sum -= parameters * 2.0 * (logs[0] + logs[1]) / 2.0;
-    const double usual[3] = {0.003, 0.002, 0.005};
+    const double usual[4] = {0.003, 0.002, 0.0005, 0.005};
     for (std::size_t k = 0; k < logs.size(); ++k) sum += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
     return sum;
   };
-  std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m)};
+  std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m),
+                              std::log(model.noise.body_m_per_sqrt_m)};
   if (any_heading) logs.push_back(std::log(model.noise.truth_heading_rad));
-  model.noise = noise_of(minimised(value, logs, 0.15, 0.05, 60));
+  model.noise = noise_of(minimised(value, logs, 0.2, 0.05, 80));
 }
 
 void JointModel::gate() {

@@ -104,7 +104,9 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     t.spline = figures(judged(with_spline, false));
     if (with_placebo) t.placebo = figures(judged(*with_placebo, false));
     // What noise alone leaves over a metre: truth at both ends, its heading at the start, and the wheels.
-    const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m, b = joint.model.drive.wheelbase_m;
+    const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m +
+                      2.0 * noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
+                 b = joint.model.drive.wheelbase_m;
     const double p2 = noise.truth_position_m * noise.truth_position_m,
                  h2 = noise.truth_heading_rad * noise.truth_heading_rad;
     FitFigures floor;
