@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/odometry/ipec.h"
 
@@ -107,70 +108,113 @@ struct Fit {
   MatrixXd covariance;
 };
 
-Fit fit(const std::vector<Stretch>& stretches, const LinkedTrucks& nominal, const std::vector<int>& free,
-        const Progress& progress) {
-  const int n = static_cast<int>(free.size());
-  VectorXd x = VectorXd::Zero(kUnknowns);
-  MatrixXd information, scores;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    if (!goes_on(progress, static_cast<double>(iteration) / kIterations)) break;
-    std::vector<Vector3d> residuals;
-    for (const Stretch& s : stretches) residuals.push_back(contradiction(s, with(nominal, x)));
-    const Vector3d sigma = deviations(residuals, nominal);
-    information = MatrixXd::Zero(n, n);
-    VectorXd gradient = VectorXd::Zero(n);
-    scores = MatrixXd::Zero(static_cast<int>(stretches.size()), n);
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      MatrixXd jacobian(3, n);
-      for (int k = 0; k < n; ++k) {
-        const double step = 1e-5;
-        VectorXd more = x, less = x;
-        more[free[static_cast<std::size_t>(k)]] += step;
-        less[free[static_cast<std::size_t>(k)]] -= step;
-        jacobian.col(k) =
-            (contradiction(stretches[i], with(nominal, more)) - contradiction(stretches[i], with(nominal, less))) /
-            (2.0 * step);
-      }
-      for (int row = 0; row < 3; ++row) {
-        const double z = residuals[i][row] / sigma[row];
-        const double weight = (std::abs(z) <= kHuber ? 1.0 : kHuber / std::abs(z)) / (sigma[row] * sigma[row]);
-        information += weight * jacobian.row(row).transpose() * jacobian.row(row);
-        const VectorXd score = -weight * residuals[i][row] * jacobian.row(row).transpose();
-        gradient += score;
-        scores.row(static_cast<int>(i)) += score.transpose();
-      }
-    }
-    for (int k = 0; k < n; ++k) {
-      const std::size_t unknown = static_cast<std::size_t>(free[static_cast<std::size_t>(k)]);
-      const double weight = 1.0 / (kPrior[unknown] * kPrior[unknown]);
-      information(k, k) += weight;
-      gradient[k] -= weight * x[static_cast<int>(unknown)];
-    }
-    const VectorXd step = information.ldlt().solve(gradient);
-    for (int k = 0; k < n; ++k) x[free[static_cast<std::size_t>(k)]] += step[k];
-    if (step.cwiseAbs().maxCoeff() < 1e-9) break;
+using Matrix3X = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+// How the contradictions of one stretch answer to every unknown, by differences.
+Matrix3X jacobian_of(const Stretch& stretch, const LinkedTrucks& nominal, const VectorXd& x) {
+  constexpr double kStep = 1e-5;
+  Matrix3X jacobian(3, static_cast<int>(kUnknowns));
+  for (int k = 0; k < kUnknowns; ++k) {
+    VectorXd more = x, less = x;
+    more[k] += kStep;
+    less[k] -= kStep;
+    jacobian.col(k) =
+        (contradiction(stretch, with(nominal, more)) - contradiction(stretch, with(nominal, less))) / (2.0 * kStep);
   }
-  // Rounding at the end of one stretch is that at the start of the next: the scores are correlated (Newey, West 1987).
-  MatrixXd spread = MatrixXd::Zero(n, n);
-  const int count = static_cast<int>(scores.rows()), lags = 2;
-  for (int lag = 0; lag <= lags; ++lag) {
-    const double weight = 1.0 - static_cast<double>(lag) / (lags + 1);
-    for (int i = lag; i < count; ++i) {
-      const MatrixXd product = weight * scores.row(i).transpose() * scores.row(i - lag);
+  return jacobian;
+}
+
+// The linearised problem about one x, all unknowns, without the priors.
+struct Normal {
+  MatrixXd information = MatrixXd::Zero(kUnknowns, kUnknowns);
+  VectorXd gradient = VectorXd::Zero(kUnknowns);
+  MatrixXd spread = MatrixXd::Zero(kUnknowns, kUnknowns);  // of the gradient, from its scatter and from rounding
+};
+
+// Rounding at the end of one stretch is that at the start of the next: the scores are correlated (Newey, West 1987).
+void add_scatter(const std::vector<VectorXd>& scores, MatrixXd& spread) {
+  constexpr std::size_t kLags = 2;
+  for (std::size_t lag = 0; lag <= kLags; ++lag) {
+    const double weight = 1.0 - static_cast<double>(lag) / (kLags + 1);
+    for (std::size_t i = lag; i < scores.size(); ++i) {
+      const MatrixXd product = weight * scores[i] * scores[i - lag].transpose();
       spread += product;
       if (lag > 0) spread += product.transpose();
     }
   }
-  for (int k = 0; k < n; ++k) {
-    const double prior = kPrior[static_cast<std::size_t>(free[static_cast<std::size_t>(k)])];
-    spread(k, k) += 1.0 / (prior * prior);
+}
+
+// Trucks that hold an angle hold its rounding: all readings of one step of an encoder may err alike.
+class RoundingByStep {
+ public:
+  explicit RoundingByStep(double step_rad) : step_rad_(step_rad) {}
+  void add(double reading_rad, const VectorXd& effect) {
+    if (step_rad_ <= 0.0) return;
+    const auto [entry, is_new] = effects_.emplace(std::llround(reading_rad / step_rad_), effect);
+    if (!is_new) entry->second += effect;
   }
-  const MatrixXd inverse = information.inverse();
-  MatrixXd covariance = MatrixXd::Zero(kUnknowns, kUnknowns);
-  const MatrixXd of_free = inverse * spread * inverse;
-  for (int i = 0; i < n; ++i)
-    for (int k = 0; k < n; ++k)
-      covariance(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(k)]) = of_free(i, k);
+  void add_to(MatrixXd& spread) const {
+    for (const auto& [step, effect] : effects_) spread += step_rad_ * step_rad_ / 12.0 * effect * effect.transpose();
+  }
+
+ private:
+  double step_rad_;
+  std::map<long long, VectorXd> effects_;
+};
+
+Normal normal_equations(const std::vector<Stretch>& stretches, const LinkedTrucks& nominal, const VectorXd& x) {
+  std::vector<Vector3d> residuals;
+  for (const Stretch& s : stretches) residuals.push_back(contradiction(s, with(nominal, x)));
+  const Vector3d sigma = deviations(residuals, nominal);
+  Normal normal;
+  std::vector<VectorXd> scores;
+  RoundingByStep alpha(nominal.link_angle_resolution_rad), beta(nominal.link_angle_resolution_rad);
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Matrix3X jacobian = jacobian_of(stretches[i], nominal, x);
+    Vector3d weight;
+    for (int row = 0; row < 3; ++row) {
+      const double z = std::abs(residuals[i][row]) / sigma[row];
+      weight[row] = (z <= kHuber ? 1.0 : kHuber / z) / (sigma[row] * sigma[row]);
+    }
+    const MatrixXd weighted = jacobian.transpose() * weight.asDiagonal();
+    normal.information += weighted * jacobian;
+    scores.push_back(-weighted * residuals[i]);
+    normal.gradient += scores.back();
+    // A reading acts at the stretch's end directly; an offset acts at both ends, which tells how one at the start does.
+    const LinkedSample& first = (*stretches[i].samples)[stretches[i].first];
+    const LinkedSample& last = (*stretches[i].samples)[stretches[i].last];
+    alpha.add(last.link_angle_a_rad, weighted.col(0));
+    alpha.add(first.link_angle_a_rad, -weighted.col(0) - weighted * jacobian.col(kOffsetA));
+    beta.add(last.link_angle_b_rad, weighted.col(1));
+    beta.add(first.link_angle_b_rad, -weighted.col(1) - weighted * jacobian.col(kOffsetB));
+  }
+  add_scatter(scores, normal.spread);
+  alpha.add_to(normal.spread);
+  beta.add_to(normal.spread);
+  return normal;
+}
+
+Fit fit(const std::vector<Stretch>& stretches, const LinkedTrucks& nominal, const std::vector<int>& free,
+        const Progress& progress) {
+  const int n = static_cast<int>(free.size());
+  MatrixXd choice = MatrixXd::Zero(kUnknowns, n);  // the free ones among all
+  for (int k = 0; k < n; ++k) choice(free[static_cast<std::size_t>(k)], k) = 1.0;
+  VectorXd prior(kUnknowns);
+  for (int k = 0; k < kUnknowns; ++k)
+    prior[k] = 1.0 / (kPrior[static_cast<std::size_t>(k)] * kPrior[static_cast<std::size_t>(k)]);
+  VectorXd x = VectorXd::Zero(kUnknowns);
+  MatrixXd covariance;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    if (!goes_on(progress, static_cast<double>(iteration) / kIterations)) break;
+    const Normal normal = normal_equations(stretches, nominal, x);
+    const MatrixXd of_prior = prior.asDiagonal();
+    const MatrixXd inverse = (choice.transpose() * (normal.information + of_prior) * choice).inverse();
+    const VectorXd step = inverse * choice.transpose() * (normal.gradient - of_prior * x);
+    covariance =
+        choice * inverse * (choice.transpose() * (normal.spread + of_prior) * choice) * inverse * choice.transpose();
+    x += choice * step;
+    if (step.cwiseAbs().maxCoeff() < 1e-9) break;
+  }
   return {x, covariance};
 }
 

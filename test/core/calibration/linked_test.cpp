@@ -88,9 +88,9 @@ TEST(LinkedCalibration, FindsUnequalWheelsAndWheelbasesOfBothTrucks) {
   const Result<InternalCalibration> found =
       calibrate_linked({drive(actual, straights_and_turns(), 1), drive(actual, straights_and_turns(), 2)}, nominal);
   ASSERT_TRUE(found) << found.error().message();
-  expect_found(*found, "truck_a.wheel_radius_left_m", 0.075 * 0.999, 3e-5);
-  expect_found(*found, "truck_a.wheel_radius_right_m", 0.075 * 1.001, 3e-5);
-  expect_found(*found, "truck_a.wheelbase_m", 0.337, 5e-4);
+  expect_found(*found, "truck_a.wheel_radius_left_m", 0.075 * 0.999, 6e-5);
+  expect_found(*found, "truck_a.wheel_radius_right_m", 0.075 * 1.001, 6e-5);
+  expect_found(*found, "truck_a.wheelbase_m", 0.337, 1e-3);
   expect_found(*found, "truck_b.wheel_radius_left_m", 0.0755, 1e-4);
   expect_found(*found, "truck_b.wheelbase_m", 0.344, 1e-3);
 }
@@ -106,7 +106,7 @@ TEST(LinkedCalibration, FindsTheLinkLengthsBiasInTurns) {
   const Result<InternalCalibration> found =
       calibrate_linked({drive(actual, tight, 3), drive(actual, tight, 4)}, nominal);
   ASSERT_TRUE(found) << found.error().message();
-  expect_found(*found, "link_length_offset_m", 0.002, 1e-3);
+  expect_found(*found, "link_length_offset_m", 0.002, 1.5e-3);
 }
 
 TEST(LinkedCalibration, TellsBiasedEncodersFromUnequalWheelsOnlyByDrivingSideways) {
@@ -126,6 +126,36 @@ TEST(LinkedCalibration, TellsBiasedEncodersFromUnequalWheelsOnlyByDrivingSideway
   ASSERT_TRUE(sideways) << sideways.error().message();
   expect_found(*sideways, "link_angle_a_offset_rad", radians(1.0), radians(0.3));
   expect_found(*sideways, "link_angle_b_offset_rad", radians(-1.0), radians(0.3));
+}
+
+// Standard errors allow for encoders' rounding that holds as long as an angle is held: no less than the errors seen,
+// and for angles that wobble, as here, some more.
+TEST(LinkedCalibration, ClaimsNoMoreThanItKnows) {
+  Clapper actual = clapper();
+  actual.truck_b.wheelbase_m = 0.343;
+  actual.link_angle_b_offset_rad = 0.01;
+  actual.link_length_offset_m = -0.003;
+  Vehicle nominal;
+  nominal.kind = clapper();
+  double chi2 = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 20; seed < 28; ++seed) {
+    const Result<InternalCalibration> found = calibrate_linked({drive(actual, with_crabbing(), seed)}, nominal);
+    ASSERT_TRUE(found) << found.error().message();
+    const std::pair<const char*, double> truth[] = {
+        {"truck_a.wheel_radius_left_m", 0.075}, {"truck_a.wheelbase_m", 0.34},     {"truck_b.wheelbase_m", 0.343},
+        {"link_angle_a_offset_rad", 0.0},       {"link_angle_b_offset_rad", 0.01}, {"link_length_offset_m", -0.003}};
+    for (const auto& [name, should] : truth) {
+      const ParameterEstimate& p = named(*found, name);
+      if (!p.determined) continue;
+      const double z = (p.value - should) / p.stderr_value;
+      chi2 += z * z;
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 40);
+  EXPECT_LT(chi2 / count, 1.3);
+  EXPECT_GT(chi2 / count, 0.1);
 }
 
 TEST(LinkedCalibration, RefusesARecordingOfAnotherVehicle) {
