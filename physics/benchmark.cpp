@@ -18,19 +18,31 @@ ReturnError return_error(const Simulation& simulation, const Scenario& scenario)
   return {measured.x_m - driven.x_m, measured.y_m - driven.y_m, wrapped(measured.heading_rad - driven.heading_rad)};
 }
 
+void drive_clockwise(Path& path, bool clockwise) {
+  if (auto* rectangle = std::get_if<RectanglePath>(&path))
+    rectangle->clockwise = clockwise;
+  else
+    std::get<SquarePath>(path).clockwise = clockwise;
+}
+
+double side_of(const Path& path) {
+  const auto* rectangle = std::get_if<RectanglePath>(&path);
+  return rectangle ? rectangle->length_m : std::get<SquarePath>(path).side_m;
+}
+
 }  // namespace
 
 UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run,
                         const Progress& progress) {
   const int runs = 2 * scenario.benchmark.value_or(Benchmark{}).runs_each_way;
   UmbmarkRuns result;
-  result.side_m = std::get<SquarePath>(scenario.path).side_m;
+  result.side_m = side_of(scenario.path);
   std::vector<BenchmarkRun> driven(static_cast<std::size_t>(runs));
   parallel_for(
       runs,
       [&](int i, const std::atomic<bool>& stopped) {
         Scenario run = scenario;
-        std::get<SquarePath>(run.path).clockwise = i % 2 == 0;
+        drive_clockwise(run.path, i % 2 == 0);
         run.sensors.truth_period_s = 0.0;
         Simulation simulation(run, seed_of_stream(seed, 1000 + static_cast<std::uint64_t>(i)));
         const double longest_s = kPatience * simulation.expected_duration_s();

@@ -24,8 +24,8 @@ struct BenchmarkRun {
 // Called after each run, in their order: cw 1, ccw 1, cw 2, ...
 using OnBenchmarkRun = std::function<void(const BenchmarkRun&)>;
 
-// Drives the scenario's square `runs_each_way` times in each direction, every run on its own stretch of random floor.
-// Stops early where `progress` says so; then the sets are shorter.
+// Drives the scenario's square (or rectangle, of linked vehicles) `runs_each_way` times in each direction, every run on
+// its own stretch of random floor. Stops early where `progress` says so; then the sets are shorter.
 UmbmarkRuns run_umbmark(const Scenario& scenario, std::uint64_t seed, const OnBenchmarkRun& on_run = {},
                         const Progress& progress = {});
 

@@ -65,7 +65,8 @@ Contact Ground::under(const WheelStance& stance) const {
   if (!bumps_.empty()) {
     const Vec2 ahead{std::cos(stance.heading_rad), std::sin(stance.heading_rad)};
     for (const PlacedBump& bump : bumps_) {
-      if (stance.side == Side::left ? !bump.left : !bump.right) continue;
+      if (stance.side != Side::right && !bump.left) continue;
+      if (stance.side != Side::left && !bump.right) continue;
       const Vec2 along = bump.round ? Vec2{-ahead.y_m, ahead.x_m} : bump.along;
       const double across = cross(ahead, along);
       if (std::abs(across) < 0.05) continue;  // the wheel runs along the cable, not over it

@@ -8,7 +8,8 @@
 
 namespace odolab {
 
-enum class Side { left, right };
+// A wheel in the middle meets only what lies under every wheel.
+enum class Side { left, right, middle };
 
 struct Contact {
   double friction = 0.8;

@@ -22,7 +22,8 @@ enum Stream : std::uint64_t { kFloorStream = 1, kEncoderStream = 2, kTruthStream
 
 Side inside_of(const Path& path) {
   const auto* square = std::get_if<SquarePath>(&path);
-  return square && square->clockwise ? Side::right : Side::left;
+  const auto* rectangle = std::get_if<RectanglePath>(&path);
+  return (square && square->clockwise) || (rectangle && rectangle->clockwise) ? Side::right : Side::left;
 }
 
 Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
@@ -180,7 +181,9 @@ struct Simulation::Parts {
     estimated.push_back({state.time_s, state.estimated_pose});
     exact.push_back({state.time_s, state.true_pose});
     command_before = command_next;
-    if (by_route) command_next = given_now = follower.update(vehicle->believed_driven_point());
+    if (by_route)
+      command_next = given_now =
+          follower.update(scenario.driving.by_eye ? vehicle->pose() : vehicle->believed_driven_point());
     if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
     if (scenario.sensors.record_commands) record_command();
   }

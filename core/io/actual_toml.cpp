@@ -50,6 +50,32 @@ void castor_fields(S& castors, Toml& toml) {
   toml.field("moment_of_inertia_kgm2", castors.moment_of_inertia_kgm2);
 }
 
+template <typename S, typename Toml>
+void synchro_fields(S& synchro, Toml& toml) {
+  toml.field("wheel_circle_radius_m", synchro.wheel_circle_radius_m);
+  toml.field("radius_error_front", synchro.radius_error[0]);
+  toml.field("radius_error_left", synchro.radius_error[1]);
+  toml.field("radius_error_right", synchro.radius_error[2]);
+  toml.field("misalignment_front_rad", synchro.misalignment_rad[0]);
+  toml.field("misalignment_left_rad", synchro.misalignment_rad[1]);
+  toml.field("misalignment_right_rad", synchro.misalignment_rad[2]);
+  toml.field("creep_stiffness", synchro.creep_stiffness);
+  toml.field("relaxation_length_m", synchro.relaxation_length_m);
+}
+
+template <typename S, typename Toml>
+void tracks_fields(S& tracks, Toml& toml) {
+  toml.field("contact_length_m", tracks.contact_length_m);
+  toml.field("pads", tracks.pads);
+  toml.field("centre_of_mass_x_m", tracks.centre_of_mass_x_m);
+}
+
+template <typename S, typename Toml>
+void slip_ring_fields(S& ring, Toml& toml) {
+  toml.field("bursts_per_s", ring.bursts_per_s);
+  toml.field("largest_burst_counts", ring.largest_burst_counts);
+}
+
 // What a kind of vehicle has. `part` opens the table of a name and hands it to the list of its fields.
 template <typename Machine, typename Part>
 void parts(Machine& machine, const VehicleKind& kind, const Part& part) {
@@ -59,6 +85,12 @@ void parts(Machine& machine, const VehicleKind& kind, const Part& part) {
     part("trailer", [&](auto& toml) { trailer_fields(machine.trailer, toml); });
   if (std::holds_alternative<MultiCastor>(kind))
     part("castors", [&](auto& toml) { castor_fields(machine.castors, toml); });
+  if (std::holds_alternative<SynchroDrive>(kind))
+    part("synchro", [&](auto& toml) { synchro_fields(machine.synchro, toml); });
+  if (std::holds_alternative<Tracked>(kind) || std::holds_alternative<EncoderTrailer>(kind))
+    part("tracks", [&](auto& toml) { tracks_fields(machine.tracks, toml); });
+  if (std::holds_alternative<EncoderTrailer>(kind))
+    part("slip_ring", [&](auto& toml) { slip_ring_fields(machine.slip_ring, toml); });
 }
 
 }  // namespace

@@ -72,6 +72,8 @@ void fields(Constness<Toml, SynchroDrive>& drive, Toml& toml, const std::string&
   toml.field("wheel_rad_per_steering_rad", drive.wheel_rad_per_steering_rad);
   toml.field("base_turn_rad_per_m", drive.base_turn_rad_per_m);
   toml.field("base_turn_rad_per_steering_rad", drive.base_turn_rad_per_steering_rad);
+  toml.field("base_turn_cos_rad_per_m", drive.base_turn_cos_rad_per_m);
+  toml.field("base_turn_sin_rad_per_m", drive.base_turn_sin_rad_per_m);
   toml.field("drive_counts_per_revolution", drive.drive_counts_per_revolution);
   toml.field("steering_counts_per_revolution", drive.steering_counts_per_revolution);
 }

@@ -38,6 +38,24 @@ std::vector<std::string> problems_in(const ActualMachine& machine, const Vehicle
   demands.above_zero("castors.mass_kg", machine.castors.mass_kg, "a mass in kilograms");
   demands.above_zero("castors.moment_of_inertia_kgm2", machine.castors.moment_of_inertia_kgm2,
                      "a moment of inertia in kg m2");
+  const ActualSynchroWheels& wheels = machine.synchro;
+  demands.above_zero("synchro.wheel_circle_radius_m", wheels.wheel_circle_radius_m, "a length in metres");
+  demands.length_below("synchro.wheel_circle_radius_m", wheels.wheel_circle_radius_m, 50.0);
+  for (const double share : wheels.radius_error) demands.within("synchro.radius_error", share, 0.5, "a share");
+  for (const double rad : wheels.misalignment_rad)
+    demands.within("synchro.misalignment_rad", rad, 0.5, "an angle in radians");
+  demands.zero_or_more("synchro.creep_stiffness", wheels.creep_stiffness, "a ratio");
+  demands.above_zero("synchro.relaxation_length_m", wheels.relaxation_length_m, "a length in metres");
+  const ActualTracks& tracks = machine.tracks;
+  demands.zero_or_more("tracks.contact_length_m", tracks.contact_length_m, "a length in metres");
+  demands.length_below("tracks.contact_length_m", tracks.contact_length_m, 50.0);
+  if (tracks.pads < 1 || tracks.pads > 64) demands.add("tracks.pads", std::to_string(tracks.pads), "1 to 64");
+  // Beyond a sixth of the length the load of a pad would turn negative.
+  demands.within("tracks.centre_of_mass_x_m", tracks.centre_of_mass_x_m, tracks.contact_length_m / 6.0 + 1e-12,
+                 "a sixth of the contact length");
+  demands.zero_or_more("slip_ring.bursts_per_s", machine.slip_ring.bursts_per_s, "a rate");
+  if (machine.slip_ring.largest_burst_counts < 0)
+    demands.add("slip_ring.largest_burst_counts", std::to_string(machine.slip_ring.largest_burst_counts), "0 or more");
   return std::move(demands).problems();
 }
 

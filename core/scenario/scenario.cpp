@@ -9,12 +9,6 @@ namespace odolab {
 
 namespace {
 constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
-
-bool is_driven_by_the_simulator(const VehicleKind& kind) {
-  return std::holds_alternative<DifferentialDrive>(kind) || std::holds_alternative<Clapper>(kind) ||
-         std::holds_alternative<OmniMate>(kind) || std::holds_alternative<SmartEncoderTrailer>(kind) ||
-         std::holds_alternative<MultiCastor>(kind);
-}
 }  // namespace
 
 std::vector<std::string> problems_in(const Scenario& s) {
@@ -32,8 +26,6 @@ std::vector<std::string> problems_in(const Scenario& s) {
   };
   for (const std::string& p : problems_in(s.vehicle.kind)) problems.push_back("vehicle." + p);
   const bool one_drive = std::holds_alternative<DifferentialDrive>(s.vehicle.kind);
-  if (!is_driven_by_the_simulator(s.vehicle.kind))
-    problems.push_back("vehicle.kind: found '" + kind_name(s.vehicle) + "', expected a kind that the simulator drives");
   for (const std::string& p : problems_in(s.machine, s.vehicle.kind)) problems.push_back("actual." + p);
   if (!one_drive) {
     for (const ActiveEffect& effect : s.effects)

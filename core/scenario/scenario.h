@@ -55,6 +55,7 @@ struct Driving {
   double turn_acceleration_radps2 = 1.0;
   // Vehicles that can correct their odometry from the inside (IPEC, CAST) steer by it; false: by plain dead reckoning.
   bool internal_correction = true;
+  bool by_eye = false;  // a person with a joystick who sees where the vehicle really is; else by its own odometry
 };
 
 // Closed square with a stop and a turn on the spot at each corner, a fourth turn at the end (UMBmark report, section

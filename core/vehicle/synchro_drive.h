@@ -20,6 +20,10 @@ struct SynchroDrive {
   // The base should keep its direction; unequal wheels and misalignment turn it slowly, in the travel and in steering.
   double base_turn_rad_per_m = 0.0;
   double base_turn_rad_per_steering_rad = 0.0;
+  // Three wheels that differ in size or direction turn it by A cos(d) + B sin(d) of the travel, d being their direction
+  // in the base's frame: it changes its sign on the way back.
+  double base_turn_cos_rad_per_m = 0.0;
+  double base_turn_sin_rad_per_m = 0.0;
   double drive_counts_per_revolution = 2000.0;     // of the wheel
   double steering_counts_per_revolution = 2000.0;  // of the turret
 };

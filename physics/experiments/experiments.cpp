@@ -6,6 +6,10 @@ namespace odolab {
 
 Experiment umbmark_one_direction();
 Experiment umbmark_table3();
+Experiment umbmark_systematic();
+Experiment umbmark_extended();
+Experiment k2a_calibration();
+Experiment hundred_metres();
 Experiment self_calibration();
 Experiment clapper_straight();
 Experiment clapper_rectangle();
@@ -18,9 +22,14 @@ Experiment ipec_unconnected();
 Experiment concealed_physics();
 
 const std::vector<Experiment>& experiments() {
+  // clang-format off
   static const std::vector<Experiment> list = {
       umbmark_one_direction(),
       umbmark_table3(),
+      umbmark_systematic(),
+      umbmark_extended(),
+      k2a_calibration(),
+      hundred_metres(),
       self_calibration(),
       clapper_straight(),
       clapper_rectangle(),
@@ -32,6 +41,7 @@ const std::vector<Experiment>& experiments() {
       ipec_unconnected(),
       concealed_physics(),
   };
+  // clang-format on
   return list;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "physics/simulation.h"
 
 namespace odolab {
 
@@ -25,6 +26,15 @@ Scenario on_report_squares() {
 }
 
 Roughness report_floor() { return {0.0022, 0.06}; }
+
+double travelled_per_rolled_on_report_floor() {
+  constexpr double kWay_m = 100.0;
+  Scenario robot = on_report_squares();
+  robot.path = StraightPath{kWay_m, false};
+  Simulation simulation(robot, 1);
+  run_to_end(simulation, 2000.0);
+  return length(between(robot.start, simulation.state().true_pose).position()) / kWay_m;
+}
 
 std::string report_floor_assumption() {
   return "the floor: bumps of random height up to 2.2 mm every 6 cm under each wheel, which scatter a LabMate by the "

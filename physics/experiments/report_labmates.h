@@ -21,6 +21,10 @@ Scenario on_report_squares();
 Roughness report_floor();
 std::string report_floor_assumption();
 
+// How far a LabMate's wheel travels on that floor for what it rolls: bumps make it roll further. What a tape measure
+// would show (Appendix B).
+double travelled_per_rolled_on_report_floor();
+
 // Wheels of these diameters' ratio D_R / D_L with the nominal mean, and the actual wheelbase over the nominal one.
 Scenario labmate_on_report_squares(double diameter_ratio, double wheelbase_ratio);
 

@@ -10,7 +10,10 @@ namespace odolab {
   X(clapper)                   \
   X(omnimate)                  \
   X(smart_encoder_trailer)     \
-  X(multi_castor)
+  X(multi_castor)              \
+  X(synchro_drive)             \
+  X(tracked)                   \
+  X(encoder_trailer)
 
 #define ODOLAB_DECLARE(kind) std::unique_ptr<PlanarVehicle> make_##kind(const VehicleSetup&);
 ODOLAB_EACH_VEHICLE(ODOLAB_DECLARE)

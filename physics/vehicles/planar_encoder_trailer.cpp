@@ -1,0 +1,161 @@
+// A tracked vehicle that tows the Basic Encoder Trailer: a second body, pinned to the first at the hitch, on two wheels
+// that roll freely and only count. Pushed backwards it swivels round its hitch like a castor, and leads.
+#include <array>
+#include <optional>
+
+#include "core/base/random.h"
+#include "core/odometry/differential_drive.h"
+#include "core/odometry/encoder_trailer.h"
+#include "physics/sensors/encoder.h"
+#include "physics/sensors/slip_ring.h"
+#include "physics/vehicles/axle_commands.h"
+#include "physics/vehicles/pair_of_tracks.h"
+#include "physics/vehicles/planar_vehicle.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kTrailerAxle = 1;  // whose roughness it meets
+
+class PlanarEncoderTrailer final : public PlanarVehicle {
+ public:
+  PlanarEncoderTrailer(const VehicleSetup& setup, const EncoderTrailer& nominal, const EncoderTrailer& actual)
+      : nominal_(nominal),
+        actual_(actual),
+        masses_(setup.scenario.machine.trailer),
+        tow_mass_kg_(setup.scenario.actual.mass_kg),
+        tracks_middle_{-setup.scenario.machine.tracks.centre_of_mass_x_m, 0.0, 0.0},
+        step_s_(setup.scenario.step_s),
+        world_(step_s_),
+        body_(world_.add_body(
+            {setup.start * inverse(tracks_middle_), tow_mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
+        towed_(world_.add_body({setup.start * Pose{-actual.hitch_offset_m - actual.drawbar_length_m, 0.0, 0.0},
+                                masses_.mass_kg, masses_.moment_of_inertia_kgm2})),
+        tracks_(world_, body_, actual.tow, setup.scenario.machine.tracks, setup.scenario.actual, setup.scenario.motor,
+                step_s_),
+        slip_ring_(setup.scenario.machine.slip_ring.bursts_per_s, setup.scenario.machine.slip_ring.largest_burst_counts,
+                   seed_of_stream(setup.sensor_seed, 1)),
+        hitch_noise_(seed_of_stream(setup.sensor_seed, 2)),
+        believed_trailer_(setup.start * inverse(trailer_T_tow(nominal, nominal.hitch_angle_offset_rad))),
+        believed_(setup.start) {
+    world_.add_pin(
+        {body_, towed_, tracks_middle_ * Vec2{-actual.hitch_offset_m, 0.0}, Vec2{actual.drawbar_length_m, 0.0}});
+    world_.add_free_wheel(towed_, {});  // both wheels: on one axle they hold the same sideways motion
+    Random phases(setup.sensor_seed);
+    left_encoder_ = Encoder(nominal_.tow.counts_per_wheel_turn(), phases.uniform());
+    right_encoder_ = Encoder(nominal_.tow.counts_per_wheel_turn(), phases.uniform());
+    constexpr Side kSides[] = {Side::left, Side::right};
+    for (std::size_t i = 0; i < 2; ++i) {
+      wheels_[i].side = kSides[i];
+      wheels_[i].place = {0.0, (i == 0 ? 0.5 : -0.5) * actual_.trailer.wheelbase_m};
+      wheels_[i].radius_m = i == 0 ? actual_.trailer.wheel_radius_left_m : actual_.trailer.wheel_radius_right_m;
+      wheels_[i].encoder = Encoder(nominal_.trailer.counts_per_wheel_turn(), phases.uniform());
+    }
+  }
+
+  void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
+    tracks_.turn_motors(
+        between(wheel_speeds(command.before, nominal_.tow), wheel_speeds(command.next, nominal_.tow), command.share));
+    tracks_.before_step(ground, floor);
+    const Pose before = world_.pose(towed_);
+    pull_downhill(world_, body_, tow_mass_kg_, floor);
+    pull_downhill(world_, towed_, masses_.mass_kg, floor);
+    world_.step();
+    tracks_.after_step();
+    roll_trailer(ground, before);
+  }
+  void push(Vec2 impulse_ns) override { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
+
+  Pose pose() const override { return world_.pose(body_) * tracks_middle_; }
+  double speed_mps() const override { return world_.velocity_of_point_mps(body_, {}).x_m; }
+  double yaw_rate_radps() const override { return world_.yaw_rate_radps(body_); }
+  WheelState left() const override { return tracks_.left(); }
+  WheelState right() const override { return tracks_.right(); }
+  void place_other_bodies(std::vector<Pose>& poses) const override { poses = {world_.pose(towed_)}; }
+
+  std::vector<std::string> channels() const override {
+    return {"left_wheel_rad", "right_wheel_rad", "trailer_left_wheel_rad", "trailer_right_wheel_rad",
+            "hitch_angle_rad"};
+  }
+  void sample(double time_s, std::vector<double>& readings) override {
+    const WheelPair noise = slip_ring_.false_counts(time_s);
+    const double rad_per_count = 2.0 * kPi / nominal_.trailer.counts_per_wheel_turn();
+    const WheelPair now{wheels_[0].encoder.reading_rad(wheels_[0].rotation_rad) + noise.left * rad_per_count,
+                        wheels_[1].encoder.reading_rad(wheels_[1].rotation_rad) + noise.right * rad_per_count};
+    const double hitch_rad = hitch_reading_rad();
+    // Section 4.5: dead reckoning of the trailer, then "a simple coordinate transformation" by the hitch's angle.
+    if (read_)
+      believed_trailer_ =
+          dead_reckoned(believed_trailer_, now.left - read_->left, now.right - read_->right, nominal_.trailer);
+    read_ = now;
+    hitch_unwrapped_rad_ += wrapped(hitch_rad - hitch_unwrapped_rad_);  // the trailer may swivel by any angle
+    believed_ = believed_trailer_ * trailer_T_tow(nominal_, hitch_unwrapped_rad_);
+    readings = {left_encoder_.reading_rad(left().counted_rad), right_encoder_.reading_rad(right().counted_rad),
+                now.left, now.right, hitch_rad};
+  }
+  Pose believed() const override { return believed_; }
+
+ private:
+  struct TrailerWheel {
+    Side side = Side::left;
+    Vec2 place;
+    double radius_m = 0.05;
+    double rotation_rad = 0.0;
+    double travelled_m = 0.0;
+    Encoder encoder{1.0, 0.0};
+  };
+
+  // A free wheel turns by what it travels, and on a bump by more.
+  void roll_trailer(const Ground& ground, const Pose& before) {
+    const Pose& after = world_.pose(towed_);
+    const double turn_rad = after.heading_rad - before.heading_rad;
+    const double heading_rad = before.heading_rad + 0.5 * turn_rad;
+    const Vec2 moved = after.position() - before.position();
+    const double travel_m = dot(moved, {std::cos(heading_rad), std::sin(heading_rad)});
+    const Vec2 middle = before.position() + 0.5 * moved;
+    for (TrailerWheel& wheel : wheels_) {
+      const double rolled_m = travel_m - turn_rad * wheel.place.y_m;
+      const Contact contact = ground.under({wheel.side, middle + rotated(wheel.place, heading_rad), heading_rad,
+                                            wheel.radius_m, wheel.travelled_m, kTrailerAxle});
+      wheel.travelled_m += rolled_m;
+      wheel.rotation_rad += rolled_m / (wheel.radius_m * contact.horizontal_share);
+    }
+  }
+
+  // What the absolute encoder reads: within a turn, in whole steps.
+  double hitch_reading_rad() {
+    const double angle_rad = world_.pose(body_).heading_rad - world_.pose(towed_).heading_rad;
+    const double noise_rad = masses_.hitch_noise_rad > 0.0 ? masses_.hitch_noise_rad * hitch_noise_.normal() : 0.0;
+    const double biased_rad = wrapped(angle_rad + actual_.hitch_angle_offset_rad + noise_rad);
+    const double step_rad = nominal_.hitch_angle_resolution_rad;
+    return step_rad > 0.0 ? step_rad * std::round(biased_rad / step_rad) : biased_rad;
+  }
+
+  EncoderTrailer nominal_, actual_;
+  ActualTrailer masses_;
+  double tow_mass_kg_;
+  Pose tracks_middle_;  // in the frame of the towing vehicle's centre of mass
+  double step_s_;
+  PlanarWorld world_;
+  int body_, towed_;
+  PairOfTracks tracks_;
+  std::array<TrailerWheel, 2> wheels_;
+  SlipRing slip_ring_;
+  Random hitch_noise_;
+  Encoder left_encoder_{1.0, 0.0}, right_encoder_{1.0, 0.0};
+  std::optional<WheelPair> read_;  // last, of the trailer
+  double hitch_unwrapped_rad_ = 0.0;
+  Pose believed_trailer_, believed_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlanarVehicle> make_encoder_trailer(const VehicleSetup& setup) {
+  const auto* nominal = std::get_if<EncoderTrailer>(&setup.scenario.vehicle.kind);
+  if (!nominal) return nullptr;
+  return std::make_unique<PlanarEncoderTrailer>(
+      setup, *nominal, true_lengths<EncoderTrailer>(setup.scenario.machine, setup.scenario.vehicle));
+}
+
+}  // namespace odolab
