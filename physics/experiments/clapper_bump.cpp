@@ -13,7 +13,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kHeight_m = 0.010, kRadius_m = 0.075, kBase_m = 0.340;
+constexpr double kHeight_m = 0.010, kRadius_m = 0.075;
 
 struct Shown {
   double actual_rad = 0.0;    // that truck A's dead reckoning lost

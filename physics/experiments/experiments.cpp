@@ -17,6 +17,7 @@ Experiment clapper_link_bias();
 Experiment clapper_bump();
 Experiment castor_calibration();
 Experiment castor_umbmark();
+Experiment castor_umbmark_planar();
 Experiment castor_rejection();
 Experiment ipec_unconnected();
 Experiment concealed_physics();
@@ -37,6 +38,7 @@ const std::vector<Experiment>& experiments() {
       clapper_bump(),
       castor_calibration(),
       castor_umbmark(),
+      castor_umbmark_planar(),
       castor_rejection(),
       ipec_unconnected(),
       concealed_physics(),
