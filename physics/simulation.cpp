@@ -35,6 +35,11 @@ Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMo
   return tracked * inverse(mounting.axle_T_tracked);
 }
 
+Scenario with_effects_built_in(Scenario scenario, const planar::Effects& effects) {
+  scenario.machine = effects.built_into(scenario.machine, scenario.vehicle.kind);
+  return scenario;
+}
+
 // Steps between two readings of a sensor.
 std::int64_t steps_in(double period_s, double step_s) {
   return std::max<std::int64_t>(1, std::llround(period_s / step_s));
@@ -52,7 +57,8 @@ struct Simulation::Parts {
         floor_seed(seed_of_stream(seed, kFloorStream)),
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
         start(start_of(scenario, replayed.get(), mounting)),
-        vehicle(make_planar_vehicle({scenario, start, effects, seed_of_stream(seed, kEncoderStream)})),
+        built(with_effects_built_in(scenario, effects)),
+        vehicle(make_planar_vehicle({built, start, effects, seed_of_stream(seed, kEncoderStream)})),
         route(route_of(scenario.path, vehicle->believed_driven_point())),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
         rotation(replays(ReplayPath::By::wheels)
@@ -239,6 +245,7 @@ struct Simulation::Parts {
   std::uint64_t floor_seed;
   Ground ground;
   Pose start;
+  Scenario built;  // with what effects change of the machine
   std::unique_ptr<PlanarVehicle> vehicle;
   std::vector<Leg> route;
   PathFollower follower;

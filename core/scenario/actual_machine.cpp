@@ -61,6 +61,17 @@ std::vector<std::string> problems_in(const ActualMachine& machine, const Vehicle
 
 double typical_wheel_radius_m(const VehicleKind& kind) { return std::visit(TypicalRadius{}, kind); }
 
+bool has_linked_part(const VehicleKind& kind, const std::string& component) {
+  if (std::holds_alternative<Clapper>(kind) || std::holds_alternative<OmniMate>(kind))
+    return component == "truck_a" || component == "truck_b" || component == "link";
+  if (std::holds_alternative<EncoderTrailer>(kind) || std::holds_alternative<SmartEncoderTrailer>(kind))
+    return component == "trailer";
+  if (const auto* vehicle = std::get_if<MultiCastor>(&kind))
+    for (std::size_t i = 1; i <= vehicle->castors.size(); ++i)
+      if (component == "castor" + std::to_string(i)) return true;
+  return false;
+}
+
 bool moves_sideways(const VehicleKind& kind) {
   return std::holds_alternative<Clapper>(kind) || std::holds_alternative<OmniMate>(kind) ||
          std::holds_alternative<MultiCastor>(kind);

@@ -81,6 +81,9 @@ const Kind& true_lengths(const ActualMachine& machine, const Vehicle& nominal) {
 // A wheel's true radius that stands for all: by it the height of bumps is judged.
 double typical_wheel_radius_m(const VehicleKind& kind);
 
+// Whether a vehicle has this part with an encoder of its own: "truck_a", "link", "trailer", "castor2".
+bool has_linked_part(const VehicleKind& kind, const std::string& component);
+
 // Whether vehicles of this kind can be driven sideways.
 bool moves_sideways(const VehicleKind& kind);
 

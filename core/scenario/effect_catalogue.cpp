@@ -105,6 +105,11 @@ const std::vector<EffectEntry>& effect_catalogue() {
       {"truth_mounting_offset", kTruth, {{"x_m", -10.0, 10.0}, {"y_m", -10.0, 10.0}, {"heading_rad", -4.0, 4.0}}},
       {"actuator_lag", kVehicle, {{"time_constant_s", 0.0, 10.0, kRequired}}},
       {"actuator_delay", kVehicle, {{"delay_s", 0.0, 10.0, kRequired}}},
+      {"link_angle_bias", {"truck_a", "truck_b", "trailer"}, {{"bias_rad", -1.0, 1.0, kRequired}}},
+      {"link_length_bias", {"link"}, {{"bias_m", -0.1, 0.1, kRequired}}},
+      {"pivot_angle_bias",
+       {"castor1", "castor2", "castor3", "castor4", "castor5", "castor6"},
+       {{"bias_rad", -1.0, 1.0, kRequired}}},
   };
   return entries;
 }

@@ -22,7 +22,7 @@ struct EffectEntry {
   std::vector<EffectParameter> parameters;
 };
 
-// Every effect that a differential drive can have.
+// Every effect; the last ones are those of linked and castor vehicles.
 const std::vector<EffectEntry>& effect_catalogue();
 
 // Null where there is no effect of this name.

@@ -27,11 +27,17 @@ std::vector<std::string> problems_in(const Scenario& s) {
   for (const std::string& p : problems_in(s.vehicle.kind)) problems.push_back("vehicle." + p);
   const bool one_drive = std::holds_alternative<DifferentialDrive>(s.vehicle.kind);
   for (const std::string& p : problems_in(s.machine, s.vehicle.kind)) problems.push_back("actual." + p);
+  for (const ActiveEffect& effect : s.effects) {
+    const bool of_a_part = effect.effect == "link_angle_bias" || effect.effect == "link_length_bias" ||
+                           effect.effect == "pivot_angle_bias";
+    if (of_a_part && !has_linked_part(s.vehicle.kind, effect.component))
+      problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
+                         ", which this kind of vehicle does not have, expected one of its own parts");
+    if (!of_a_part && !one_drive && effect.component != "truth" && effect.effect != "slip_zone")
+      problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
+                         ", expected slip zones, biased encoders or effects of the truth for this kind of vehicle");
+  }
   if (!one_drive) {
-    for (const ActiveEffect& effect : s.effects)
-      if (effect.component != "truth" && effect.effect != "slip_zone")
-        problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
-                           ", expected slip zones or effects of the truth for this kind of vehicle");
     if (s.benchmark) problems.push_back("benchmark: found one, expected none for this kind of vehicle");
     if (std::holds_alternative<WheelSpeedPath>(s.path) || std::holds_alternative<ReplayPath>(s.path))
       problems.push_back("path.kind: found wheel speeds or a replay, expected a path for any kind of vehicle");

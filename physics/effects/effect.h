@@ -52,7 +52,8 @@ class Effect {
   // Before the run:
   virtual void lay_on(Floor&) const {}
   virtual void build_into(ActualDrive&) const {}
-  virtual void mount(TruthMounting&) const {}  // where the truth really sits, and how late its stamps are
+  virtual void build_into_lengths(VehicleKind&) const {}  // true lengths and sensor offsets of the other kinds
+  virtual void mount(TruthMounting&) const {}             // where the truth really sits, and how late its stamps are
 
   // Each step, from the driver to the floor:
   virtual void command(WheelPair& /*set_speed_radps*/) {}

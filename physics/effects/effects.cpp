@@ -31,7 +31,10 @@ namespace odolab::planar {
   X(truth_time_offset)        \
   X(truth_mounting_offset)    \
   X(actuator_lag)             \
-  X(actuator_delay)
+  X(actuator_delay)           \
+  X(link_angle_bias)          \
+  X(link_length_bias)         \
+  X(pivot_angle_bias)
 
 #define ODOLAB_DECLARE(name) std::unique_ptr<Effect> name(const ActiveEffect&, const Machine&);
 ODOLAB_EACH_EFFECT(ODOLAB_DECLARE)
@@ -71,6 +74,13 @@ Floor Effects::laid_on(Floor floor) const {
 ActualDrive Effects::built_into(ActualDrive actual) const {
   for (const auto& effect : effects_) effect->build_into(actual);
   return actual;
+}
+
+ActualMachine Effects::built_into(ActualMachine machine, const VehicleKind& nominal) const {
+  if (effects_.empty()) return machine;
+  if (!machine.lengths) machine.lengths = nominal;
+  for (const auto& effect : effects_) effect->build_into_lengths(*machine.lengths);
+  return machine;
 }
 
 TruthMounting Effects::mounted(TruthMounting truth) const {

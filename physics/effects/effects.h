@@ -21,6 +21,7 @@ class Effects {
 
   Floor laid_on(Floor floor) const;
   ActualDrive built_into(ActualDrive actual) const;
+  ActualMachine built_into(ActualMachine machine, const VehicleKind& nominal) const;
   TruthMounting mounted(TruthMounting truth) const;
   // The stamp that the robot's clock gives, and the time since the start at which it gives one.
   double robot_stamp_s(double begin_s, double since_start_s) const;
