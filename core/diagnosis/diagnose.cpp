@@ -3,11 +3,13 @@
 #include <cstdio>
 
 #include "core/diagnosis/adequacy.h"
+#include "core/diagnosis/advice.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/intervals.h"
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/select.h"
+#include "core/diagnosis/where.h"
 
 namespace odolab {
 
@@ -16,7 +18,6 @@ namespace {
 constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
 constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
 constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
-constexpr double kTestable = 30.0;        // chi-square that a medium effect must reach to count as testable
 constexpr int kFewestInnovations = 40;    // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
@@ -40,18 +41,6 @@ InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset
   return run;
 }
 
-WhereFound where_of(const AcceptedEffect& a, const std::vector<std::string>& names) {
-  WhereFound w;
-  w.regime = a.effect->regime;
-  if (a.effect->of_one_recording || a.effect->and_later_recordings) {
-    w.and_later_recordings = a.effect->and_later_recordings;
-    w.recording = names[static_cast<std::size_t>(a.shape[0])];
-    w.time_s.push_back({a.shape[1] - (a.effect->local ? 0.1 : 0.0), a.shape[1] + (a.effect->local ? 0.1 : 0.0)});
-  }
-  if (a.effect->name == "slip_zone") w.zone = WhereFound::Zone{a.shape[0], a.shape[1], a.shape[2]};
-  return w;
-}
-
 std::string in_words(const Finding& f) {
   std::string s = f.sentence;
   for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
@@ -63,13 +52,13 @@ std::string in_words(const Finding& f) {
   return s;
 }
 
-Finding finding_of(const AcceptedEffect& a, const Eigen::MatrixXd& covariance, const ScoredCandidate& evidence,
-                   const std::vector<ScoredCandidate>& alternatives, const std::vector<std::string>& names) {
+Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen::MatrixXd& covariance,
+                   const ScoredCandidate& evidence, const std::vector<ScoredCandidate>& alternatives) {
   Finding f;
   f.effect = a.effect->name;
   f.component = a.effect->component;
   f.parameters = parameters_of(a, covariance);
-  f.where = where_of(a, names);
+  f.where = where_of(joint, a, covariance);
   f.log_likelihood_gain = 0.5 * evidence.test.statistic;
   f.p_value = evidence.p_value;
   f.sentence = a.effect->sentence;
@@ -203,35 +192,6 @@ std::vector<Residuals> residuals_of(const JointModel& joint) {
   return all;
 }
 
-void add_not_testable(Diagnosis& d, const std::vector<ScoredCandidate>& looks) {
-  std::vector<std::string> seen;
-  for (const Finding& f : d.findings) seen.push_back(f.effect);
-  for (const ScoredCandidate& first : looks) {
-    const std::string& name = first.effect->name;
-    if (std::find(seen.begin(), seen.end(), name) != seen.end() || first.effect->only_commands) continue;
-    seen.push_back(name);
-    double best = 0.0, survives = 0.0;
-    for (const ScoredCandidate& c : looks) {
-      if (c.effect->name != name) continue;
-      double least = 1e300;
-      for (std::size_t k = 0; k < c.test.value.size(); ++k)
-        least =
-            std::min(least, std::pow(c.effect->amplitudes[k].medium / c.test.stderr_value[k], 2) / c.test.inflation);
-      if (c.test.value.empty()) least = 0.0;
-      best = std::max(best, least);
-      survives = std::max(survives, c.test.survives);
-    }
-    if (best >= kTestable) continue;
-    NotTestable n;
-    n.effect = name;
-    n.because = survives < 0.05
-                    ? text("on these drives calibration absorbs %.0f %% of what it would do", 100.0 * (1.0 - survives))
-                    : text("an effect of common size would show with %.1f standard deviations only", std::sqrt(best));
-    n.drive_this = first.effect->told_apart_by;
-    d.not_testable.push_back(n);
-  }
-}
-
 }  // namespace
 
 ActiveEffect Finding::as_active() const {
@@ -304,7 +264,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   double explained = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     named.push_back(
-        finding_of(joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k], names));
+        finding_of(joint, joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k]));
     explained += selected.evidence[k].test.statistic;
   }
   add_mounting(named, joint, intervals, d.calibration_alone, nominal);
@@ -400,7 +360,12 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       d.findings.push_back(f);
     }
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
-  add_not_testable(d, selected.first_look);
+  std::vector<Confusion> confused;
+  for (std::size_t k = 0; k < joint.accepted.size() && d.verdict == Verdict::ambiguous; ++k)
+    for (const ScoredCandidate& c : selected.alternatives[k])
+      confused.push_back({static_cast<int>(k), c.effect, c.test.shape, selected.evidence[k].test.inflation});
+  const Advice next = advice(joint, confused, options.family_wise_error);
+  d.not_testable = next.not_testable;
   int testable = 0, entries = 0;
   {
     std::vector<std::string> seen;
@@ -419,7 +384,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   for (const Finding& f : d.findings)
     if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;
-  if (d.next_drive.empty() && !d.not_testable.empty()) d.next_drive = d.not_testable.front().drive_this;
+  if (!confused.empty() || d.next_drive.empty()) {
+    d.next_drive = next.next_drive;
+    d.next_legs = next.next_legs;
+  }
 
   switch (d.verdict) {
     case Verdict::found:

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/active_effect.h"
+#include "core/diagnosis/advised_drive.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -104,6 +105,7 @@ struct Diagnosis {
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
   std::vector<NotTestable> not_testable;
   std::string next_drive;
+  std::vector<DriveLeg> next_legs;  // the same to be driven; empty where words are all there is
   std::vector<std::string> sentences;  // the summary that a person reads in a minute
   std::vector<std::string> warnings;
   std::vector<Response> responses;

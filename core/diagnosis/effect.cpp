@@ -68,6 +68,7 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
       s.heading_rad = p.pose.heading_rad + share * wrapped(q.pose.heading_rad - p.pose.heading_rad);
     }
   }
+  for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
   // Speeds over about 0.1 s: single counts would drown them.
   const auto smoothed = [&](int i, double half_s, double* left, double* right) {
     const double t = view.steps[i].time_s;

@@ -22,6 +22,7 @@ struct EffectStep {
   double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
   double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
   double heading_rad = 0.0;
+  double cos_heading = 1.0, sin_heading = 0.0;
   Vec2 position;
 
   double forward_m() const { return 0.5 * (left_m + right_m); }
@@ -66,7 +67,7 @@ struct Effect {
   std::string regime;                   // where it acts, in words
   std::vector<std::string> looks_like;  // effects that it is easily taken for
   std::string told_apart_by;            // and the drive that decides
-  // One for each amplitude: the motion for a value of 1 at this shape.
+  // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
@@ -92,6 +93,8 @@ const Effect* catalogue_entry(const ActiveEffect& active);
 // The entries, one file each.
 namespace effects {
 std::vector<Effect> wheel_eccentricity();
+// The same where the runs start at other angles of the wheel: a phase of its own in each. Lives as long as the program.
+const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs);
 std::vector<Effect> encoder_missed_counts();
 std::vector<Effect> drivetrain_backlash();
 std::vector<Effect> wheel_toe();

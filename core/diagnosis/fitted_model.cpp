@@ -38,6 +38,21 @@ FittedModel model_of(const Diagnosis& diagnosis) {
       continue;
     FittedEffect effect{finding.as_active(), {}, ""};
     for (const FoundParameter& p : finding.parameters) effect.stderr_values.emplace_back(p.name, p.stderr_value);
+    // phases of their own, each in its recording alone
+    if (has_parameter(effect.active, "phase_rad_2")) {
+      for (std::size_t r = 0; r < diagnosis.truth_clock_s.size(); ++r) {
+        const std::string own = r == 0 ? "phase_rad" : "phase_rad_" + std::to_string(r + 1);
+        FittedEffect in_one{{finding.effect, finding.component, {}}, {}, diagnosis.truth_clock_s[r].first};
+        for (const FoundParameter& p : finding.parameters)
+          if (p.name == "amplitude" || p.name == own) {
+            const std::string name = p.name == own ? "phase_rad" : p.name;
+            in_one.active.parameters.emplace_back(name, p.value);
+            in_one.stderr_values.emplace_back(name, p.stderr_value);
+          }
+        model.effects.push_back(in_one);
+      }
+      continue;
+    }
     // what is tied to a time and not to a place happened once
     if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m"))
       effect.recording = finding.where.recording;

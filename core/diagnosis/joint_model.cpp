@@ -92,7 +92,7 @@ InnovationRun JointModel::prepared(int r) const {
     const std::vector<Motions> motions = a.effect->motions(views_[r], a.shape);
     any = true;
     for (std::size_t k = 0; k < motions.size(); ++k)
-      for (std::size_t i = 0; i < sum.per_step.size(); ++i) {
+      for (std::size_t i = 0; i < motions[k].size(); ++i) {
         sum.per_step[i].forward_m += a.value[k] * motions[k][i].forward_m;
         sum.per_step[i].sideways_m += a.value[k] * motions[k][i].sideways_m;
         sum.per_step[i].turn_rad += a.value[k] * motions[k][i].turn_rad;
@@ -365,6 +365,30 @@ JointModel JointModel::left_out(int run) const {
   return one;
 }
 
+// Over one window: the truth's error at both ends, that of its heading at the start swinging the way about, and the
+// wheels' errors, which turn the rest of the way.
+void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, const Track& guess,
+               double from_s, double to_s) {
+  double left_and_right_m = 0.0;
+  const auto from =
+      std::lower_bound(guess.begin(), guess.end(), from_s, [](const TimedPose& p, double t) { return p.time_s < t; });
+  const auto to = std::lower_bound(from, guess.end(), to_s, [](const TimedPose& p, double t) { return p.time_s < t; });
+  if (from == guess.end() || from == to) return;
+  for (auto i = from; i + 1 < guess.end() && i < to; ++i) {
+    const double way = length((i + 1)->pose.position() - i->pose.position());
+    const double turned = 0.5 * wheelbase_m * std::abs((i + 1)->pose.heading_rad - i->pose.heading_rad);
+    left_and_right_m += 2.0 * std::max(way, turned);
+  }
+  const Vec2 along = std::min(to, guess.end() - 1)->pose.position() - from->pose.position();
+  const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m,
+               p2 = noise.truth_position_m * noise.truth_position_m,
+               h2 = noise.truth_heading_rad * noise.truth_heading_rad,
+               body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m;
+  const double turn2 = (q2 + 2.0 * body2) * left_and_right_m / (wheelbase_m * wheelbase_m), d2 = dot(along, along);
+  sum.noise_position_m2 += 4.0 * p2 + h2 * d2 + (0.25 * q2 + body2) * left_and_right_m + turn2 * d2 / 3.0;
+  sum.noise_heading_rad2 += 2.0 * h2 + turn2;
+}
+
 JointModel::GatheredError JointModel::gathered_error() const {
   std::vector<GatheredError> of(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
@@ -390,17 +414,25 @@ JointModel::GatheredError JointModel::gathered_error() const {
       if (!run.set_aside[i] && run.truth[i].heading_rad)
         truth.push_back(
             {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
-    if (const std::optional<TrackError> e = track_error(guess, truth); e && e->windows > 0)
-      of[r] = {e->windows * e->position_rms_m * e->position_rms_m, e->windows * e->heading_rms_rad * e->heading_rms_rad,
-               e->windows};
+    if (const std::optional<TrackError> e = track_error(guess, truth); e && e->windows > 0) {
+      of[r].position_m2 = e->windows * e->position_rms_m * e->position_rms_m;
+      of[r].heading_rad2 = e->windows * e->heading_rms_rad * e->heading_rms_rad;
+      of[r].windows = e->windows;
+      for (const auto& [from_s, to_s] : e->window_s)
+        add_noise(of[r], model.noise, model.drive.wheelbase_m, guess, from_s, to_s);
+    }
   });
   GatheredError sum;
   for (const GatheredError& e : of) {
     sum.position_m2 += e.position_m2;
     sum.heading_rad2 += e.heading_rad2;
+    sum.noise_position_m2 += e.noise_position_m2;
+    sum.noise_heading_rad2 += e.noise_heading_rad2;
     sum.windows += e.windows;
   }
-  if (sum.windows > 0) sum.position_m2 /= sum.windows, sum.heading_rad2 /= sum.windows;
+  if (sum.windows > 0)
+    for (double* mean : {&sum.position_m2, &sum.heading_rad2, &sum.noise_position_m2, &sum.noise_heading_rad2})
+      *mean /= sum.windows;
   return sum;
 }
 

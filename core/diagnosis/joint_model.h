@@ -67,6 +67,7 @@ class JointModel {
   // windows where the truth has no headings.
   struct GatheredError {
     double position_m2 = 0.0, heading_rad2 = 0.0;
+    double noise_position_m2 = 0.0, noise_heading_rad2 = 0.0;  // what the model's noise alone would leave
     int windows = 0;
   };
   GatheredError gathered_error() const;

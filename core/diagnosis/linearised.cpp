@@ -42,7 +42,10 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
   sums_ = filtered(run, summed_, model, options);
   whitener_.assign(9 * static_cast<std::size_t>(n), 0.0);
   residual_.assign(3 * static_cast<std::size_t>(n), 0.0);
+  turned_.resize(n);
   for (int k = 0; k < n; ++k) {
+    const double before = steps_[k].heading_before_rad, here = steps_[k].heading_rad;
+    turned_[k] = {std::cos(before), std::sin(before), std::cos(here), std::sin(here)};
     if (!steps_[k].used) continue;
     double* w = &whitener_[9 * static_cast<std::size_t>(k)];
     whitener_of(steps_[k], w);
@@ -109,7 +112,7 @@ Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion,
       start_at(step);
       continue;
     }
-    const double c = std::cos(step.heading_before_rad), s = std::sin(step.heading_before_rad);
+    const double c = turned_[t + 1].c0, s = turned_[t + 1].s0;
     double jac[3] = {0.0, 0.0, 0.0};
     if (t < last_with_motion) motion(t, jac);
     d0 += -step.moved.y_m * d2 + c * jac[0] - s * jac[1];
@@ -118,7 +121,7 @@ Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion,
     if (!step.used) continue;
     double j0 = d0 - step.arm.y_m * d2, j1 = d1 + step.arm.x_m * d2, j2 = d2;
     if (mounting) {
-      const double ch = std::cos(step.heading_rad), sh = std::sin(step.heading_rad);
+      const double ch = turned_[t + 1].c1, sh = turned_[t + 1].s1;
       if (parameter == column::mounting_x) j0 += ch, j1 += sh;
       if (parameter == column::mounting_y) j0 -= sh, j1 += ch;
       if (parameter == column::mounting_heading) j2 += 1.0;

@@ -51,6 +51,10 @@ class LinearisedRun {
   std::vector<Piece> pieces_;
   std::vector<int> first_piece_;  // of each truth interval
   std::vector<FilterStep> steps_;
+  struct Turned {  // cosine and sine of a step's headings, before and predicted
+    double c0, s0, c1, s1;
+  };
+  std::vector<Turned> turned_;
   std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;
   InnovationSums sums_;

@@ -59,7 +59,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
       if (e->forms.size() > 1) shape.push_back(a.parameter("form"));
       const std::vector<Motions> motions = e->motions(view, shape);
       for (std::size_t k = 0; k < motions.size(); ++k)
-        for (std::size_t i = 0; i < sum.size(); ++i) {
+        for (std::size_t i = 0; i < motions[k].size(); ++i) {
           sum[i].forward_m += value[k] * motions[k][i].forward_m;
           sum[i].sideways_m += value[k] * motions[k][i].sideways_m;
           sum[i].turn_rad += value[k] * motions[k][i].turn_rad;

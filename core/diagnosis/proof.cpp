@@ -52,6 +52,21 @@ FitFigures figures(const std::vector<JointModel>& models) {
   return {std::sqrt(position_m2), std::sqrt(heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
 }
 
+// What the noise alone leaves over the same windows; it is fitted too, and where chance was kind the floor is what was
+// reached.
+FitFigures noise_floor(const std::vector<JointModel>& models, const FitFigures& reached) {
+  double position_m2 = 0.0, heading_rad2 = 0.0, windows = 0.0;
+  for (const JointModel& j : models) {
+    const JointModel::GatheredError e = j.gathered_error();
+    position_m2 += e.windows * e.noise_position_m2;
+    heading_rad2 += e.windows * e.noise_heading_rad2;
+    windows += e.windows;
+  }
+  if (windows > 0.0) position_m2 /= windows, heading_rad2 /= windows;
+  return {std::min(std::sqrt(position_m2), reached.position_rms_m),
+          std::min(std::sqrt(heading_rad2), reached.heading_rms_rad), std::min(1.0, reached.normalised_chi2)};
+}
+
 // The same term half a run later: as free as the finding, and without meaning.
 Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   Effect placebo = of;
@@ -100,20 +115,11 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     FitTable t;
     t.nominal = figures(judged(as_nominal, true));
     t.calibrated = figures(judged(calibrated, false));
-    t.with_findings = figures(judged(after, false));
+    const std::vector<JointModel> found = judged(after, false);
+    t.with_findings = figures(found);
     t.spline = figures(judged(with_spline, false));
     if (with_placebo) t.placebo = figures(judged(*with_placebo, false));
-    // What noise alone leaves over a metre: truth at both ends, its heading at the start, and the wheels.
-    const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m +
-                      2.0 * noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
-                 b = joint.model.drive.wheelbase_m;
-    const double p2 = noise.truth_position_m * noise.truth_position_m,
-                 h2 = noise.truth_heading_rad * noise.truth_heading_rad;
-    FitFigures floor;
-    floor.position_rms_m = std::sqrt(4.0 * p2 + h2 + 0.5 * q2 + 2.0 * q2 / (3.0 * b * b));
-    floor.heading_rms_rad = std::sqrt(2.0 * h2 + 2.0 * q2 / (b * b));
-    floor.normalised_chi2 = 1.0;
-    t.noise_floor = floor;
+    t.noise_floor = noise_floor(found, *t.with_findings);
     return t;
   };
   using Models = std::vector<JointModel>;

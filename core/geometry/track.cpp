@@ -67,6 +67,7 @@ std::optional<TrackError> track_error(const Track& estimate, const Track& refere
       position_sum += dot(e.position(), e.position());
       heading_sum += wrapped(e.heading_rad) * wrapped(e.heading_rad);
       ++error.windows;
+      error.window_s.emplace_back(truth[start].time_s, truth[i].time_s);
       start = i;
       travel_m = turn_rad = 0.0;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/pose.h"
@@ -32,6 +33,7 @@ struct TrackError {
   double position_rms_m = 0.0;
   double heading_rms_rad = 0.0;
   int windows = 0;
+  std::vector<std::pair<double, double>> window_s;  // when they are
   // Error at the end of the run and the largest on the way, from a true start.
   double end_position_m = 0.0;
   double end_heading_rad = 0.0;

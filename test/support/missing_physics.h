@@ -14,7 +14,8 @@ struct Case {
   std::string effect;  // empty: none
   std::string component;
   DifferentialDrive actual;
-  std::vector<std::pair<std::string, double>> truth;  // the effect's parameters by the catalogue's names, as far as it has them
+  std::vector<std::pair<std::string, double>>
+      truth;  // the effect's parameters by the catalogue's names, as far as it has them
 };
 
 struct CaseSettings {
@@ -38,10 +39,14 @@ inline SpeedProfile varied_driving(Random& random, double duration_s) {
     Leg leg{t, t + length, 0.0, 0.0};
     const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
     const double v = speed * random.uniform(0.4, 1.0);
-    if (kind < 0.3) leg.forward = v;
-    else if (kind < 0.6) leg.forward = v, leg.turning = sign * random.uniform(0.4, 1.2);
-    else if (kind < 0.8) leg.turning = sign * random.uniform(1.5, 3.0), leg.to = t + random.uniform(1.0, 2.0);
-    else leg.forward = -0.6 * v, leg.turning = random.uniform() < 0.5 ? 0.0 : sign * 0.4;
+    if (kind < 0.3)
+      leg.forward = v;
+    else if (kind < 0.6)
+      leg.forward = v, leg.turning = sign * random.uniform(0.4, 1.2);
+    else if (kind < 0.8)
+      leg.turning = sign * random.uniform(1.5, 3.0), leg.to = t + random.uniform(1.0, 2.0);
+    else
+      leg.forward = -0.6 * v, leg.turning = random.uniform() < 0.5 ? 0.0 : sign * 0.4;
     legs->push_back(leg);
     t = leg.to + (random.uniform() < 0.3 ? 0.5 : -0.35);
   }
@@ -58,8 +63,9 @@ inline SpeedProfile varied_driving(Random& random, double duration_s) {
   };
 }
 
-inline std::function<void(InjectedStep&)> injected(const std::string& effect, double size, const DifferentialDrive& drive,
-                                                   int run, double duration_s, Random& random) {
+inline std::function<void(InjectedStep&)> injected(const std::string& effect, double size,
+                                                   const DifferentialDrive& drive, int run, double duration_s,
+                                                   Random& random) {
   const double b = drive.wheelbase_m;
   const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m;
   const auto speed = [=](const InjectedStep& s) { return 0.5 * (rl * s.left_radps + rr * s.right_radps); };
@@ -129,7 +135,8 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
     };
   }
   if (effect == "turn_scrub")
-    return [=](InjectedStep& s) { s.turn_rad += yaw(s) * s.dt_s * (1.0 / (1.0 + 0.01 * size * std::abs(yaw(s))) - 1.0); };
+    return
+        [=](InjectedStep& s) { s.turn_rad += yaw(s) * s.dt_s * (1.0 / (1.0 + 0.01 * size * std::abs(yaw(s))) - 1.0); };
   if (effect == "one_sided_drag")
     return [=](InjectedStep& s) { s.turn_rad += 0.01 * size * std::abs(speed(s)) * s.dt_s; };
   if (effect == "bump") {
@@ -146,13 +153,11 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
     };
   }
   if (effect == "slip_zone") {
-    auto centre = std::make_shared<Vec2>();
-    auto known = std::make_shared<bool>(false);
     return [=](InjectedStep& s) {
-      if (!*known && s.time_s > 4.0) *centre = {0.35, 0.2}, *known = true;
+      const Vec2 centre{0.35, 0.2};
       const Vec2 side = rotated({0.0, 0.5 * b}, s.pose.heading_rad);
-      if (length(s.pose.position() + side - *centre) < 0.45) s.left_m *= 1.0 - 0.05 * size;
-      if (length(s.pose.position() - side - *centre) < 0.45) s.right_m *= 1.0 - 0.05 * size;
+      if (length(s.pose.position() + side - centre) < 0.45) s.left_m *= 1.0 - 0.05 * size;
+      if (length(s.pose.position() - side - centre) < 0.45) s.right_m *= 1.0 - 0.05 * size;
     };
   }
   if (effect == "floor_slope_creep")
@@ -182,25 +187,27 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
                     std::abs(speed(s)) * s.dt_s;
     };
   if (effect == "compass")  // turned towards a direction of the room
-    return [=](InjectedStep& s) { s.turn_rad += 0.02 * size * std::sin(s.pose.heading_rad) * std::abs(speed(s)) * s.dt_s; };
+    return [=](InjectedStep& s) {
+      s.turn_rad += 0.02 * size * std::sin(s.pose.heading_rad) * std::abs(speed(s)) * s.dt_s;
+    };
   if (effect == "cubic_steering")
     return [=](InjectedStep& s) { s.turn_rad += 0.06 * size * yaw(s) * yaw(s) * std::abs(speed(s)) * s.dt_s; };
   if (effect == "memory")  // twists back after a turn
-    {
-      auto m = std::make_shared<double>(0.0);
-      return [=](InjectedStep& s) {
-        *m = *m * std::exp(-std::abs(speed(s)) * s.dt_s / 0.25) + yaw(s) * s.dt_s;
-        *m = std::clamp(*m, -1.5, 1.5);
-        s.turn_rad -= 0.04 * size * *m * std::abs(speed(s)) * s.dt_s;
-      };
-    }
+  {
+    auto m = std::make_shared<double>(0.0);
+    return [=](InjectedStep& s) {
+      *m = *m * std::exp(-std::abs(speed(s)) * s.dt_s / 0.25) + yaw(s) * s.dt_s;
+      *m = std::clamp(*m, -1.5, 1.5);
+      s.turn_rad -= 0.04 * size * *m * std::abs(speed(s)) * s.dt_s;
+    };
+  }
   return {};
 }
 
 // What was injected, in the catalogue's words. The same draws as `injected` makes.
 inline std::vector<std::pair<std::string, double>> injected_parameters(const std::string& effect, double size,
-                                                                       const DifferentialDrive& drive, double duration_s,
-                                                                       Random random) {
+                                                                       const DifferentialDrive& drive,
+                                                                       double duration_s, Random random) {
   const double phase = random.uniform(0.0, 2.0 * kPi);
   const auto at = [&](double low, double high) { return random.uniform(low, high) * duration_s; };
   if (effect == "wheel_eccentricity") return {{"amplitude", 0.005 * size}, {"phase_rad", phase}};
@@ -220,7 +227,8 @@ inline std::vector<std::pair<std::string, double>> injected_parameters(const std
   if (effect == "bump") return {{"extra_distance_m", 0.01 * size}};
   if (effect == "slip_zone") return {{"slip", 0.05 * size}, {"x_m", 0.35}, {"y_m", 0.2}, {"radius_m", 0.45}};
   if (effect == "floor_slope_creep") return {{"direction_rad", phase}, {"creep_mps", 0.002 * size}};
-  if (effect == "collision") return {{"dx_m", 0.0}, {"dy_m", 0.02 * size}, {"dheading_rad", 0.04 * size}, {"at_s", at(0.2, 0.8)}};
+  if (effect == "collision")
+    return {{"dx_m", 0.0}, {"dy_m", 0.02 * size}, {"dheading_rad", 0.04 * size}, {"at_s", at(0.2, 0.8)}};
   if (effect == "turn_speed_loss") return {{"per_radps", 0.02 * size}};
   return {};
 }

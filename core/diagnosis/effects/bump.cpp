@@ -18,7 +18,7 @@ double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.l
 // Where the wheel stands.
 Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
   const double half = wheel == Wheel::left ? 0.5 * wheelbase_m : -0.5 * wheelbase_m;
-  return {s.position.x_m - half * std::sin(s.heading_rad), s.position.y_m + half * std::cos(s.heading_rad)};
+  return {s.position.x_m - half * s.sin_heading, s.position.y_m + half * s.cos_heading};
 }
 
 // The extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
@@ -45,13 +45,16 @@ Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length
   return m;
 }
 
+// Empty where the wheel never comes there.
 Motions at_place(const DriveView& view, Wheel wheel, Vec2 place, double reach_m) {
-  Motions m(view.steps.size());
+  Motions m;
   const auto near = [&](std::size_t i) {
-    return length(contact(wheel, view.steps[i], view.drive.wheelbase_m) - place) < reach_m;
+    const Vec2 to = contact(wheel, view.steps[i], view.drive.wheelbase_m) - place;
+    return dot(to, to) < reach_m * reach_m;
   };
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     if (!near(i)) continue;
+    m.resize(view.steps.size());
     std::size_t to = i;
     while (to + 1 < view.steps.size() && near(to + 1)) ++to;
     spread(m, view, wheel, i, to);

@@ -24,13 +24,16 @@ std::vector<Effect> collision() {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     std::vector<Motions> m(3, Motions(view.steps.size()));
     if (view.number != static_cast<int>(shape[0])) return m;
-    const double half = 0.5 * kLasts_s[static_cast<int>(shape.back())];
+    const double lasts_s = kLasts_s[static_cast<int>(shape.back())];
     double total_s = 0.0;
-    // The share of each interval that lies within the push; at least the interval in which its middle lies.
+    // How much of the way is done: it begins at `at_s` and ends softly. At least the interval in which it begins.
+    const auto done = [&](double t) {
+      return 0.5 - 0.5 * std::cos(kPi * std::clamp((t - shape[1]) / lasts_s, 0.0, 1.0));
+    };
     const auto within = [&](const EffectStep& s) {
       const double from = s.time_s - 0.5 * s.duration_s, to = s.time_s + 0.5 * s.duration_s;
-      if (half <= 0.0) return shape[1] > from - 1e-9 && shape[1] <= to + 1e-9 && total_s == 0.0 ? to - from : 0.0;
-      return std::max(0.0, std::min(to, shape[1] + half) - std::max(from, shape[1] - half));
+      if (lasts_s <= 0.0) return shape[1] > from - 1e-9 && shape[1] <= to + 1e-9 && total_s == 0.0 ? to - from : 0.0;
+      return to < shape[1] || from > shape[1] + lasts_s ? 0.0 : done(to) - done(from);
     };
     std::vector<std::pair<std::size_t, double>> acts;
     for (std::size_t i = 0; i < view.steps.size(); ++i)
@@ -39,9 +42,9 @@ std::vector<Effect> collision() {
         total_s += share;
       }
     for (const auto& [i, share] : acts) {
-      const double h = view.steps[i].heading_rad, part = share / total_s;
-      m[0][i] = {part * std::cos(h), -part * std::sin(h), 0.0};
-      m[1][i] = {part * std::sin(h), part * std::cos(h), 0.0};
+      const double c = view.steps[i].cos_heading, s = view.steps[i].sin_heading, part = share / total_s;
+      m[0][i] = {part * c, -part * s, 0.0};
+      m[1][i] = {part * s, part * c, 0.0};
       m[2][i].turn_rad = part;
     }
     return m;

@@ -20,7 +20,7 @@ std::vector<Effect> floor_slope_creep() {
     for (const EffectStep& s : view.steps) {
       // A wheel that stands does not creep.
       const double dt = s.speed_mps != 0.0 || s.yaw_rate_radps != 0.0 ? s.duration_s : 0.0;
-      const double c = std::cos(s.heading_rad), sn = std::sin(s.heading_rad);
+      const double c = s.cos_heading, sn = s.sin_heading;
       x.push_back({c * dt, -sn * dt, 0.0});
       y.push_back({sn * dt, c * dt, 0.0});
     }

@@ -27,7 +27,7 @@ std::vector<Effect> slip_zone() {
       const EffectStep& s = view.steps[i];
       const Vec2 to = s.position - centre;
       if (dot(to, to) > (shape[2] + b) * (shape[2] + b)) continue;
-      const Vec2 side{-0.5 * b * std::sin(s.heading_rad), 0.5 * b * std::cos(s.heading_rad)};
+      const Vec2 side{-0.5 * b * s.sin_heading, 0.5 * b * s.cos_heading};
       const Vec2 left = to + side, right = to - side;
       if (shape.back() < 0.5) {
         const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;

@@ -1,0 +1,432 @@
+#include "core/diagnosis/advice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/diagnosis/advised_drive.h"
+#include "core/diagnosis/select.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kPower = 1.2816;     // normal quantile of 90 %
+constexpr int kShapes = 9;            // of a scan, to find what is typical
+constexpr double kLongest_s = 180.0;  // of an advised drive
+constexpr int kMostDrives = 5;
+
+std::string text(const char* format, double a = 0.0, double b = 0.0) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+double quantile(std::vector<double> v, double share) {
+  if (v.empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), v.begin() + k, v.end());
+  return v[static_cast<std::size_t>(k)];
+}
+
+// The chi-square that is exceeded with that probability.
+double chi_square_at(double probability, int freedom) {
+  double low = 0.0, high = 200.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (chi_square_tail(middle, freedom) > probability ? low : high) = middle;
+  }
+  return high;
+}
+
+// An entry of the catalogue at a typical shape, and what would have been seen of it.
+struct Visible {
+  const Effect* effect = nullptr;
+  std::vector<double> shape;
+  double needed = 1e9;    // smallest size that would have been seen, in units of the medium one
+  double standard = 0.0;  // standard deviations of the weakest amplitude that are needed
+  double survives = 0.0;
+  double inflation = 1.0;
+  int weakest = 0;  // amplitude
+  bool excited = false;
+};
+
+Visible visible_at(const JointModel& joint, const Effect& e, const std::vector<double>& shape, double probability) {
+  Visible out;
+  out.effect = &e;
+  out.shape = shape;
+  const CandidateTest t = joint.test(joint.columns_of(e, shape), -1, !e.local);
+  out.standard = std::sqrt(chi_square_at(probability, static_cast<int>(e.amplitudes.size()))) + kPower;
+  if (t.value.empty()) return out;
+  out.excited = true;
+  out.survives = t.survives;
+  out.inflation = t.inflation;
+  out.needed = 0.0;
+  for (std::size_t k = 0; k < t.value.size(); ++k) {
+    const double needed = out.standard * t.stderr_value[k] * std::sqrt(t.inflation) / e.amplitudes[k].medium;
+    if (needed > out.needed) out.needed = needed, out.weakest = static_cast<int>(k);
+  }
+  return out;
+}
+
+// Nothing where the recordings are too few for it to be asked.
+std::optional<Visible> visible(const JointModel& joint, const Effect& e, double family_wise_error) {
+  std::vector<std::vector<double>> shapes{{}};
+  std::size_t scanned = 1;
+  if (e.shape_follows_amplitude) {
+    shapes = {{e.amplitudes[0].medium}};
+    scanned = e.scan(joint.views()).size();
+  } else if (e.scan) {
+    const std::vector<std::vector<double>> all = e.scan(joint.views());
+    scanned = std::max<std::size_t>(1, all.size());
+    shapes.clear();
+    for (std::size_t k = 0; k < kShapes && !all.empty(); ++k)
+      shapes.push_back(all[(2 * k + 1) * all.size() / (2 * kShapes)]);
+  }
+  const double probability =
+      family_wise_error /
+      (static_cast<double>(catalogue().size() * scanned * std::max<std::size_t>(1, e.forms.size())));
+  if (shapes.empty()) return std::nullopt;
+  std::vector<Visible> of;
+  for (std::vector<double>& s : shapes) {
+    if (e.forms.size() > 1) s.push_back(0.0);
+    of.push_back(visible_at(joint, e, s, probability));
+  }
+  std::stable_sort(of.begin(), of.end(), [](const Visible& a, const Visible& b) { return a.needed < b.needed; });
+  return of[of.size() / 2];
+}
+
+DrivingRange range_of(const JointModel& joint) {
+  std::vector<double> v, w, a, b;
+  for (const DriveView& view : joint.views())
+    for (const EffectStep& s : view.steps) {
+      v.push_back(std::abs(s.speed_mps)), w.push_back(std::abs(s.yaw_rate_radps));
+      a.push_back(std::abs(s.acceleration_mps2)), b.push_back(std::abs(s.yaw_acceleration_radps2));
+    }
+  DrivingRange r;
+  r.speed_mps = std::clamp(quantile(v, 0.95), 0.1, 3.0);
+  // Who only drove straight can turn too: each wheel at half its speed.
+  r.yaw_rate_radps = std::clamp(std::max(quantile(w, 0.95), r.speed_mps / joint.model.drive.wheelbase_m), 0.2, 3.0);
+  r.acceleration_mps2 = std::clamp(quantile(a, 0.98), 0.2, 2.0);
+  r.yaw_acceleration_radps2 = std::clamp(quantile(b, 0.98), 1.0, 10.0);
+  return r;
+}
+
+// A model with the manoeuvres as its runs, one each.
+JointModel imagined(const JointModel& joint, const std::vector<AdvisedDrive>& all, const DrivingRange& range) {
+  std::vector<double> periods;
+  int with_heading = 0;
+  for (const InnovationRun& run : joint.runs()) {
+    with_heading += run.truth_has_heading ? 1 : -1;
+    for (std::size_t i = 1; i < run.truth.size(); ++i) periods.push_back(run.truth[i].time_s - run.truth[i - 1].time_s);
+  }
+  std::vector<InnovationRun> runs;
+  for (const AdvisedDrive& m : all)
+    runs.push_back(run_of(m, range, joint.model.drive, quantile(periods, 0.5), with_heading > 0));
+  LeastSquaresCalibration start;
+  start.vehicle.kind = joint.model.drive;
+  start.vehicle.truth = joint.model.truth;
+  start.vehicle.truth.time_offset_s = 0.0;
+  start.noise = joint.model.noise;
+  const Vehicle nominal = start.vehicle;
+  JointModel m(std::move(runs), std::vector<char>(all.size(), joint.views().front().from_commands), start, nominal);
+  m.linearise();
+  return m;
+}
+
+// Columns in question: those of effects that were let in, and of candidates.
+struct Question {
+  const Effect* effect = nullptr;
+  std::vector<double> shape;
+};
+
+// Information on the six shared parameters and on all columns in question, the clock of the run projected off.
+MatrixXd information(const JointModel& joint, int run, const std::vector<Question>& questions) {
+  const LinearisedRun& linear = joint.linearised()[static_cast<std::size_t>(run)];
+  const int rows = 3 * linear.samples();
+  int q = 7;
+  for (const Question& c : questions) q += static_cast<int>(c.effect->amplitudes.size());
+  MatrixXd z = MatrixXd::Zero(rows, q);
+  for (int c = 0; c < 6; ++c) linear.of_parameter(c, z.col(c).data());
+  linear.of_parameter(column::truth_clock, z.col(6).data());
+  int at = 7;
+  const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
+  for (const Question& c : questions) {
+    if (c.effect->clock_rate)
+      linear.of_clock_rate(z.col(at++).data());
+    else
+      for (const Motions& m : c.effect->motions(view, c.shape)) linear.of_motion(m, z.col(at++).data());
+  }
+  MatrixXd gram = z.transpose() * z;
+  MatrixXd out(q - 1, q - 1);  // the clock last
+  std::vector<int> order{0, 1, 2, 3, 4, 5};
+  for (int c = 7; c < q; ++c) order.push_back(c);
+  const double clock = gram(6, 6) + 25.0;
+  for (int i = 0; i < q - 1; ++i)
+    for (int j = 0; j < q - 1; ++j)
+      out(i, j) = gram(order[i], order[j]) - gram(order[i], 6) * gram(6, order[j]) / clock;
+  return out;
+}
+
+// What is to be decided: whether the columns [from, from + value.size()) have that value, whatever those of `free` are.
+struct Decision {
+  int from = 0;
+  VectorXd value;
+  std::vector<int> free;
+  double inflation = 1.0, needed = 5.0;
+};
+
+// In standard deviations.
+double separation(const MatrixXd& information, const Decision& d) {
+  const auto m = static_cast<Eigen::Index>(d.free.size()), n = d.value.size();
+  MatrixXd rest(m, m), cross(m, n);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    for (Eigen::Index j = 0; j < m; ++j) rest(i, j) = information(d.free[i], d.free[j]);
+    for (Eigen::Index j = 0; j < n; ++j) cross(i, j) = information(d.free[i], d.from + j);
+  }
+  const MatrixXd own = information.block(d.from, d.from, n, n);
+  // Scaled, so that what is not excited at all does no harm.
+  VectorXd scale(m);
+  for (Eigen::Index i = 0; i < m; ++i) scale(i) = rest(i, i) > 0.0 ? 1.0 / std::sqrt(rest(i, i)) : 0.0;
+  const MatrixXd scaled = scale.asDiagonal() * rest * scale.asDiagonal() + 1e-9 * MatrixXd::Identity(m, m);
+  const MatrixXd projected = scale.asDiagonal() * cross;
+  const MatrixXd left = own - projected.transpose() * scaled.ldlt().solve(projected);
+  return std::sqrt(std::max(0.0, d.value.dot(left * d.value)) / d.inflation);
+}
+
+struct Plan {
+  std::vector<int> times;  // of each manoeuvre
+  double duration_s = 0.0;
+  std::vector<double> reached;
+  bool any = false;
+};
+
+// Greedy: at each step the manoeuvre that closes most of what is open, for its time.
+Plan planned(const MatrixXd& known, const std::vector<MatrixXd>& adds, const std::vector<AdvisedDrive>& all,
+             const std::vector<Decision>& decisions) {
+  Plan plan;
+  plan.times.assign(all.size(), 0);
+  MatrixXd now = known;
+  const auto open = [&](const MatrixXd& i) {
+    double sum = 0.0;
+    for (const Decision& d : decisions) sum += 1.0 - std::min(1.0, std::pow(separation(i, d) / d.needed, 2));
+    return sum;
+  };
+  double left = open(now);
+  for (int step = 0; step < kMostDrives && left > 1e-6; ++step) {
+    int best = -1;
+    double best_rate = 0.0;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      if (plan.duration_s + all[m].duration_s() > kLongest_s) continue;
+      const double rate = (left - open(now + adds[m])) / all[m].duration_s();
+      if (rate > best_rate) best_rate = rate, best = static_cast<int>(m);
+    }
+    if (best < 0 || best_rate * all[best].duration_s() < 0.02) break;
+    now += adds[best];
+    ++plan.times[best];
+    plan.duration_s += all[best].duration_s();
+    plan.any = true;
+    left = open(now);
+  }
+  for (const Decision& d : decisions) plan.reached.push_back(separation(now, d));
+  return plan;
+}
+
+std::string in_words(const Plan& plan, const std::vector<AdvisedDrive>& all) {
+  std::string s;
+  for (std::size_t m = 0; m < all.size(); ++m)
+    if (plan.times[m] > 0) {
+      s += (s.empty() ? "" : "; and ") + all[m].sentence;
+      if (plan.times[m] > 1) s += plan.times[m] == 2 ? ", twice" : text(", %.0f times", plan.times[m]);
+    }
+  return s + text(", %.0f s in all", std::ceil(plan.duration_s));
+}
+
+std::vector<DriveLeg> legs_of(const Plan& plan, const std::vector<AdvisedDrive>& all) {
+  std::vector<DriveLeg> legs;
+  for (std::size_t m = 0; m < all.size(); ++m)
+    for (int k = 0; k < plan.times[m]; ++k) legs.insert(legs.end(), all[m].legs.begin(), all[m].legs.end());
+  return legs;
+}
+
+std::string because_of(const Visible& v) {
+  if (!v.excited) return "these drives hold nothing that would show it";
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  const std::string unit = a.unit == "1" ? "" : " " + a.unit;
+  const bool absorbed = v.survives < 0.05;
+  const std::string share =
+      absorbed ? text("on these drives calibration absorbs %.3g %% of what it would do: ", 100.0 * (1.0 - v.survives))
+               : "";
+  if (v.needed > 1e4) return share + "none of any size would have shown";
+  return share + text("less than %.2g", v.needed * a.medium) + unit + " would not have shown here" +
+         text(", and %.2g", a.medium) + unit + " is of importance";
+}
+
+}  // namespace
+
+Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, double family_wise_error) {
+  Advice out;
+  const bool commands = joint.views().front().from_commands;
+  std::vector<const Effect*> asked;
+  for (const Effect& e : catalogue()) {
+    if (e.only_commands && !commands) continue;
+    if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) continue;
+    if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                    [&](const AcceptedEffect& a) { return a.effect->name == e.name; }))
+      continue;
+    if (e.name == "wheel_toe") continue;  // a mounting turned the other way; seen as that
+    asked.push_back(&e);
+  }
+  std::vector<std::optional<Visible>> looks(asked.size());
+  parallel_for(static_cast<int>(asked.size()), [&](int i) { looks[i] = visible(joint, *asked[i], family_wise_error); });
+  // Of an effect that shows in several ways the clearest counts; of one that several parts may have, the part on which
+  // it shows least.
+  std::vector<Visible> seen, dark;
+  for (const std::optional<Visible>& v : looks) {
+    if (!v) continue;
+    const auto same = std::find_if(seen.begin(), seen.end(), [&](const Visible& s) {
+      return s.effect->name == v->effect->name && s.effect->component == v->effect->component;
+    });
+    if (same == seen.end())
+      seen.push_back(*v);
+    else if (v->needed < same->needed)
+      *same = *v;
+  }
+  for (const Visible& v : seen) {
+    if (v.needed <= 1.0) continue;
+    const auto same =
+        std::find_if(dark.begin(), dark.end(), [&](const Visible& d) { return d.effect->name == v.effect->name; });
+    if (same == dark.end())
+      dark.push_back(v);
+    else if (v.needed > same->needed)
+      *same = v;
+  }
+  if (dark.empty() && confused.empty()) return out;
+
+  const DrivingRange range = range_of(joint);
+  const std::vector<AdvisedDrive> all = advised_drives(range);
+  std::vector<Question> questions;
+  std::vector<int> first_column;
+  int columns = 6;
+  const auto ask = [&](const Effect* effect, const std::vector<double>& shape) {
+    questions.push_back({effect, shape});
+    first_column.push_back(columns);
+    columns += static_cast<int>(effect->amplitudes.size());
+  };
+  std::vector<int> shared{0, 1, 2, 3, 4, 5};  // what any decision has to do without
+  for (const AcceptedEffect& a : joint.accepted) ask(a.effect, a.shape);
+  const std::size_t known_effects = questions.size();
+  for (const Confusion& c : confused) ask(c.alternative, c.shape);
+  for (const Visible& v : dark) ask(v.effect, v.shape);
+
+  const JointModel drives = imagined(joint, all, range);
+  const int runs = static_cast<int>(joint.runs().size()), count = runs + static_cast<int>(all.size());
+  std::vector<MatrixXd> parts(static_cast<std::size_t>(count));
+  parallel_for(count, [&](int i) {
+    if (i < runs) {
+      parts[i] = information(joint, i, questions);
+      return;
+    }
+    std::vector<Question> elsewhere = questions;  // neither events nor places come back
+    for (Question& q : elsewhere) {
+      if (q.effect->of_one_recording || q.effect->and_later_recordings || q.effect->local) q.shape[0] = 1e6;
+    }
+    parts[i] = information(drives, i - runs, elsewhere);
+  });
+  MatrixXd known = MatrixXd::Zero(columns, columns);
+  for (int r = 0; r < runs; ++r) known += parts[r];
+  const DifferentialDrive& d = joint.model.drive;
+  const double prior[6] = {
+      0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
+  for (int c = 0; c < 6; ++c) known(c, c) += 1.0 / (prior[c] * prior[c]);
+  const std::vector<MatrixXd> adds(parts.begin() + runs, parts.end());
+
+  const auto columns_of = [&](std::size_t question) {
+    std::vector<int> c;
+    for (std::size_t k = 0; k < questions[question].effect->amplitudes.size(); ++k)
+      c.push_back(first_column[question] + static_cast<int>(k));
+    return c;
+  };
+  // Two names: the one fitted, told from the best that the other can do.
+  std::vector<Decision> pairs;
+  for (std::size_t k = 0; k < confused.size(); ++k) {
+    const auto a = static_cast<std::size_t>(confused[k].accepted);
+    Decision decision;
+    decision.from = first_column[a];
+    decision.value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(),
+                                                static_cast<Eigen::Index>(joint.accepted[a].value.size()));
+    decision.free = shared;
+    for (std::size_t other = 0; other < known_effects; ++other)
+      if (other != a)
+        for (int c : columns_of(other)) decision.free.push_back(c);
+    for (int c : columns_of(known_effects + k)) decision.free.push_back(c);
+    decision.inflation = confused[k].inflation;
+    decision.needed = std::sqrt(2.0 * kClearlyBeaten) + kPower;
+    pairs.push_back(decision);
+  }
+  // An effect of medium size, told from none.
+  std::vector<Decision> sights;
+  for (std::size_t k = 0; k < dark.size(); ++k) {
+    const std::size_t question = known_effects + confused.size() + k;
+    const Effect& e = *dark[k].effect;
+    Decision decision;
+    decision.from = first_column[question] + dark[k].weakest;
+    decision.value = VectorXd::Constant(1, e.amplitudes[static_cast<std::size_t>(dark[k].weakest)].medium);
+    decision.free = shared;
+    for (std::size_t other = 0; other < known_effects; ++other)
+      for (int c : columns_of(other)) decision.free.push_back(c);
+    for (int c : columns_of(question))
+      if (c != decision.from) decision.free.push_back(c);
+    decision.inflation = dark[k].inflation;
+    decision.needed = dark[k].standard;
+    sights.push_back(decision);
+  }
+
+  for (std::size_t k = 0; k < dark.size(); ++k) {
+    NotTestable n;
+    n.effect = dark[k].effect->name;
+    n.because = because_of(dark[k]);
+    const Plan plan = planned(known, adds, all, {sights[k]});
+    n.drive_this =
+        plan.any && plan.reached[0] >= 0.7 * sights[k].needed ? in_words(plan, all) : dark[k].effect->told_apart_by;
+    out.not_testable.push_back(n);
+  }
+  if (!pairs.empty()) {
+    const Plan plan = planned(known, adds, all, pairs);
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < pairs.size(); ++k)
+      if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
+    const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(confused[least].accepted)];
+    const std::string names = a.effect->name + " from " + confused[least].alternative->name;
+    if (plan.any && plan.reached[least] >= 0.7 * pairs[least].needed) {
+      out.next_drive =
+          in_words(plan, all) + ": tells " + names +
+          text(" by %.0f standard deviations, now %.1f", plan.reached[least], separation(known, pairs[least]));
+      out.next_legs = legs_of(plan, all);
+    } else {
+      out.next_drive = a.effect->told_apart_by + ": tells " + names;
+    }
+  } else if (!sights.empty()) {
+    const Plan plan = planned(known, adds, all, sights);
+    std::string names;
+    int named = 0;
+    for (std::size_t k = 0; k < sights.size(); ++k)
+      if (plan.reached[k] >= 0.9 * sights[k].needed && ++named <= 4)
+        names += (names.empty() ? "" : ", ") + dark[k].effect->name;
+    if (plan.any && !names.empty()) {
+      out.next_drive =
+          in_words(plan, all) + ": would show " + names + (named > 4 ? " and others" : "") + " if there were any";
+      out.next_legs = legs_of(plan, all);
+    } else {
+      out.next_drive = out.not_testable.front().drive_this;
+    }
+  }
+  return out;
+}
+
+}  // namespace odolab

@@ -1,0 +1,87 @@
+#include "core/diagnosis/where.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/intervals.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kEventRadius_m = 0.1;  // of what a wheel rolls over, and of what is hit
+constexpr double k95 = 1.96;
+
+double shape_named(const AcceptedEffect& a, const std::string& name) {
+  for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
+    if (a.effect->shapes[k].name == name) return a.shape[k];
+  return 0.0;
+}
+
+bool has_shape(const AcceptedEffect& a, const std::string& name) {
+  return std::any_of(a.effect->shapes.begin(), a.effect->shapes.end(), [&](const auto& s) { return s.name == name; });
+}
+
+double stderr_of_shape(const AcceptedEffect& a, const Eigen::MatrixXd& covariance, const std::string& name) {
+  const std::vector<int> free = free_shapes(*a.effect);
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(a.value.size() + k);
+    if (a.effect->shapes[free[k]].name == name && i < covariance.rows())
+      return std::sqrt(std::max(0.0, covariance(i, i)));
+  }
+  return 0.0;
+}
+
+// Where the effect's part of the vehicle is: a wheel on the floor, or the axle's centre.
+Vec2 place_of(const std::string& component, const EffectStep& s, double wheelbase_m) {
+  const double side = component == "left_wheel"    ? 0.5 * wheelbase_m
+                      : component == "right_wheel" ? -0.5 * wheelbase_m
+                                                   : 0.0;
+  return s.position + rotated({0.0, side}, s.heading_rad);
+}
+
+}  // namespace
+
+WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eigen::MatrixXd& covariance) {
+  WhereFound w;
+  w.regime = a.effect->regime;
+  w.and_later_recordings = a.effect->and_later_recordings;
+  if (a.effect->of_one_recording || a.effect->and_later_recordings) {
+    const auto run = static_cast<std::size_t>(a.shape[0]);
+    w.recording = joint.runs()[run].name;
+    const double at_s = shape_named(a, "at_s"), wide_s = k95 * stderr_of_shape(a, covariance, "at_s");
+    w.time_s.push_back({at_s - wide_s, at_s + wide_s});
+    const DriveView& view = joint.views()[run];
+    if (a.effect->local && !view.steps.empty()) {
+      std::size_t i = 0;
+      while (i + 1 < view.steps.size() && view.steps[i].time_s < at_s) ++i;
+      const Vec2 place = place_of(a.effect->component, view.steps[i], view.drive.wheelbase_m);
+      w.zone = WhereFound::Zone{place.x_m, place.y_m, kEventRadius_m + std::abs(view.steps[i].speed_mps) * wide_s};
+    }
+  } else if (a.effect->local && has_shape(a, "x_m")) {
+    const bool patch = has_shape(a, "radius_m");
+    const double radius_m = patch ? shape_named(a, "radius_m") : kEventRadius_m;
+    w.zone = WhereFound::Zone{shape_named(a, "x_m"), shape_named(a, "y_m"), radius_m};
+    double longest_s = 0.0;
+    for (std::size_t r = 0; r < joint.runs().size(); ++r) {
+      const DriveView& view = joint.views()[r];
+      const double reach_m = radius_m + (patch ? 0.5 * view.drive.wheelbase_m : 0.0);  // either wheel
+      std::vector<std::pair<double, double>> times;
+      double in_all_s = 0.0;
+      for (const EffectStep& s : view.steps) {
+        if (length(place_of(a.effect->component, s, view.drive.wheelbase_m) - Vec2{w.zone->x_m, w.zone->y_m}) > reach_m)
+          continue;
+        const double from = s.time_s - 0.5 * s.duration_s, to = s.time_s + 0.5 * s.duration_s;
+        if (!times.empty() && from - times.back().second < 0.2)
+          times.back().second = to;
+        else
+          times.push_back({from, to});
+        in_all_s += s.duration_s;
+      }
+      if (in_all_s > longest_s) longest_s = in_all_s, w.time_s = times, w.recording = joint.runs()[r].name;
+    }
+  }
+  return w;
+}
+
+}  // namespace odolab
