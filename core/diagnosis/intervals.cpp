@@ -14,6 +14,17 @@ using Eigen::VectorXd;
 
 // A form is never quite that of the world, however long it is looked at: of a value, assumed.
 constexpr double kFormError = 0.01;
+constexpr double kErrorOfForms = 0.05;  // where machines show it in several forms, of which the nearest was taken
+
+constexpr double kWheelSample_s = 0.02;  // a time is not known better than to about the reading in which it lies
+
+// What the form itself cannot resolve. A speed above which counts are missed is seen in counts of which some are
+// missed.
+double resolution_of(const AcceptedEffect& a, int shape) {
+  const std::string& unit = a.effect->shapes[static_cast<std::size_t>(shape)].unit;
+  if (unit == "rad/s") return std::abs(a.value[0] * a.shape[static_cast<std::size_t>(shape)]);
+  return unit == "s" ? kWheelSample_s : 0.0;
+}
 
 // The derivative of the motion by the free shapes, over the width within which they are known.
 Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const MatrixXd& covariance) {
@@ -70,6 +81,11 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     of_shape[a] = shape.covariance;
     const bool mean_is_good = shape.lost < 2.0 * inflation[a];  // not so between two summits
     joint.accepted[a].shape = mean_is_good ? shape.mean : shape.best;
+    const std::vector<int> free = free_shapes(*joint.accepted[a].effect);
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      of_shape[a](i, i) += std::pow(resolution_of(joint.accepted[a], free[k]), 2);
+    }
     moved = true;
   }
   if (moved) joint.fit(3);
@@ -91,7 +107,8 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     block.topLeftCorner(n, n) = out.columns.block(first, first, n, n);
     double square = 0.0;
     for (double v : joint.accepted[a].value) square += v * v / n;
-    for (int k = 0; k < n; ++k) block(k, k) += kFormError * kFormError * square;
+    const double form = joint.accepted[a].effect->forms.size() > 1 ? kErrorOfForms : kFormError;
+    for (int k = 0; k < n; ++k) block(k, k) += form * form * square;
     if (m > 0) {
       block.bottomRightCorner(m, m) = of_shape[a];
       if (moves[a].cols() == m) {
