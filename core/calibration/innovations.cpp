@@ -85,7 +85,7 @@ struct Rates {
 
 class WheelLine {
  public:
-  explicit WheelLine(const std::vector<WheelSample>& wheels) : wheels_(wheels) {}
+  WheelLine(const std::vector<WheelSample>& wheels, bool held) : wheels_(wheels), held_(held) {}
   // The interval that holds the time: i for [i, i + 1]. Times are asked for in order.
   std::size_t interval_at(double time_s) {
     while (i_ + 2 < wheels_.size() && wheels_[i_ + 1].time_s <= time_s) ++i_;
@@ -96,9 +96,32 @@ class WheelLine {
     return {(wheels_[i + 1].left_rad - wheels_[i].left_rad) / dt,
             (wheels_[i + 1].right_rad - wheels_[i].right_rad) / dt};
   }
+  // Rotation of each wheel since sample i, at a time within the interval behind it.
+  std::pair<double, double> turned_rad(std::size_t i, double time_s) const {
+    const WheelSample &a = wheels_[i], &b = wheels_[i + 1];
+    const double dt = b.time_s - a.time_s, u = (time_s - a.time_s) / dt;
+    const double left = b.left_rad - a.left_rad, right = b.right_rad - a.right_rad;
+    if (held_ || u <= 0.0 || u >= 1.0) return {u * left, u * right};
+    // A wheel that speeds up lags behind the straight line between two samples. Cubic, slopes from both neighbours.
+    const auto bent = [&](double by, double slope_a, double slope_b) {
+      if (by == 0.0) return 0.0;
+      const double u2 = u * u, u3 = u2 * u;
+      return (u3 - 2.0 * u2 + u) * dt * slope_a + (3.0 * u2 - 2.0 * u3) * by + (u3 - u2) * dt * slope_b;
+    };
+    const Rates at_a = slope(i), at_b = slope(i + 1);
+    return {bent(left, at_a.left_radps, at_b.left_radps), bent(right, at_a.right_radps, at_b.right_radps)};
+  }
 
  private:
+  Rates slope(std::size_t i) const {
+    const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, wheels_.size() - 1);
+    const double dt = wheels_[after].time_s - wheels_[before].time_s;
+    return {(wheels_[after].left_rad - wheels_[before].left_rad) / dt,
+            (wheels_[after].right_rad - wheels_[before].right_rad) / dt};
+  }
+
   const std::vector<WheelSample>& wheels_;
+  bool held_;
   std::size_t i_ = 0;
 };
 
@@ -180,7 +203,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   summed.motions.resize(run.truth.size() - 1);
   summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
 
-  WheelLine line(run.wheels);
+  WheelLine line(run.wheels, run.speeds_are_held);
   const auto time_of = [&](std::size_t truth_index) {
     return run.truth[truth_index].time_s - model.truth.time_offset_s;
   };
@@ -219,7 +242,9 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       const double until_s = last_interval ? end_s : std::min(end_s, run.wheels[i + 1].time_s);
       const WheelSample &w0 = run.wheels[i], &w1 = run.wheels[i + 1];
       const double share = (until_s - now_s) / (w1.time_s - w0.time_s);
-      const double left_rad = share * (w1.left_rad - w0.left_rad), right_rad = share * (w1.right_rad - w0.right_rad);
+      const auto [left_before, right_before] = line.turned_rad(i, now_s);
+      const auto [left_then, right_then] = line.turned_rad(i, until_s);
+      const double left_rad = left_then - left_before, right_rad = right_then - right_before;
       const double left_m = drive.wheel_radius_left_m * left_rad, right_m = drive.wheel_radius_right_m * right_rad;
 
       // README, Eq. 3: what the wheels say and what the extra columns add.

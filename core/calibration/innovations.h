@@ -69,6 +69,7 @@ struct InnovationRun {
   std::vector<WheelSample> wheels;  // two or more, times strictly increasing
   std::vector<TruthSample> truth;   // two or more, times strictly increasing, within the time of the wheels
   bool truth_has_heading = false;   // where not, the first heading is unknown and found with the path's shape
+  bool speeds_are_held = false;     // between wheel samples, as a command is; else wheels speed up smoothly
   bool counts_show = false;         // the rotations lie on the grid of the encoder's counts
   std::vector<char> set_aside;      // for each truth sample: not to be used
   std::vector<ExtraColumn> extra;   // the same number in each run of a set

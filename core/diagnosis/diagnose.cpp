@@ -27,6 +27,7 @@ std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 
 }
 
 InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset_s) {
+  run.speeds_are_held = c.from_commands;
   for (const auto& [from, to] : c.break_s) {
     bool behind = false;
     for (std::size_t i = 0; i < run.truth.size(); ++i) {
@@ -39,6 +40,13 @@ InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset
     }
   }
   return run;
+}
+
+bool stands_out(const AcceptedEffect& a) {
+  constexpr double kLeastSigmas = 3.0;
+  for (std::size_t k = 0; k < a.value.size(); ++k)
+    if (std::abs(a.value[k]) > kLeastSigmas * a.stderr_value[k]) return true;
+  return false;
 }
 
 std::string in_words(const Finding& f) {
@@ -253,12 +261,26 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const JointModel calibrated = joint;
   if (!goes_on(progress, 0.3)) return stopped;
 
-  const Selected selected = select_effects(joint, options.family_wise_error, progress);
+  Selected selected = select_effects(joint, options.family_wise_error, progress);
   if (!goes_on(progress, 0.75)) return stopped;
 
   std::vector<double> inflation;
   for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
-  const Intervals intervals = refined(joint, inflation);
+  Intervals intervals = refined(joint, inflation);
+  // What is not well away from nothing once its place and time are uncertain too is no finding.
+  for (std::size_t k = joint.accepted.size(); k-- > 0;) {
+    if (stands_out(joint.accepted[k])) continue;
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    joint.accepted.erase(joint.accepted.begin() + at);
+    selected.evidence.erase(selected.evidence.begin() + at);
+    selected.alternatives.erase(selected.alternatives.begin() + at);
+    inflation.erase(inflation.begin() + at);
+    joint.fit(3);
+    joint.fit_noise();
+    joint.fit(2);
+    intervals = refined(joint, inflation);
+    k = joint.accepted.size();
+  }
 
   std::vector<Finding> named;
   double explained = 0.0;

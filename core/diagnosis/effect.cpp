@@ -69,7 +69,9 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     }
   }
   for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
-  // Speeds over about 0.1 s: single counts would drown them.
+  // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
+  // kick, so that over shorter times noise itself would depend on acceleration.
+  constexpr double kSpeedWindow_s = 0.12, kAccelerationWindow_s = 0.25;  // to either side
   const auto smoothed = [&](int i, double half_s, double* left, double* right) {
     const double t = view.steps[i].time_s;
     int lo = i, hi = i;
@@ -87,18 +89,20 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
   for (int i = 0; i < n; ++i) {
     EffectStep& s = view.steps[i];
-    smoothed(i, 0.06, &s.left_radps, &s.right_radps);
+    smoothed(i, kSpeedWindow_s, &s.left_radps, &s.right_radps);
     s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
     s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
   }
   for (int i = 0; i < n; ++i) {
     int lo = i, hi = i;
     const double t = view.steps[i].time_s;
-    while (lo > 0 && t - view.steps[lo].time_s < 0.1) --lo;
-    while (hi + 1 < n && view.steps[hi].time_s - t < 0.1) ++hi;
+    while (lo > 0 && t - view.steps[lo].time_s < kAccelerationWindow_s) --lo;
+    while (hi + 1 < n && view.steps[hi].time_s - t < kAccelerationWindow_s) ++hi;
     const double span = view.steps[hi].time_s - view.steps[lo].time_s;
     if (span <= 0.0) continue;
     view.steps[i].acceleration_mps2 = (view.steps[hi].speed_mps - view.steps[lo].speed_mps) / span;
+    view.steps[i].left_mps2 = rl * (view.steps[hi].left_radps - view.steps[lo].left_radps) / span;
+    view.steps[i].right_mps2 = rr * (view.steps[hi].right_radps - view.steps[lo].right_radps) / span;
     view.steps[i].yaw_acceleration_radps2 = (view.steps[hi].yaw_rate_radps - view.steps[lo].yaw_rate_radps) / span;
   }
   return view;

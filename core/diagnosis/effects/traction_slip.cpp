@@ -18,23 +18,15 @@ std::vector<Effect> traction_slip() {
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     Motions m;
     m.reserve(view.steps.size());
-    // The way lost, the integral of |u| du = u |u| / 2, is the same however the speeds were smoothed.
-    const auto energy = [](double u) { return 0.5 * u * std::abs(u); };
-    const auto lost = [&](std::size_t i, auto speed_of) {
-      const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, view.steps.size() - 1);
-      if (after == before) return 0.0;
-      return (energy(speed_of(view.steps[after])) - energy(speed_of(view.steps[before]))) /
-             static_cast<double>(after - before);
-    };
-    const DifferentialDrive& drive = view.drive;
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const double b = view.drive.wheelbase_m;
+    for (const EffectStep& step : view.steps) {
       if (shape.back() > 0.5) {
-        m.push_back({-lost(i, [](const EffectStep& s) { return s.speed_mps; }), 0.0, 0.0});
+        m.push_back({-step.acceleration_mps2 * std::abs(step.forward_m()), 0.0, 0.0});
         continue;
       }
-      const double left_m = -lost(i, [&](const EffectStep& s) { return drive.wheel_radius_left_m * s.left_radps; });
-      const double right_m = -lost(i, [&](const EffectStep& s) { return drive.wheel_radius_right_m * s.right_radps; });
-      m.push_back({0.5 * (left_m + right_m), 0.0, (right_m - left_m) / drive.wheelbase_m});
+      const double left_m = -step.left_mps2 * std::abs(step.left_m),
+                   right_m = -step.right_mps2 * std::abs(step.right_m);
+      m.push_back({0.5 * (left_m + right_m), 0.0, (right_m - left_m) / b});
     }
     return std::vector<Motions>{m};
   };
