@@ -91,10 +91,19 @@ class WheelLine {
     while (i_ + 2 < wheels_.size() && wheels_[i_ + 1].time_s <= time_s) ++i_;
     return i_;
   }
-  Rates rates(std::size_t i) const {
-    const double dt = wheels_[i + 1].time_s - wheels_[i].time_s;
-    return {(wheels_[i + 1].left_rad - wheels_[i].left_rad) / dt,
-            (wheels_[i + 1].right_rad - wheels_[i].right_rad) / dt};
+  // At a time within interval i: the derivative of turned_rad.
+  Rates rates(std::size_t i, double time_s) const {
+    const WheelSample &a = wheels_[i], &b = wheels_[i + 1];
+    const double dt = b.time_s - a.time_s, u = (time_s - a.time_s) / dt;
+    const Rates even{(b.left_rad - a.left_rad) / dt, (b.right_rad - a.right_rad) / dt};
+    if (held_ || u < 0.0 || u > 1.0) return even;
+    const auto bent = [&](double by, double slope_a, double slope_b) {
+      if (by == 0.0) return 0.0;
+      return (3.0 * u * u - 4.0 * u + 1.0) * slope_a + 6.0 * (u - u * u) * by + (3.0 * u * u - 2.0 * u) * slope_b;
+    };
+    const Rates at_a = slope(i), at_b = slope(i + 1);
+    return {bent(even.left_radps, at_a.left_radps, at_b.left_radps),
+            bent(even.right_radps, at_a.right_radps, at_b.right_radps)};
   }
   // Rotation of each wheel since sample i, at a time within the interval behind it.
   std::pair<double, double> turned_rad(std::size_t i, double time_s) const {
@@ -221,8 +230,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
 
     // Body velocity at the start: the clock's derivative needs it at both ends.
     Vector3d velocity;
-    const auto velocity_in = [&](std::size_t interval) {
-      const Rates rate = line.rates(interval);
+    const auto velocity_in = [&](std::size_t interval, double time_s) {
+      const Rates rate = line.rates(interval, time_s);
       const double left = drive.wheel_radius_left_m * rate.left_radps,
                    right = drive.wheel_radius_right_m * rate.right_radps;
       Vector3d v(0.5 * (right + left), 0.0, (right - left) / b);
@@ -234,7 +243,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       return v;
     };
     i = line.interval_at(now_s);
-    const Vector3d start_velocity = velocity_in(i);
+    const Vector3d start_velocity = velocity_in(i, now_s);
 
     while (now_s < end_s) {
       i = line.interval_at(now_s);
@@ -320,7 +329,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       pose = {pose.x_m + dx, pose.y_m + dy, pose.heading_rad + turn};
       now_s = until_s;
     }
-    velocity = velocity_in(i);
+    velocity = velocity_in(i, end_s);
     const Vector3d moved_end = rotation(pose.heading_rad) * velocity;
     double* const clock = jac + 3 * column::truth_clock;  // Eq. 6: both ends move back in time
     clock[0] += start_velocity(0) - start_velocity(2) * pose.y_m - moved_end(0);
