@@ -19,7 +19,7 @@ struct Group {
 };
 
 Group hats_of(const std::string& name, const std::vector<DriveView>& views,
-              const std::function<double(const EffectStep&)>& variable, int count) {
+              const std::function<double(const EffectStep&)>& variable, int count, double least) {
   std::vector<double> seen;
   for (const DriveView& v : views)
     for (std::size_t i = 0; i < v.steps.size(); i += 7)
@@ -30,13 +30,13 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
   if (seen.size() < 50) return g;
   std::sort(seen.begin(), seen.end());
   const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
-  if (high - low < 1e-6) return g;
+  if (high - low < 1e-6 || high - low < 2.0 * least) return g;
   // Half by quantile, half even: rare regimes are heard too.
   for (int k = 0; k < count; ++k) {
     const double share = static_cast<double>(k) / (count - 1);
     const double q = seen[static_cast<std::size_t>(share * static_cast<double>(seen.size() - 1))];
     const double x = 0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low));
-    if (g.at.empty() || x > g.at.back() + 0.02 * (high - low)) g.at.push_back(x);
+    if (g.at.empty() || x > g.at.back() + std::max(0.02 * (high - low), least)) g.at.push_back(x);
   }
   const std::vector<double> at = g.at;
   g.values = [at, variable](const DriveView& view, std::vector<std::vector<double>>& out) {
@@ -62,16 +62,27 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
+  // Counts and uneven wheels shake these variables as they shake the way itself, because a wheel that is held up turns
+  // the slower: where hats are no wider than that, noise looks like a response to its own trace. So far apart they stand
+  // at least: what one count is over the 0.06 s of smoothing, and what unevenness of a percent makes at walking pace.
+  double count_m = 0.0, base_m = 1e300;
+  for (const DriveView& v : views) {
+    const double radius_m = std::max(v.drive.wheel_radius_left_m, v.drive.wheel_radius_right_m);
+    count_m = std::max(count_m, v.from_commands ? 0.0 : 2.0 * kPi * radius_m / v.drive.counts_per_wheel_turn());
+    base_m = std::min(base_m, v.drive.wheelbase_m);
+  }
+  const double speed_mps = std::max(0.01, count_m / 0.06);
   groups.push_back(hats_of(
-      "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6));
+      "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, speed_mps));
   groups.push_back(hats_of(
-      "yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7));
+      "yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7, 2.0 * speed_mps / base_m));
   groups.push_back(hats_of(
-      "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6));
+      "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6,
+      speed_mps / base_m));
   groups.push_back(hats_of(
-      "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6));
+      "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6, speed_mps / 0.1));
   groups.push_back(hats_of(
-      "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8));
+      "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8, 0.0));
   Group heading;
   heading.variable = "heading [rad]";
   heading.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {

@@ -1,4 +1,4 @@
-// Drawn cases of `odolab reproduce concealed`, one line each, for whoever looks for failures.
+// Drawn cases of `odolab reproduce concealed`, one line each, for whoever looks for failures; then what they add up to.
 //
 //   concealed_cases SEED FIRST LAST [kind=nothing|one|two|outside] [level=strong|medium|weak] [squares=0|1]
 //                   [effects=NAME,NAME] [write=FOLDER]
@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "physics/experiments/concealed/judged.h"
+#include "physics/experiments/concealed/report.h"
 
 using namespace odolab;
 using namespace odolab::concealed;
@@ -40,12 +41,14 @@ int main(int argc, char** argv) {
       }
     if (key == "write") folder = value;
   }
-  std::vector<std::string> lines(static_cast<std::size_t>(last - first));
+  std::vector<Judged> cases(static_cast<std::size_t>(last - first));
+  std::vector<std::string> lines(cases.size());
   parallel_for(
       last - first,
       [&](int i) {
         const DrawnCase drawn = drawn_case(seed, first + i, wish);
-        lines[static_cast<std::size_t>(i)] = judged(drawn).line();
+        cases[static_cast<std::size_t>(i)] = judged(drawn);
+        lines[static_cast<std::size_t>(i)] = cases[static_cast<std::size_t>(i)].line();
         if (!folder.empty())
           if (const Result<Done> written = write_case(drawn, folder + "/case_" + std::to_string(first + i)); !written)
             lines[static_cast<std::size_t>(i)] += " " + written.error().message();
@@ -54,5 +57,20 @@ int main(int argc, char** argv) {
         std::printf("%s\n", lines[static_cast<std::size_t>(i)].c_str());
         std::fflush(stdout);
       });
+  const ExperimentReport report = report_of(cases);
+  const auto print_row = [](const std::vector<std::string>& cells) {
+    for (const std::string& cell : cells) std::printf("%s | ", cell.c_str());
+    std::printf("\n");
+  };
+  for (const ResultTable& table : report.tables) {
+    std::printf("\n%s\n", table.title.c_str());
+    print_row(table.header);
+    for (const auto& row : table.rows) print_row(row);
+  }
+  std::printf("\n");
+  for (const Claim& claim : report.claims)
+    std::printf("%s: %s (%s)\n", claim.holds ? "holds" : "does not hold", claim.sentence.c_str(),
+                claim.because.c_str());
+  for (const std::string& note : report.notes) std::printf("%s\n", note.c_str());
   return 0;
 }

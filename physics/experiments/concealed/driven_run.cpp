@@ -25,8 +25,8 @@ std::vector<std::shared_ptr<planar::Effect>> own_effects(const RunPlan& plan) {
       own.push_back(outside->make(active, step_s));
     }
   if (plan.noise && plan.robot.rolling_noise_m_per_sqrt_m > 0.0)
-    own.push_back(
-        rolling_noise(plan.robot.rolling_noise_m_per_sqrt_m, seed_of_stream(plan.seed, kWheelStream), step_s));
+    own.push_back(rolling_noise(plan.robot.rolling_noise_m_per_sqrt_m, plan.robot.scenario.actual.wheel_radius_left_m,
+                                seed_of_stream(plan.seed, kWheelStream), step_s));
   return own;
 }
 

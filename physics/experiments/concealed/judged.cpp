@@ -42,9 +42,15 @@ void judge_names(Judged& j, const Diagnosis& d) {
       std::any_of(j.listed.begin(), j.listed.end(), [&](const std::string& a) { return contains(j.truth, a); });
 }
 
+// When an event happens: a push in the middle of its quarter of a second.
+double moment_s(const DrawnEffect& e) {
+  return e.active.parameter("at_s") + (e.active.effect == "collision" ? 0.125 : 0.0);
+}
+
 // The true value of a parameter of a finding; none where the two are not the same thing.
 std::optional<double> true_value(const DrawnEffect& e, const std::string& name) {
   if (e.active.effect == "collision" && (name == "dx_m" || name == "dy_m")) return std::nullopt;  // frames differ
+  if (e.only_in_run >= 0 && name == "at_s") return moment_s(e);
   for (const auto& [key, value] : e.active.parameters)
     if (key == name) return value;
   return std::nullopt;
@@ -91,7 +97,7 @@ void judge_place(Judged& j, const DrawnCase& c, const Diagnosis& d) {
     for (std::size_t r = 0; r < c.given.size(); ++r) {
       if (c.given[r].driven.recording.name != f.where.recording || f.where.time_s.empty()) continue;
       const double at_s = 0.5 * (f.where.time_s.front().first + f.where.time_s.front().second);
-      if (event && static_cast<int>(r) == e.only_in_run) j.time_error_s = std::abs(at_s - e.active.parameter("at_s"));
+      if (event && static_cast<int>(r) == e.only_in_run) j.time_error_s = std::abs(at_s - moment_s(e));
       if (!bump) continue;
       for (double t : times_on_bump(c.given[r], e, c.robot.scenario.actual.wheelbase_m))
         j.time_error_s = std::min(*j.time_error_s, std::abs(at_s - t));
@@ -116,6 +122,7 @@ Judged judged(const DrawnCase& c, const Progress& progress) {
   j.poor = c.poor;
   j.significance = c.significance;
   j.thrown_away = c.thrown_away;
+  j.counts_per_turn = c.robot.nominal().counts_per_wheel_turn();
   for (const DrawnEffect& e : c.effects) j.truth.push_back(label(e.active));
   std::vector<Recording> given, held_out;
   for (const Run& run : c.given) given.push_back(run.driven.recording);
@@ -135,6 +142,8 @@ Judged judged(const DrawnCase& c, const Progress& progress) {
   std::vector<InnovationRun> known;
   for (const Run& run : c.given) known.push_back(run.known);
   const OracleFit oracle = oracle_fit(known, c.truth());
+  for (std::size_t k = 0; k < oracle.size.size(); ++k)
+    j.oracle_sigma.push_back((oracle.size[k] - 1.0) * oracle.significance[k]);
   const FittedModel calibrated = calibrated_model_of(*d), with_findings = model_of(*d);
   const double arm_m = 0.5 * c.robot.scenario.actual.wheelbase_m;
   SquaredError before, after, best;
@@ -179,6 +188,8 @@ std::string Judged::line() const {
             number_text("+-%.2g", p.stderr_value);
   if (place_error_m) text += number_text(" place %.2f m", *place_error_m);
   if (time_error_s) text += number_text(" time %.2f s", *time_error_s);
+  for (double s : oracle_sigma) text += number_text(" oracle off by %+.1f sigma", s);
+  text += number_text(" %.0f counts", counts_per_turn);
   if (!failed.empty()) text += " FAILED " + failed;
   return text + number_text(" (%.1f s", seconds) + ", " + std::to_string(thrown_away) + " thrown)";
 }

@@ -38,6 +38,8 @@ struct Judged {
   std::string regime;               // where the first acts, in its own words
   Verdict verdict = Verdict::cannot_say;
   std::vector<double> significance;
+  double counts_per_turn = 0.0;      // of the wheel's encoder
+  std::vector<double> oracle_sigma;  // how far the oracle's own sizes are off, in its own standard errors
   Concealment concealed;
   std::string failed;  // the error, where diagnosis gave one
 

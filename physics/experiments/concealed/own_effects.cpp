@@ -20,27 +20,36 @@ double normal_from_hash(std::uint64_t hash) {
 
 class RollingNoise final : public planar::Effect {
  public:
-  RollingNoise(double m_per_sqrt_m, std::uint64_t seed, double step_s)
-      : share_(m_per_sqrt_m / std::sqrt(kCell_m)), seed_(seed), step_s_(step_s) {}
+  RollingNoise(double m_per_sqrt_m, double radius_m, std::uint64_t seed, double step_s)
+      : share_(m_per_sqrt_m / std::sqrt(kNode_m)), radius_m_(radius_m), seed_(seed), step_s_(step_s) {}
 
   void roll(const VehicleMotion&, RollingWheel& wheel) override {
     const std::size_t side = wheel.side == Side::left ? 0 : 1;
-    rolled_m_[side] += 0.075 * std::abs(wheel.speed_radps) * step_s_;  // of a wheel of usual size
-    const auto cell = static_cast<std::int64_t>(rolled_m_[side] / kCell_m);
-    if (cell != cell_[side]) {
-      cell_[side] = cell;
-      slip_[side] = share_ * normal_from_hash(seed_of_stream(seed_ + side, static_cast<std::uint64_t>(cell)) & ~1ULL);
+    rolled_m_[side] += radius_m_ * std::abs(wheel.speed_radps) * step_s_;
+    const double at = rolled_m_[side] / kNode_m;
+    const auto node = static_cast<std::int64_t>(at);
+    if (node != node_[side]) {
+      node_[side] = node;
+      slip_[side] = slip_at(side, node);
+      next_[side] = slip_at(side, node + 1);
     }
-    wheel.slip_mps += slip_[side] * wheel.radius_m * wheel.speed_radps;
+    const double u = at - static_cast<double>(node);
+    wheel.slip_mps += (slip_[side] + u * (next_[side] - slip_[side])) * wheel.radius_m * wheel.speed_radps;
   }
 
  private:
-  static constexpr double kCell_m = 0.005;
-  double share_;
+  // The spacing of the bumps in the UMBmark report's simulation, section 4.6.2.
+  static constexpr double kNode_m = 0.02;
+
+  double slip_at(std::size_t side, std::int64_t node) const {
+    return share_ * normal_from_hash(seed_of_stream(seed_ + side, static_cast<std::uint64_t>(node)) & ~1ULL);
+  }
+
+  double share_, radius_m_;
   std::uint64_t seed_;
   double step_s_;
-  double rolled_m_[2] = {}, slip_[2] = {};
-  std::int64_t cell_[2] = {-1, -1};
+  double rolled_m_[2] = {}, slip_[2] = {}, next_[2] = {};
+  std::int64_t node_[2] = {-1, -1};
 };
 
 // An effect that is a creep of the vehicle and remembers nothing but what `State` holds.
@@ -138,8 +147,8 @@ struct Gusts {
 
 }  // namespace
 
-std::shared_ptr<planar::Effect> rolling_noise(double m_per_sqrt_m, std::uint64_t seed, double step_s) {
-  return std::make_shared<RollingNoise>(m_per_sqrt_m, seed, step_s);
+std::shared_ptr<planar::Effect> rolling_noise(double m_per_sqrt_m, double radius_m, std::uint64_t seed, double step_s) {
+  return std::make_shared<RollingNoise>(m_per_sqrt_m, radius_m, seed, step_s);
 }
 
 const std::vector<OutsideEffect>& outside_effects() {

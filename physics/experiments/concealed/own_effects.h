@@ -11,9 +11,10 @@
 
 namespace odolab::concealed {
 
-// Each wheel's way errs by white noise whose standard deviation grows with the square root of what was rolled. It is a
-// function of the way rolled, so that two runs with the same wheels err alike.
-std::shared_ptr<planar::Effect> rolling_noise(double m_per_sqrt_m, std::uint64_t seed, double step_s);
+// Each wheel slips by a share that is drawn every 2 cm and goes evenly from one to the next: its way errs by a standard
+// deviation that grows with the square root of what was rolled. A function of the wheels' rotation alone, so that two
+// runs with the same wheels err alike, whatever else acts on them.
+std::shared_ptr<planar::Effect> rolling_noise(double m_per_sqrt_m, double radius_m, std::uint64_t seed, double step_s);
 
 // An effect that the catalogue does not have. All but `amplitude` are parameters of its form.
 struct OutsideEffect {

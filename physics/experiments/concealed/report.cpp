@@ -141,6 +141,17 @@ ResultTable concealment_table(const std::vector<Judged>& all) {
   return table;
 }
 
+ResultTable alarms_by_resolution(const std::vector<Judged>& all) {
+  std::map<int, Tally> by_counts;
+  for (const Judged& j : all)
+    if (j.kind == Kind::nothing) by_counts[static_cast<int>(j.counts_per_turn)].add(alarm(j));
+  ResultTable table{
+      "Alarms where nothing is missing, by the encoders' resolution", {"counts per turn", "cases", "alarms"}, {}};
+  for (const auto& [counts, t] : by_counts)
+    table.rows.push_back({std::to_string(counts), std::to_string(t.of), percent_of(t)});
+  return table;
+}
+
 ResultTable parameters_table(const std::vector<Judged>& all, Tally& held) {
   struct Of {
     std::vector<double> error;
@@ -248,10 +259,18 @@ ExperimentReport report_of(const std::vector<Judged>& all) {
   report.tables.push_back(by_level(groups_of(all)));
   if (ResultTable table = confusion(all); !table.rows.empty()) report.tables.push_back(table);
   report.tables.push_back(concealment_table(all));
+  if (ResultTable table = alarms_by_resolution(all); !table.rows.empty()) report.tables.push_back(table);
   Tally held;
   if (ResultTable table = parameters_table(all, held); !table.rows.empty()) report.tables.push_back(table);
   add_claims(report, all, held);
 
+  double off = 0.0;
+  int sizes = 0;
+  for (const Judged& j : all)
+    for (double sigma : j.oracle_sigma) off += sigma * sigma, ++sizes;
+  if (sizes > 0)
+    report.notes.push_back("the oracle's own sizes are off by " + number_text("%.2f", std::sqrt(off / sizes)) +
+                           " of its standard errors, root mean square of " + std::to_string(sizes) + "; 1 is right");
   double seconds = 0.0, longest = 0.0;
   int thrown = 0, drawn = 0, failed = 0;
   for (const Judged& j : all) {
