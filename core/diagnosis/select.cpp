@@ -13,6 +13,9 @@ constexpr int kMostEffects = 4;
 // A form is never quite that of the world: what is left of a strong effect is not another one.
 constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 
+// Share of the evidence that a right name may lose since its form is not quite the world's.
+constexpr double kFormError = 0.1;
+
 double least_share(const Effect& effect) { return effect.local ? kLeastShareOfEvents : kLeastShare; }
 
 double quantile(std::vector<double> v, double share) {
@@ -141,6 +144,11 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
 }
 
+bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
+  return a.effect->of_one_recording && b.effect->of_one_recording && a.test.shape[0] == b.test.shape[0] &&
+         std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
+}
+
 // What is left of something that was already let in belongs to its shape.
 bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   for (const AcceptedEffect& a : joint.accepted)
@@ -231,6 +239,15 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         standing.push_back(&c);
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
+    // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
+    // much it is the better name.
+    for (std::size_t k = 1; k < standing.size(); ++k)
+      if (standing[k]->test.freedom < standing[0]->test.freedom && of_one_moment(*standing[k], *standing[0]) &&
+          standing[k]->test.judged() > (1.0 - kFormError) * standing[0]->test.judged()) {
+        std::rotate(standing.begin(), standing.begin() + static_cast<std::ptrdiff_t>(k),
+                    standing.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        break;
+      }
     const bool correlated = joint.innovations_correlated();
     const JointModel before = joint;
     bool accepted = false;
@@ -318,7 +335,9 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
       if (taken || c.p_value > family_wise_error || c.effect->name == own.effect->name) continue;
-      if (own.test.judged() - c.test.statistic / own.test.inflation < 2.0 * kClearlyBeaten) alternatives.push_back(c);
+      const bool same_moment = of_one_moment(own, c);
+      const double beaten_by = std::max(2.0 * kClearlyBeaten, same_moment ? kFormError * own.test.judged() : 0.0);
+      if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);
     }
     out.evidence.push_back(own);
     out.alternatives.push_back(alternatives);
