@@ -105,7 +105,7 @@ struct Diagnosis {
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
   std::vector<NotTestable> not_testable;
   std::string next_drive;
-  std::vector<DriveLeg> next_legs;  // the same to be driven; empty where words are all there is
+  std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
   std::vector<std::string> sentences;  // the summary that a person reads in a minute
   std::vector<std::string> warnings;
   std::vector<Response> responses;

@@ -39,6 +39,7 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   view.number = number;
   view.drive = drive;
   view.from_commands = from_commands;
+  view.count_rad = count_rad(run, drive);
   const std::vector<DriveStep> steps = drive_steps(run, drive);
   const int n = static_cast<int>(steps.size());
   view.steps.resize(n);
