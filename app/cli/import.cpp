@@ -1,7 +1,9 @@
+#include <algorithm>
+
 #include "app/cli/command.h"
 #include "app/cli/terminal.h"
+#include "core/io/bag/bag.h"
 #include "core/io/import/imported_recording.h"
-#include "core/io/recording_csv.h"
 
 namespace odolab {
 
@@ -9,19 +11,68 @@ namespace {
 
 struct ImportOptions {
   std::vector<std::string> sources;
-  std::string out;
+  std::string out, joints, axes;
+  bool list = false;
+  ImportWishes wishes;
 };
 
-int execute(const ImportOptions& options) {
-  Result<ImportedRecording> imported = import_recording(options.sources);
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// What stands in each bag: topics, and what a person would name of them.
+int list(const std::vector<std::string>& sources) {
+  for (const std::string& source : sources) {
+    if (!is_bag(source)) return bad_input({source, "no ROS 2 bag", "one: only bags have something to list"});
+    const Result<BagContents> contents = contents_of_bag(source);
+    if (!contents) return bad_input(contents.error());
+    if (sources.size() > 1) std::printf("%s\n", source.c_str());
+    std::vector<std::vector<std::string>> rows{{"topic", "messages", "seconds", "type"}};
+    for (const BagTopicContents& topic : contents->topics) {
+      const double seconds = static_cast<double>(topic.last_ns - topic.first_ns) * 1e-9;
+      rows.push_back({topic.topic.name, std::to_string(topic.messages), text_of("%.1f", seconds),
+                      topic.topic.type + (topic.topic.encoding == "cdr" ? "" : " (" + topic.topic.encoding + ")")});
+    }
+    print_table(rows);
+    for (const BagTopicContents& topic : contents->topics) {
+      if (!topic.joints.empty())
+        std::printf("joints of %s: %s\n", topic.topic.name.c_str(), joined(topic.joints).c_str());
+      for (const auto& [parent, child] : topic.transforms)
+        std::printf("transform: %s:%s:%s\n", topic.topic.name.c_str(), parent.c_str(), child.c_str());
+    }
+    for (const std::string& sentence : contents->damage) print_message("warning: " + sentence);
+  }
+  return kDone;
+}
+
+std::optional<Error> read_words(ImportOptions& options) {
+  if (!options.joints.empty()) {
+    const std::size_t comma = options.joints.find(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == options.joints.size())
+      return Error{"--joints", "'" + options.joints + "'", "the left and the right wheel's joint, LEFT,RIGHT"};
+    options.wishes.left_joint = options.joints.substr(0, comma);
+    options.wishes.right_joint = options.joints.substr(comma + 1);
+  }
+  if (options.axes == "y_up")
+    options.wishes.axes = SpaceAxes::y_up;
+  else if (options.axes == "camera")
+    options.wishes.axes = SpaceAxes::camera;
+  else if (!options.axes.empty() && options.axes != "z_up")
+    return Error{"--axes", "'" + options.axes + "'", "z_up, y_up or camera"};
+  return std::nullopt;
+}
+
+int execute(ImportOptions& options) {
+  if (options.list) return list(options.sources);
+  if (options.out.empty()) return bad_input({"import", "no --out", "--out with the recording to write, or --list"});
+  if (const auto error = read_words(options)) return bad_input(*error);
+  const Result<ImportedFile> imported = import_into_csv(options.sources, options.wishes, options.out);
   if (!imported) return bad_input(imported.error());
-  const Recording& recording = imported->recording;
-  if (Result<Done> written = write_recording_csv(options.out, recording); !written) return bad_input(written.error());
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);
-  std::string channels;
-  for (const Channel& channel : recording.channels) channels += (channels.empty() ? "" : ", ") + channel.name;
-  std::printf("%s: %zu rows over %.1f s, %s\n", options.out.c_str(), recording.time_s.size(), recording.duration_s(),
-              channels.c_str());
+  std::printf("%s: %llu rows over %.1f s, %s\n", options.out.c_str(), static_cast<unsigned long long>(imported->rows),
+              imported->duration_s, joined(imported->channels).c_str());
   return kDone;
 }
 
@@ -31,11 +82,22 @@ Command import_command() {
   const auto options = std::make_shared<ImportOptions>();
   Command command;
   command.name = "import";
-  command.about = "Turns a recording in another format into OdoLab's CSV";
-  command.example = "odolab import run-01_odo.csv run-01_opti.csv --out run-01.csv";
+  command.about = "Turns a recording in another format into OdoLab's CSV: ROS 2 bags, text, other people's data sets";
+  command.example =
+      "odolab import --list my_bag\n"
+      "  odolab import my_bag --truth /mocap/robot/pose --joints left_wheel_joint,right_wheel_joint --out run.csv\n"
+      "  odolab import run-01_odo.csv run-01_opti.csv --out run-01.csv";
   command.declare = [options](Arguments& arguments) {
-    arguments.files("SOURCE", options->sources, "one run: one file, or the two that belong together", true);
-    arguments.option("--out", options->out, "the recording to write (CSV)", true);
+    arguments.files("SOURCE", options->sources, "one run: a file, a bag's folder, or the files that belong together",
+                    true);
+    arguments.option("--out", options->out, "the recording to write (CSV)");
+    arguments.flag("--list", options->list, "only say what a bag holds: topics, joints, transforms");
+    arguments.option("--wheels", options->wishes.wheels, "bags: the topic of the wheels' joint states");
+    arguments.option("--joints", options->joints, "bags: the joints of the drive wheels, LEFT,RIGHT");
+    arguments.option("--commands", options->wishes.commands, "bags: the topic of commanded twists, or none");
+    arguments.option("--truth", options->wishes.truth,
+                     "bags: the topic of the outside truth, for transforms TOPIC:PARENT:CHILD, or none");
+    arguments.option("--axes", options->axes, "how poses in space lie: z_up (the default), y_up, camera");
   };
   command.execute = [options] { return execute(*options); };
   return command;

@@ -45,7 +45,7 @@ std::string read_file_start(const std::string& path, std::size_t bytes) {
   return text;
 }
 
-Result<Done> write_whole_file(const std::string& path, const std::string& text) {
+Result<GrowingFile> GrowingFile::create(const std::string& path) {
   const std::filesystem::path target(path);
   std::error_code failure;
   if (std::filesystem::is_directory(target, failure)) return Error{path, "a folder", "a file that can be written"};
@@ -56,23 +56,47 @@ Result<Done> write_whole_file(const std::string& path, const std::string& text) 
   static std::atomic<unsigned> counter{0};
   // a pipe or a terminal cannot be renamed onto
   const bool in_place = std::filesystem::exists(target, failure) && !std::filesystem::is_regular_file(target, failure);
-  const std::string temporary =
-      in_place ? path : path + ".part" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (!file) return Error{path, lower_first(std::strerror(errno)), "a file that can be written"};
-  bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  int reason = errno;
-  if (std::fclose(file) != 0 && whole) {
-    whole = false;
-    reason = errno;
-  }
-  if (whole && !in_place && std::rename(temporary.c_str(), path.c_str()) != 0) {
-    whole = false;
-    reason = errno;
-  }
-  if (whole) return Done{};
-  if (!in_place) std::remove(temporary.c_str());
-  return Error{path, lower_first(std::strerror(reason)), "a file that can be written"};
+  GrowingFile file;
+  file.path_ = path;
+  file.temporary_ = in_place ? path : path + ".part" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  file.file_ = std::fopen(file.temporary_.c_str(), "wb");
+  if (!file.file_) return Error{path, lower_first(std::strerror(errno)), "a file that can be written"};
+  return file;
+}
+
+GrowingFile::GrowingFile(GrowingFile&& other) noexcept
+    : file_(other.file_),
+      path_(std::move(other.path_)),
+      temporary_(std::move(other.temporary_)),
+      failure_(other.failure_) {
+  other.file_ = nullptr;
+}
+
+GrowingFile::~GrowingFile() {
+  if (!file_) return;
+  std::fclose(file_);
+  if (temporary_ != path_) std::remove(temporary_.c_str());
+}
+
+void GrowingFile::write(std::string_view bytes) {
+  if (failure_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) failure_ = errno;
+}
+
+Result<Done> GrowingFile::finish() {
+  if (std::fclose(file_) != 0 && failure_ == 0) failure_ = errno;
+  file_ = nullptr;
+  const bool in_place = temporary_ == path_;
+  if (failure_ == 0 && !in_place && std::rename(temporary_.c_str(), path_.c_str()) != 0) failure_ = errno;
+  if (failure_ == 0) return Done{};
+  if (!in_place) std::remove(temporary_.c_str());
+  return Error{path_, lower_first(std::strerror(failure_)), "a file that can be written"};
+}
+
+Result<Done> write_whole_file(const std::string& path, const std::string& text) {
+  Result<GrowingFile> file = GrowingFile::create(path);
+  if (!file) return file.error();
+  file->write(text);
+  return file->finish();
 }
 
 }  // namespace odolab

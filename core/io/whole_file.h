@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 
@@ -17,5 +19,23 @@ std::string read_file_start(const std::string& path, std::size_t bytes = 8192);
 // Writes to a temporary file beside `path` and renames it: whoever looks sees the old file or the whole new one.
 // Folders that are missing on the way are made.
 Result<Done> write_whole_file(const std::string& path, const std::string& text);
+
+// The same for a file that is written piece by piece. Where finish() is not reached, nothing is left.
+class GrowingFile {
+ public:
+  static Result<GrowingFile> create(const std::string& path);
+  GrowingFile(GrowingFile&& other) noexcept;
+  GrowingFile& operator=(GrowingFile&&) = delete;
+  ~GrowingFile();
+
+  void write(std::string_view bytes);  // what goes wrong comes out of finish()
+  Result<Done> finish();
+
+ private:
+  GrowingFile() = default;
+  std::FILE* file_ = nullptr;
+  std::string path_, temporary_;
+  int failure_ = 0;  // errno of the first write that failed
+};
 
 }  // namespace odolab

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/import/imported_recording.h"
+#include "core/io/import/sample_streams.h"
 
 namespace odolab {
 
@@ -14,8 +15,10 @@ struct ForeignFormat {
   const char* sources;  // what to give, for help and errors
   // From a file's path and its first bytes.
   bool (*recognises)(const std::string& path, std::string_view start);
-  // All sources were recognised by this format.
+  // Either: all sources were recognised by this format.
   Result<ImportedRecording> (*read)(const std::vector<std::string>& sources);
+  // Or: adds what one source holds to streams that others may add to.
+  Result<Done> (*stream)(const std::string& source, const ImportWishes& wishes, SampleStreams& streams) = nullptr;
 };
 
 const std::vector<ForeignFormat>& foreign_formats();
@@ -24,5 +27,6 @@ const std::vector<ForeignFormat>& foreign_formats();
 ForeignFormat optiodom_synchronised_format();
 ForeignFormat optiodom_raw_format();
 ForeignFormat mrclam_format();
+ForeignFormat ros2_bag_format();
 
 }  // namespace odolab

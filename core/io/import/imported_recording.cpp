@@ -15,6 +15,7 @@ const std::vector<ForeignFormat>& foreign_formats() {
       optiodom_synchronised_format(),
       optiodom_raw_format(),
       mrclam_format(),
+      ros2_bag_format(),
   };
   return formats;
 }
@@ -63,26 +64,82 @@ std::string known_formats() {
 
 bool is_foreign_recording(const std::string& path) { return format_of(path) != nullptr; }
 
-Result<ImportedRecording> import_recording(const std::vector<std::string>& sources) {
+namespace {
+
+bool is_own_recording(const std::vector<std::string>& sources) {
+  return sources.size() == 1 && !format_of(sources.front()) && has_recording_header(sources.front());
+}
+
+// The format of each source, or what is wrong with one.
+Result<std::vector<const ForeignFormat*>> formats_of(const std::vector<std::string>& sources) {
   if (sources.empty()) return Error{"import", "no source", known_formats()};
-  const ForeignFormat* format = nullptr;
+  std::vector<const ForeignFormat*> formats;
   for (const std::string& source : sources) {
     std::error_code failure;
-    if (fs::is_directory(source, failure)) return folder_given(source);
     if (!fs::exists(source, failure)) return Error{source, "no such file", "a file that can be read"};
     const ForeignFormat* of_this = format_of(source);
-    if (!of_this && sources.size() == 1 && has_recording_header(source)) {
-      Result<Recording> recording = read_recording_csv(source);
-      if (!recording) return recording.error();
-      return ImportedRecording{std::move(*recording), {}};
-    }
+    if (!of_this && fs::is_directory(source, failure)) return folder_given(source);
     if (!of_this) return Error{source, "a file of no known format", known_formats()};
-    if (format && of_this != format)
+    const ForeignFormat* first = formats.empty() ? of_this : formats.front();
+    if (of_this != first && !(of_this->stream && first->stream))
       return Error{source, std::string("a file of ") + of_this->name,
-                   std::string("one of ") + format->name + " as the first source"};
-    format = of_this;
+                   std::string("one of ") + first->name + " as the first source"};
+    formats.push_back(of_this);
   }
-  return format->read(sources);
+  return formats;
+}
+
+Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
+                                 const std::vector<const ForeignFormat*>& formats, const ImportWishes& wishes,
+                                 const std::string& spill_folder) {
+  SampleStreams streams;
+  streams.spill_folder = spill_folder;
+  fs::path first = fs::path(sources.front()).lexically_normal();
+  if (first.filename().empty()) first = first.parent_path();
+  streams.name = first.filename().string();
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done) return done.error();
+  return streams;
+}
+
+}  // namespace
+
+Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes) {
+  if (is_own_recording(sources)) return load_recording(sources.front());
+  const auto formats = formats_of(sources);
+  if (!formats) return formats.error();
+  if (!formats->front()->stream) return formats->front()->read(sources);
+  Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "");
+  if (!streams) return streams.error();
+  Result<Recording> recording = recording_of(*streams);
+  if (!recording) return Error{sources.front(), recording.error().found, recording.error().expected};
+  return ImportedRecording{std::move(*recording), std::move(streams->warnings)};
+}
+
+Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, const ImportWishes& wishes,
+                                     const std::string& out) {
+  if (!is_own_recording(sources)) {
+    const auto formats = formats_of(sources);
+    if (!formats) return formats.error();
+    if (formats->front()->stream) {
+      std::error_code failure;
+      const fs::path folder = fs::path(out).parent_path();
+      if (!folder.empty()) fs::create_directories(folder, failure);
+      Result<SampleStreams> streams = streams_of(sources, *formats, wishes, folder.empty() ? "." : folder.string());
+      if (!streams) return streams.error();
+      Result<WrittenRecording> written = write_streams_csv(out, *streams);
+      if (!written) return written.error();
+      return ImportedFile{written->rows, written->duration_s, std::move(written->channels),
+                          std::move(streams->warnings)};
+    }
+  }
+  Result<ImportedRecording> imported = import_recording(sources, wishes);
+  if (!imported) return imported.error();
+  const Recording& recording = imported->recording;
+  if (Result<Done> written = write_recording_csv(out, recording); !written) return written.error();
+  ImportedFile file{recording.time_s.size(), recording.duration_s(), {}, std::move(imported->warnings)};
+  for (const Channel& channel : recording.channels) file.channels.push_back(channel.name);
+  return file;
 }
 
 Result<ImportedRecording> load_recording(const std::string& path) {

@@ -1,0 +1,138 @@
+#include "core/io/import/sample_streams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/io/number_text.h"
+#include "core/io/whole_file.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+
+// Rows out of several streams, each in order of time.
+class Rows {
+ public:
+  static Result<Rows> of(SampleStreams& from) {
+    Rows rows;
+    for (SampleSpool& stream : from.streams) {
+      if (Result<Done> done = stream.finish(); !done) return done.error();
+      if (stream.late() > 0)
+        from.warnings.push_back(std::to_string(stream.late()) + (stream.late() == 1 ? " sample of " : " samples of ") +
+                                stream.channels().front() + " left out: time goes back there");
+      if (stream.size() == 0) continue;
+      for (std::size_t c = 0; c < stream.channels().size(); ++c) {
+        const std::string& name = stream.channels()[c];
+        if (std::find(rows.names.begin(), rows.names.end(), name) != rows.names.end())
+          return Error{from.name, "two sources for " + name, "one"};
+        rows.names.push_back(name);
+        if (stream.wraps(c))
+          from.warnings.push_back(name + " was written wrapped into one turn; it was made continuous");
+      }
+      rows.heads_.push_back({&stream, 0, std::vector<double>(stream.channels().size()), true});
+    }
+    if (rows.heads_.empty()) return Error{from.name, "no sample", "wheels, commands or a truth"};
+    std::int64_t zero = std::numeric_limits<std::int64_t>::max();
+    for (Head& head : rows.heads_) {
+      zero = std::min(zero, head.stream->first_ns());
+      rows.advance(head);
+    }
+    rows.zero_ns_ = from.keep_zero ? 0 : zero;
+    return rows;
+  }
+
+  std::vector<std::string> names;
+
+  // False after the last row.
+  bool next(double& time_s, std::vector<double>& row) {
+    std::int64_t time_ns = std::numeric_limits<std::int64_t>::max();
+    bool any = false;
+    for (const Head& head : heads_)
+      if (head.there) {
+        time_ns = std::min(time_ns, head.time_ns);
+        any = true;
+      }
+    if (!any) return false;
+    row.assign(names.size(), kEmpty);
+    std::size_t column = 0;
+    for (Head& head : heads_) {
+      if (head.there && head.time_ns == time_ns) {
+        std::copy(head.values.begin(), head.values.end(), row.begin() + static_cast<std::ptrdiff_t>(column));
+        advance(head);
+      }
+      column += head.values.size();
+    }
+    time_s = static_cast<double>(time_ns - zero_ns_) / 1e9;
+    return true;
+  }
+
+ private:
+  struct Head {
+    SampleSpool* stream;
+    std::int64_t time_ns;
+    std::vector<double> values;
+    bool there;
+  };
+  static void advance(Head& head) { head.there = head.stream->next(head.time_ns, head.values.data()); }
+
+  std::vector<Head> heads_;
+  std::int64_t zero_ns_ = 0;
+};
+
+}  // namespace
+
+SampleSpool& SampleStreams::add_stream(std::vector<std::string> channels) {
+  streams.emplace_back(std::move(channels), spill_folder);
+  return streams.back();
+}
+
+Result<Recording> recording_of(SampleStreams& streams) {
+  Result<Rows> rows = Rows::of(streams);
+  if (!rows) return rows.error();
+  Recording recording;
+  recording.name = streams.name;
+  recording.provenance = streams.provenance;
+  for (const std::string& name : rows->names) recording.channels.push_back({name, {}});
+  double time_s = 0.0;
+  std::vector<double> row;
+  while (rows->next(time_s, row)) {
+    recording.time_s.push_back(time_s);
+    for (std::size_t c = 0; c < row.size(); ++c) recording.channels[c].values.push_back(row[c]);
+  }
+  return recording;
+}
+
+Result<WrittenRecording> write_streams_csv(const std::string& path, SampleStreams& streams) {
+  Result<Rows> rows = Rows::of(streams);
+  if (!rows) return rows.error();
+  WrittenRecording written;
+  written.channels = rows->names;
+  Result<GrowingFile> file = GrowingFile::create(path);
+  if (!file) return file.error();
+  std::string text = "time_s";
+  for (const std::string& name : rows->names) text += ',' + name;
+  text += '\n';
+  double time_s = 0.0, first_s = 0.0;
+  std::vector<double> row;
+  while (rows->next(time_s, row)) {
+    if (written.rows++ == 0) first_s = time_s;
+    append_number(text, time_s);
+    for (double value : row) {
+      text += ',';
+      if (!std::isnan(value)) append_number(text, value);
+    }
+    text += '\n';
+    if (text.size() < 1 << 16) continue;
+    file->write(text);
+    text.clear();
+  }
+  file->write(text);
+  if (Result<Done> done = file->finish(); !done) return done.error();
+  written.duration_s = time_s - first_s;
+  return written;
+}
+
+}  // namespace odolab

@@ -1,0 +1,75 @@
+#include "core/io/import/sample_streams.h"
+
+#include <cmath>
+
+#include "core/geometry/angles.h"
+#include "core/io/recording_csv.h"
+#include "test/core/io/files.h"
+
+namespace odolab {
+namespace {
+
+void add(SampleSpool& spool, std::int64_t ns, double a) { spool.add(ns, &a); }
+
+TEST(SampleStreams, ShareARowWhereTheyShareAStamp) {
+  SampleStreams streams;
+  SampleSpool& a = streams.add_stream({"left_wheel_rad"});
+  SampleSpool& b = streams.add_stream({"truth_x_m"});
+  add(a, 5'000'000'000, 1.0);
+  add(a, 5'100'000'000, 2.0);
+  add(b, 5'100'000'000, 3.0);
+  add(b, 4'000'000'000, 4.0);
+  const Result<Recording> r = recording_of(streams);
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->time_s, (std::vector<double>{0.0, 1.0, 1.1}));
+  EXPECT_TRUE(std::isnan(r->channel("left_wheel_rad")->values[0]));
+  EXPECT_EQ(r->channel("truth_x_m")->values[0], 4.0);
+  EXPECT_EQ(r->channel("left_wheel_rad")->values[2], 2.0);
+  EXPECT_EQ(r->channel("truth_x_m")->values[2], 3.0);
+}
+
+TEST(SampleStreams, SortLateSamplesInAndCountThoseThatComeTooLate) {
+  for (const char* where : {"", "."}) {
+    SampleSpool spool({"truth_x_m"}, where);
+    for (int i = 0; i < 200000; ++i) add(spool, (i % 500 == 499 ? i - 300 : i) * 1000, i);
+    add(spool, 5, -1.0);  // 200000 samples late
+    ASSERT_TRUE(spool.finish().ok());
+    EXPECT_EQ(spool.size(), 200000u);
+    EXPECT_EQ(spool.late(), 1u);
+    std::int64_t last = -1, ns = 0;
+    double value = 0.0, sum = 0.0;
+    int n = 0;
+    while (spool.next(ns, &value)) {
+      ASSERT_GE(ns, last);
+      last = ns;
+      sum += value;
+      ++n;
+    }
+    EXPECT_EQ(n, 200000);
+    EXPECT_EQ(sum, 199999.0 * 100000.0);  // none lost, none twice
+  }
+}
+
+TEST(SampleStreams, MakeAWrappedAngleContinuousAndLeaveAContinuousOneAlone) {
+  for (const bool wrapped_in_file : {true, false}) {
+    SampleStreams streams;
+    SampleSpool& wheel = streams.add_stream({"left_wheel_rad"});
+    wheel.unwrap(0);
+    for (int i = 0; i < 100; ++i) add(wheel, i * 1000, wrapped_in_file ? wrapped(-0.5 * i) : -5.0 * i);
+    const Result<Recording> r = recording_of(streams);
+    ASSERT_TRUE(r.ok());
+    for (int i = 0; i < 100; ++i)
+      EXPECT_NEAR(r->channels[0].values[static_cast<std::size_t>(i)], wrapped_in_file ? -0.5 * i : -5.0 * i, 1e-12);
+    EXPECT_EQ(streams.warnings.size(), wrapped_in_file ? 1u : 0u);
+  }
+}
+
+TEST(SampleStreams, RefuseTwoSourcesForOneChannel) {
+  SampleStreams streams;
+  add(streams.add_stream({"truth_x_m"}), 0, 1.0);
+  add(streams.add_stream({"truth_x_m"}), 0, 1.0);
+  EXPECT_EQ(recording_of(streams).error().message(), ": found two sources for truth_x_m, expected one");
+}
+
+}  // namespace
+}  // namespace odolab

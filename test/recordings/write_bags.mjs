@@ -1,0 +1,176 @@
+// Writes the test bags into bags/ with the MCAP and CDR writers of others; README.md says how to run it.
+import { CdrWriter, EncapsulationKind } from "@foxglove/cdr";
+import { ros2humble } from "@foxglove/rosmsg-msgs-common";
+import { MessageWriter } from "@foxglove/rosmsg2-serialization";
+import { McapWriter } from "@mcap/core";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, rmSync, writeFileSync } from "node:fs";
+
+const folder = new URL("./bags/", import.meta.url).pathname;
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+
+// A definition and all that it refers to, as the serialiser wants them.
+function definitions(name) {
+  const list = [];
+  const visit = (type) => {
+    if (list.some((d) => d.name === type)) return;
+    const definition = ros2humble[type];
+    list.push({ name: type, definitions: definition.definitions });
+    for (const field of definition.definitions) if (field.isComplex) visit(field.type);
+  };
+  visit(name);
+  return list;
+}
+const writers = {};
+function encoded(type, message) {
+  writers[type] ??= new MessageWriter(definitions(type));
+  return writers[type].writeMessage(message);
+}
+
+// The run, known to the tests by the same formulas: sample i of the wheels at i / 50 s, of the truth at i / 25 s. Stamps
+// of the headers; the log is 3 ms later.
+const START_S = 1700000000;
+const samples = 60;
+const stampOf = (ns) => ({ sec: START_S + Math.floor(ns / 1e9), nanosec: ns % 1e9 });
+const header = (ns, frame_id) => ({ stamp: stampOf(ns), frame_id });
+const logged = (ns) => BigInt(START_S) * 1000000000n + BigInt(ns) + 3000000n;
+const wheels = (i) => ({ left: 0.25 * i, right: 0.5 * i });
+const truth = (i) => ({ x: 0.01 * i, y: -0.02 * i, heading: 0.03 * i });
+const pose = (i) => ({
+  position: { x: truth(i).x, y: truth(i).y, z: 0.125 },
+  orientation: { x: 0, y: 0, z: Math.sin(truth(i).heading / 2), w: Math.cos(truth(i).heading / 2) },
+});
+const covariance = Array.from({ length: 36 }, (_, i) => i);
+const twist = (i) => ({ linear: { x: 0.2 + 0.001 * i, y: 0, z: 0 }, angular: { x: 0, y: 0, z: -0.01 * i } });
+
+const jointState = (ns, i) => ({
+  header: header(ns, ""),
+  name: ["arm_joint", "wheel_right_joint", "wheel_left_joint"], // odd lengths: alignment matters
+  position: [0.5, wheels(i).right, wheels(i).left],
+  velocity: [],
+  effort: [0, 0, 0],
+});
+const transform = (ns, i, parent, child) => ({
+  header: header(ns, parent),
+  child_frame_id: child,
+  transform: {
+    translation: { x: truth(i).x, y: truth(i).y, z: 0 },
+    rotation: pose(i).orientation,
+  },
+});
+
+// [topic, type, log time, bytes] in the order in which they are written
+function run(extra = []) {
+  const messages = [];
+  for (let i = 0; i < samples; ++i) {
+    const ns = i * 20000000;
+    messages.push(["/joint_states", "sensor_msgs/JointState", ns, jointState(ns, i)]);
+    if (i % 2 === 0) {
+      messages.push(["/mocap/pose", "geometry_msgs/PoseStamped", ns, { header: header(ns, "world"), pose: pose(i / 2) }]);
+      messages.push(["/cmd_vel", "geometry_msgs/Twist", ns, twist(i / 2)]);
+    }
+    for (const more of extra) more(messages, ns, i);
+  }
+  return messages.map(([topic, type, ns, message]) => [topic, type, logged(ns), encoded(type, message)]);
+}
+
+// Every type, and topics that are not plain.
+const everything = run([
+  (m, ns, i) => {
+    if (i % 2 !== 0) return;
+    const k = i / 2;
+    m.push(["/odom", "nav_msgs/Odometry", ns, {
+      header: header(ns, "odom"), child_frame_id: "base_link",
+      pose: { pose: pose(k), covariance }, twist: { twist: twist(k), covariance },
+    }]);
+    m.push(["/tracked", "geometry_msgs/PoseWithCovarianceStamped", ns,
+      { header: header(ns, "map"), pose: { pose: pose(k), covariance } }]);
+    m.push(["/vicon/robot", "geometry_msgs/TransformStamped", ns, transform(ns, k, "vicon", "robot")]);
+    m.push(["/tf", "tf2_msgs/TFMessage", ns, { transforms: [
+      transform(ns, 2 * k, "odom", "base_link"), transform(ns, k, "world", "marker_body"),
+    ] }]);
+    m.push(["/teleop", "geometry_msgs/TwistStamped", ns, { header: header(ns, ""), twist: twist(k) }]);
+    m.push(["/goal_pose", "geometry_msgs/PoseStamped", ns, { header: header(ns, "map"), pose: pose(0) }]);
+  },
+]);
+
+class Bytes {
+  parts = [];
+  size = 0n;
+  position() { return this.size; }
+  async write(bytes) {
+    this.parts.push(Uint8Array.from(bytes));
+    this.size += BigInt(bytes.byteLength);
+  }
+}
+
+async function mcap(name, messages, options = {}) {
+  const writable = new Bytes();
+  const writer = new McapWriter({ writable, chunkSize: 4096, ...options });
+  await writer.start({ profile: "ros2", library: "test" });
+  const channels = new Map();
+  for (const [topic, type, time, data] of messages) {
+    if (!channels.has(topic)) {
+      const schemaId = await writer.registerSchema({
+        name: type.replace("/", "/msg/"), encoding: "ros2msg", data: new TextEncoder().encode("# " + type),
+      });
+      channels.set(topic, await writer.registerChannel(
+        { schemaId, topic, messageEncoding: "cdr", metadata: new Map([["offered_qos_profiles", ""]]) }));
+    }
+    await writer.addMessage({ channelId: channels.get(topic), sequence: 0, logTime: time, publishTime: time, data });
+  }
+  await writer.end();
+  writeFileSync(folder + name, Buffer.concat(writable.parts));
+}
+
+const packed = (compression, program, args) => ({
+  compressChunk: (input) => ({ compression, compressedData: execFileSync(program, args, { input }) }),
+});
+
+// The same numbers with the most significant byte first, field by field.
+function bigEndian() {
+  const start = () => new CdrWriter({ kind: EncapsulationKind.CDR_BE });
+  const stamp = (w, ns, frame) => {
+    w.int32(stampOf(ns).sec);
+    w.uint32(stampOf(ns).nanosec);
+    w.string(frame);
+  };
+  return run().map(([topic, type, time], index) => {
+    const w = start();
+    const ns = Number(time - logged(0));
+    const i = Math.round(ns / 20000000);
+    if (topic === "/joint_states") {
+      const m = jointState(ns, i);
+      stamp(w, ns, "");
+      w.sequenceLength(m.name.length);
+      for (const name of m.name) w.string(name);
+      for (const list of [m.position, m.velocity, m.effort]) w.float64Array(list, true);
+    } else if (topic === "/mocap/pose") {
+      const { position: p, orientation: q } = pose(i / 2);
+      stamp(w, ns, "world");
+      for (const v of [p.x, p.y, p.z, q.x, q.y, q.z, q.w]) w.float64(v);
+    } else {
+      const t = twist(i / 2);
+      for (const v of [t.linear.x, 0, 0, 0, 0, t.angular.z]) w.float64(v);
+    }
+    return [topic, type, time, w.data];
+  });
+}
+
+await mcap("plain.mcap", run(), { useChunks: false });
+await mcap("chunks.mcap", run());
+await mcap("zstd.mcap", run(), packed("zstd", "zstd", ["-q", "-c"]));
+await mcap("lz4.mcap", run(), packed("lz4", "lz4", ["-q", "-c"]));
+await mcap("no_index.mcap", run(), {
+  useStatistics: false, useSummaryOffsets: false, repeatSchemas: false, repeatChannels: false,
+  useMessageIndex: false, useChunkIndex: false, useAttachmentIndex: false, useMetadataIndex: false,
+});
+await mcap("big_endian.mcap", bigEndian());
+await mcap("every_type.mcap", everything, packed("zstd", "zstd", ["-q", "-c"]));
+
+// For write_db3.py, which knows SQLite: the messages as they are.
+const plain = (messages) => messages.map(([topic, type, time, data]) =>
+  ({ topic, type: type.replace("/", "/msg/"), time: time.toString(), data: Buffer.from(data).toString("base64") }));
+execFileSync("python3", [new URL("./write_db3.py", import.meta.url).pathname, folder],
+  { input: JSON.stringify(plain(run())), stdio: ["pipe", "inherit", "inherit"] });
