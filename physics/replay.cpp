@@ -32,11 +32,11 @@ Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
   Scenario scenario;
   scenario.name = "Replay of " + recording.name;
   scenario.vehicle = vehicle;
-  const auto& drive = std::get<DifferentialDrive>(vehicle.kind);
-  scenario.actual = as_drawn(drive);
+  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
+  if (drive) scenario.actual = as_drawn(*drive);
   ReplayPath path;
   path.recording = recording.name;
-  path.by = wheel_samples(recording, drive).empty() ? ReplayPath::By::commands : ReplayPath::By::wheels;
+  path.by = !drive || wheel_samples(recording, *drive).empty() ? ReplayPath::By::commands : ReplayPath::By::wheels;
   scenario.path = path;
   return scenario;
 }

@@ -74,6 +74,7 @@ struct Simulation::Parts {
     state.true_pose = state.estimated_pose = start;
     vehicle->place_other_bodies(state.other_bodies);
     run.channels = vehicle->channels();
+    gauges = vehicle->shape().gauges;
     sample_encoders();
     sample_truth();
     measured_start = measured_end = measured_axle();
@@ -263,6 +264,7 @@ struct Simulation::Parts {
   SimulationState state;
   SampledRun run;
   std::vector<double> readings;  // of one sample
+  std::vector<GaugeShape> gauges;
   Track exact, estimated;
   Pose measured_start, measured_end;
 };
@@ -285,6 +287,27 @@ void Simulation::set_floor(const Floor& floor) {
   parts_->scenario.floor = floor;
   parts_->ground = Ground(parts_->effects.laid_on(floor), inside_of(parts_->scenario.path), parts_->floor_seed);
 }
+
+VehicleShape Simulation::shape() const { return parts_->vehicle->shape(); }
+
+VehiclePosture Simulation::posture() const {
+  const Parts& parts = *parts_;
+  VehiclePosture posture;
+  posture.reference = parts.state.true_pose;
+  parts.vehicle->pose_parts(posture);
+  const std::vector<GaugeShape>& gauges = parts.gauges;
+  for (std::size_t i = 0; i < gauges.size(); ++i) {
+    const auto channel = std::find(parts.run.channels.begin(), parts.run.channels.end(), gauges[i].channel);
+    posture.gauges[i].measured = channel == parts.run.channels.end()
+                                     ? kNone
+                                     : parts.readings[static_cast<std::size_t>(channel - parts.run.channels.begin())];
+  }
+  return posture;
+}
+
+std::size_t Simulation::samples() const { return parts_->run.time_s.size(); }
+const std::vector<std::string>& Simulation::channels() const { return parts_->run.channels; }
+const std::vector<double>& Simulation::readings() const { return parts_->readings; }
 
 void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps) {
   parts_->hand = {speed_mps, yaw_rate_radps, sideways_mps};

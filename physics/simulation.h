@@ -9,7 +9,7 @@
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
-#include "physics/vehicles/wheel_state.h"
+#include "physics/vehicles/vehicle_shape.h"
 
 namespace odolab {
 
@@ -44,6 +44,14 @@ class Simulation {
 
   const SimulationState& state() const;
   double expected_duration_s() const;  // a guess for progress bars and timelines
+
+  // What the vehicle looks like, and how its parts stand now; measured is what the last sample read.
+  VehicleShape shape() const;
+  VehiclePosture posture() const;
+  // How many samples there are, and the last one's readings in the order of the vehicle's channels.
+  std::size_t samples() const;
+  const std::vector<std::string>& channels() const;
+  const std::vector<double>& readings() const;
 
   // While it runs: the floor may change, a person may drive (only with a HandPath), a push may come from outside.
   void set_floor(const Floor& floor);

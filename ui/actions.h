@@ -41,6 +41,7 @@ struct DriveByHandInstead {  // of the scenario's path, or back to it
 struct DriveByHand {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
+  double sideways_mps = 0.0;  // of vehicles that can
 };
 struct Push {
   Vec2 impulse_ns;

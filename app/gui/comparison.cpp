@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/simulation.h"
+
 namespace odolab {
 
 namespace {
@@ -22,6 +24,12 @@ Result<ComparedReplay> compared(const Scenario& scenario, const std::shared_ptr<
   if (!result) return result.error();
   ComparedReplay c;
   c.vehicle = scenario.vehicle;
+  Scenario at_rest = scenario;
+  at_rest.path = HandPath{};
+  at_rest.start = {};
+  const Simulation standing(at_rest, scenario.seed);
+  c.shape = standing.shape();
+  c.posture = standing.posture();
   c.replay = std::move(*result);
   const Track& truth = c.replay.truth;
   for (const TimedPose& t : truth) c.time_s.push_back(t.time_s - truth.front().time_s);
@@ -98,7 +106,8 @@ void Comparison::calibrate(Jobs& jobs, OnError on_error) {
 }
 
 bool Comparison::has_wheels() const {
-  return recording_ && !wheel_samples(*recording_, std::get<DifferentialDrive>(scenario_.vehicle.kind)).empty();
+  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&scenario_.vehicle.kind);
+  return recording_ && drive && !wheel_samples(*recording_, *drive).empty();
 }
 
 double Comparison::start_s() const {

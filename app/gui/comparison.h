@@ -9,6 +9,7 @@
 #include "app/gui/jobs.h"
 #include "core/calibration/least_squares.h"
 #include "physics/replay.h"
+#include "physics/vehicles/vehicle_shape.h"
 #include "ui/compare.h"
 
 namespace odolab {
@@ -16,6 +17,8 @@ namespace odolab {
 // One replay and its errors at the times of the truth, counted from the first of them.
 struct ComparedReplay {
   Vehicle vehicle;
+  VehicleShape shape;      // of the simulated vehicle
+  VehiclePosture posture;  // in which it is drawn
   Replay replay;
   std::vector<double> time_s;
   std::vector<double> simulated_m, simulated_rad;

@@ -22,12 +22,14 @@ Pose mixed_pose(const Pose& a, const Pose& b, double u) {
 DriveRun::DriveRun(const Scenario& scenario, std::shared_ptr<const Recording> replayed)
     : scenario_(scenario), replayed_(std::move(replayed)), simulation_(scenario, scenario.seed, replayed_) {
   steps_per_picture_ = std::max(1, int(std::lround(kPicture / scenario.step_s)));
+  shape_ = simulation_.shape();
   remember();
 }
 
 void DriveRun::restart() {
   simulation_ = Simulation(scenario_, scenario_.seed, replayed_);
   history_.clear();
+  postures_.clear();
   times_.clear();
   gap_m_.clear();
   gap_heading_.clear();
@@ -40,37 +42,36 @@ void DriveRun::remember() {
   const SimulationState& s = simulation_.state();
   const Pose gap = between(s.true_pose, s.estimated_pose);
   history_.push_back(s);
+  postures_.push_back(simulation_.posture());
   times_.push_back(s.time_s - start_s());
   gap_m_.push_back(length(gap.position()));
   gap_heading_.push_back(wrapped(gap.heading_rad));
 }
 
-void DriveRun::note_events(const SimulationState& before, const SimulationState& now) {
+void DriveRun::note_events(const VehiclePosture& before, const VehiclePosture& now) {
+  const double time_s = simulation_.state().time_s - start_s();
   const auto note = [&](RunEvent::Kind kind, const std::string& words) {
     if (events_.size() >= kMostEvents) return;
     for (RunEvent& e : events_)
-      if (e.kind == kind && now.time_s - start_s() - e.time_s < kSameEvent) {
+      if (e.kind == kind && time_s - e.time_s < kSameEvent) {
         if (e.words.find(words) == std::string::npos) e.words += ", " + words;
         return;
       }
-    events_.push_back({kind, now.time_s - start_s(), words});
+    events_.push_back({kind, time_s, words});
   };
-  if (now.left.on_bump && !before.left.on_bump) note(RunEvent::Kind::bump, "left wheel on a cable");
-  if (now.right.on_bump && !before.right.on_bump) note(RunEvent::Kind::bump, "right wheel on a cable");
-  if (now.left.in_slip_zone && !before.left.in_slip_zone)
-    note(RunEvent::Kind::slip_zone, "left wheel on a slippery patch");
-  if (now.right.in_slip_zone && !before.right.in_slip_zone)
-    note(RunEvent::Kind::slip_zone, "right wheel on a slippery patch");
+  for (std::size_t i = 0; i < now.wheels.size(); ++i) {
+    const WheelState &was = before.wheels[i], &is = now.wheels[i];
+    if (is.on_bump && !was.on_bump) note(RunEvent::Kind::bump, words_of(shape_.wheels[i]) + " on a cable");
+    if (is.in_slip_zone && !was.in_slip_zone)
+      note(RunEvent::Kind::slip_zone, words_of(shape_.wheels[i]) + " on a slippery patch");
+  }
 }
 
 void DriveRun::simulate_picture() {
   if (finished()) return;
-  for (int i = 0; i < steps_per_picture_ && !simulation_.state().finished; ++i) {
-    const SimulationState before = simulation_.state();
-    simulation_.step();
-    note_events(before, simulation_.state());
-  }
+  for (int i = 0; i < steps_per_picture_ && !simulation_.state().finished; ++i) simulation_.step();
   remember();
+  note_events(postures_[postures_.size() - 2], postures_.back());
 }
 
 void DriveRun::advance(double seconds, const std::function<bool()>& go_on) {
@@ -103,8 +104,8 @@ void DriveRun::set_floor(const Floor& floor) {
   if (events_.size() < kMostEvents) events_.push_back({RunEvent::Kind::floor_changed, now, "floor changed"});
 }
 
-void DriveRun::drive_by_hand(double speed_mps, double yaw_rate_radps) {
-  simulation_.drive_by_hand(speed_mps, yaw_rate_radps);
+void DriveRun::drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps) {
+  simulation_.drive_by_hand(speed_mps, yaw_rate_radps, sideways_mps);
 }
 
 void DriveRun::push(Vec2 impulse_ns) {
@@ -122,20 +123,29 @@ double DriveRun::total_s() const {
   return std::min(window_s, expected_s);
 }
 
-SimulationState DriveRun::shown() const {
+DriveRun::Around DriveRun::around_shown() const {
   const std::size_t after =
       std::size_t(std::lower_bound(times_.begin(), times_.end(), shown_s_ - 1e-12) - times_.begin());
-  if (after == 0) return history_.front();
-  if (after >= history_.size()) return history_.back();
-  const SimulationState &a = history_[after - 1], &b = history_[after];
-  const double span = b.time_s - a.time_s, u = span > 0.0 ? (start_s() + shown_s_ - a.time_s) / span : 1.0;
-  SimulationState s = u < 0.5 ? a : b;
+  if (after == 0) return {0, 0, 0.0};
+  if (after >= times_.size()) return {times_.size() - 1, times_.size() - 1, 0.0};
+  const double span = times_[after] - times_[after - 1];
+  return {after - 1, after, span > 0.0 ? (shown_s_ - times_[after - 1]) / span : 1.0};
+}
+
+SimulationState DriveRun::shown() const {
+  const Around at = around_shown();
+  const SimulationState &a = history_[at.before], &b = history_[at.after];
+  if (at.before == at.after) return a;
+  SimulationState s = at.share < 0.5 ? a : b;
   s.time_s = start_s() + shown_s_;
-  s.true_pose = mixed_pose(a.true_pose, b.true_pose, u);
-  s.estimated_pose = mixed_pose(a.estimated_pose, b.estimated_pose, u);
-  s.left.rotation_rad = mixed_value(a.left.rotation_rad, b.left.rotation_rad, u);
-  s.right.rotation_rad = mixed_value(a.right.rotation_rad, b.right.rotation_rad, u);
+  s.true_pose = mixed_pose(a.true_pose, b.true_pose, at.share);
+  s.estimated_pose = mixed_pose(a.estimated_pose, b.estimated_pose, at.share);
   return s;
+}
+
+VehiclePosture DriveRun::shown_posture() const {
+  const Around at = around_shown();
+  return between(postures_[at.before], postures_[at.after], at.share);
 }
 
 }  // namespace odolab

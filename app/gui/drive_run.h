@@ -31,7 +31,7 @@ class DriveRun {
   void show(double time_s);
   // Takes effect from the latest moment on.
   void set_floor(const Floor& floor);
-  void drive_by_hand(double speed_mps, double yaw_rate_radps);
+  void drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps);
   void push(Vec2 impulse_ns);
 
   const Scenario& scenario() const { return scenario_; }
@@ -45,6 +45,8 @@ class DriveRun {
   bool at_end() const { return finished() && shown_s_ >= latest_s(); }
   // The state at the shown moment; poses and wheel rotations are interpolated between pictures.
   SimulationState shown() const;
+  VehiclePosture shown_posture() const;
+  const VehicleShape& shape() const { return shape_; }
 
   // The gap between estimate and truth at every picture.
   const std::vector<double>& time_s() const { return times_; }
@@ -55,13 +57,21 @@ class DriveRun {
  private:
   void simulate_picture();
   void remember();
-  void note_events(const SimulationState& before, const SimulationState& now);
+  void note_events(const VehiclePosture& before, const VehiclePosture& now);
+  // The pictures on either side of the shown moment, and how far it is from the first to the second.
+  struct Around {
+    std::size_t before = 0, after = 0;
+    double share = 0.0;
+  };
+  Around around_shown() const;
 
   Scenario scenario_;
   std::shared_ptr<const Recording> replayed_;
   Simulation simulation_;
   int steps_per_picture_ = 20;
-  std::vector<SimulationState> history_;  // a state for each picture
+  VehicleShape shape_;
+  std::vector<SimulationState> history_;  // a state and a posture for each picture
+  std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;
   std::vector<RunEvent> events_;
   double shown_s_ = 0.0;

@@ -98,7 +98,9 @@ ui::DriveByHand hand_command(const Window& window, const Scenario& scenario) {
   const auto either = [&](Key a, Key b) { return window.is_down(a) || window.is_down(b) ? 1.0 : 0.0; };
   const double forward = either(Key::up, Key::w) - either(Key::down, Key::s);
   const double turn = either(Key::left, Key::a) - either(Key::right, Key::d);
-  return {forward * scenario.driving.speed_mps, turn * scenario.driving.turn_rate_radps};
+  const double left = moves_sideways(scenario.vehicle.kind) ? either(Key::q, Key::q) - either(Key::e, Key::e) : 0.0;
+  return {forward * scenario.driving.speed_mps, turn * scenario.driving.turn_rate_radps,
+          left * scenario.driving.speed_mps};
 }
 
 }  // namespace odolab

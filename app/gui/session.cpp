@@ -9,6 +9,7 @@
 #include "core/io/recording_csv.h"
 #include "core/io/scenario_toml.h"
 #include "core/io/vehicle_toml.h"
+#include "core/scenario/suited_scenario.h"
 
 namespace odolab {
 
@@ -117,7 +118,8 @@ struct Session::Executor {
     s.playing_ = true;
   }
   void operator()(const ui::DriveByHand& a) const {
-    if (std::holds_alternative<HandPath>(s.run_->scenario().path)) s.run_->drive_by_hand(a.speed_mps, a.yaw_rate_radps);
+    if (std::holds_alternative<HandPath>(s.run_->scenario().path))
+      s.run_->drive_by_hand(a.speed_mps, a.yaw_rate_radps, a.sideways_mps);
   }
   void operator()(const ui::Push& a) const { s.run_->push(a.impulse_ns); }
   void operator()(const ui::Undo&) const { swap_scenario(s.undo_, s.redo_); }
@@ -168,6 +170,10 @@ struct Session::Executor {
   void operator()(const ui::RecordSimulatedRun&) const {
     if (s.refuse_while_busy("a simulated run")) return;
     const Scenario scenario = s.run_->scenario();
+    if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) {
+      s.say(other->message(), true);
+      return;
+    }
     const std::shared_ptr<const Recording> replayed = s.replayed_;
     Session* session = &s;
     const auto made = std::make_shared<Recording>();
@@ -336,10 +342,6 @@ bool Session::open_scenario(const std::string& path) {
     say(scenario.error().message(), true);
     return false;
   }
-  if (const auto other = other_than_differential_drive(scenario->vehicle, "the window drives")) {
-    say(path + ": " + other->message(), true);
-    return false;
-  }
   if (const ReplayPath* replays = std::get_if<ReplayPath>(&scenario->path)) {
     Result<ImportedRecording> imported = load_recording(beside(path, replays->recording));
     if (!imported) {
@@ -363,20 +365,8 @@ bool Session::open_vehicle(const std::string& path) {
     say(vehicle.error().message(), true);
     return false;
   }
-  if (const auto other = other_than_differential_drive(*vehicle, "the window drives")) {
-    say(path + ": " + other->message(), true);
-    return false;
-  }
   opened_vehicle_ = *vehicle;
-  Scenario scenario = run_->scenario();
-  scenario.vehicle = *vehicle;
-  scenario.vehicle_file.clear();
-  if (const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&vehicle->kind)) {
-    const ActualDrive drawn = as_drawn(*drive);
-    scenario.actual.wheel_radius_left_m = drawn.wheel_radius_left_m;
-    scenario.actual.wheel_radius_right_m = drawn.wheel_radius_right_m;
-    scenario.actual.wheelbase_m = drawn.wheelbase_m;
-  }
+  const Scenario scenario = with_vehicle(run_->scenario(), *vehicle);
   execute(ui::EditScenario{scenario});
   if (comparison_.loaded() && !jobs_.running()) {
     const auto recording = std::make_shared<const Recording>(comparison_.recording());
@@ -399,6 +389,10 @@ bool Session::open_recording(const std::string& path) {
 }
 
 void Session::compare(std::shared_ptr<const Recording> recording, const Scenario& scenario) {
+  if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) {
+    say(recording->name + ": " + other->message(), true);
+    return;
+  }
   mode_ = ui::Mode::compare;
   playing_ = false;
   ++loads_;

@@ -9,6 +9,8 @@ namespace odolab {
 
 namespace {
 
+constexpr double kPush_mps = 0.4;  // that a push gives a vehicle of its first body's mass: a kick, no crash
+
 // At a time, or at the end of the track that is nearest to it: encoders and truth do not begin and end together.
 std::optional<Pose> pose_nearest(const Track& track, double time_s) {
   return track.empty() ? std::nullopt : pose_at(track, std::clamp(time_s, track.front().time_s, track.back().time_s));
@@ -48,12 +50,9 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   estimate.dash = ui::Dash::dashes;
   scene.tracks = {truth, estimate};
   ui::VehicleGlyph vehicle;
+  vehicle.shape = &run.shape();
+  vehicle.posture = run.shown_posture();
   vehicle.pose = shown.true_pose;
-  vehicle.wheelbase_m = scenario.actual.wheelbase_m;
-  vehicle.wheel_radius_left_m = scenario.actual.wheel_radius_left_m;
-  vehicle.wheel_radius_right_m = scenario.actual.wheel_radius_right_m;
-  vehicle.left_rotation_rad = shown.left.rotation_rad;
-  vehicle.right_rotation_rad = shown.right.rotation_rad;
   vehicle.colour = theme.truth;
   ui::VehicleGlyph believed = vehicle;
   believed.pose = shown.estimated_pose;
@@ -62,6 +61,7 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   scene.vehicles = {vehicle, believed};
   scene.reference = shown.true_pose;
   scene.deviating = shown.estimated_pose;
+  scene.push_ns = kPush_mps * scenario.actual.mass_kg;
   return scene;
 }
 
@@ -91,14 +91,12 @@ ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
   reckoned.dash = ui::Dash::dots;
   truth.until_s = simulated.until_s = reckoned.until_s = now;
   scene.tracks = {truth, simulated, reckoned};
-  const DifferentialDrive& drive = std::get<DifferentialDrive>(shown->vehicle.kind);
   const auto glyph = [&](const std::optional<Pose>& pose, bool outline, ImU32 colour) {
     if (!pose) return;
     ui::VehicleGlyph v;
+    v.shape = &shown->shape;
+    v.posture = shown->posture;
     v.pose = *pose;
-    v.wheelbase_m = drive.wheelbase_m;
-    v.wheel_radius_left_m = drive.wheel_radius_left_m;
-    v.wheel_radius_right_m = drive.wheel_radius_right_m;
     v.outline = outline;
     v.colour = colour;
     scene.vehicles.push_back(v);
@@ -163,8 +161,10 @@ ui::Bench bench_of(const Session& session) {
   b.experiments = &bench.experiments();
   b.running = bench.running();
   b.share_done = session.jobs().share_done();
-  b.can_run = !session.jobs().running();
-  b.why_not = "Busy " + session.jobs().name() + ".";
+  const bool one_drive = std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind);
+  b.can_run = one_drive && !session.jobs().running();
+  b.why_not = one_drive ? "Busy " + session.jobs().name() + "."
+                        : "UMBmark's squares correct a differential drive; this is another kind of vehicle.";
   if (const SquarePath* square = std::get_if<SquarePath>(&scenario.path)) b.side_m = square->side_m;
   const Floor& floor = session.run().scenario().floor;
   b.has_things = !floor.bumps.empty() || !floor.slip_zones.empty();
@@ -214,9 +214,10 @@ ui::Readout readout_of(const Session& session, const SimulationState& shown) {
   r.gap_heading_rad = wrapped(gap.heading_rad);
   r.gap_along_m = gap.x_m;
   r.gap_across_m = gap.y_m;
+  r.sideways = moves_sideways(session.run().scenario().vehicle.kind);
   r.by_hand = std::holds_alternative<HandPath>(session.run().scenario().path);
-  r.wheel_radius_left_m = session.run().scenario().actual.wheel_radius_left_m;
-  r.wheel_radius_right_m = session.run().scenario().actual.wheel_radius_right_m;
+  r.shape = &session.run().shape();
+  r.posture = session.run().shown_posture();
   return r;
 }
 

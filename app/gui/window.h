@@ -30,6 +30,7 @@ enum class Key {
   escape,
   a,
   d,
+  e,
   f,
   h,
   o,

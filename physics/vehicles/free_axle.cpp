@@ -22,7 +22,7 @@ FreeAxle::FreeAxle(PlanarWorld& world, int body, const DifferentialDrive& actual
 
 void FreeAxle::before_step() { before_ = world_->pose(body_); }
 
-void FreeAxle::after_step(const Ground& ground) {
+void FreeAxle::after_step(const Ground& ground, double step_s) {
   const Pose& after = world_->pose(body_);
   const double turn_rad = after.heading_rad - before_.heading_rad;
   const double heading_rad = before_.heading_rad + 0.5 * turn_rad;
@@ -33,13 +33,17 @@ void FreeAxle::after_step(const Ground& ground) {
     const Contact contact = ground.under({wheel.side, middle + rotated(wheel.place, heading_rad), heading_rad,
                                           wheel.radius_m, wheel.travelled_m, number_});
     wheel.travelled_m += rolled_m;
-    wheel.rotation_rad += rolled_m / (wheel.radius_m * contact.horizontal_share);
+    const double turned_rad = rolled_m / (wheel.radius_m * contact.horizontal_share);
+    wheel.state.rotation_rad += turned_rad;
+    wheel.state.speed_radps = turned_rad / step_s;
+    wheel.state.on_bump = contact.on_bump;
+    wheel.state.in_slip_zone = contact.in_slip_zone;
   }
 }
 
 WheelPair FreeAxle::read() const {
-  return {wheels_[0].encoder.reading_rad(wheels_[0].rotation_rad),
-          wheels_[1].encoder.reading_rad(wheels_[1].rotation_rad)};
+  return {wheels_[0].encoder.reading_rad(wheels_[0].state.rotation_rad),
+          wheels_[1].encoder.reading_rad(wheels_[1].state.rotation_rad)};
 }
 
 }  // namespace odolab

@@ -7,6 +7,7 @@
 #include "physics/ground.h"
 #include "physics/planar_world.h"
 #include "physics/sensors/encoder.h"
+#include "physics/vehicles/wheel_state.h"
 #include "physics/wheel_pair.h"
 
 namespace odolab {
@@ -21,8 +22,10 @@ class FreeAxle {
            Random& phases);
 
   void before_step();
-  void after_step(const Ground& ground);  // a wheel turns by what it travelled, and on a bump by more
+  void after_step(const Ground& ground, double step_s);  // a wheel turns by what it travelled, and on a bump by more
   WheelPair read() const;
+  const WheelState& left() const { return wheels_[0].state; }
+  const WheelState& right() const { return wheels_[1].state; }
 
  private:
   struct Wheel {
@@ -30,7 +33,7 @@ class FreeAxle {
     Vec2 place;
     double radius_m;
     Encoder encoder;
-    double rotation_rad = 0.0;
+    WheelState state{};
     double travelled_m = 0.0;
   };
 

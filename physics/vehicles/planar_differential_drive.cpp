@@ -65,6 +65,18 @@ double PlanarDifferentialDrive::speed_mps() const {
   return dot(world_.velocity_mps(body_), {std::cos(heading), std::sin(heading)});
 }
 
+VehicleShape PlanarDifferentialDrive::shape() const {
+  VehicleShape shape;
+  const DifferentialDrive wheels{actual_.wheel_radius_left_m, actual_.wheel_radius_right_m, actual_.wheelbase_m};
+  add_drive_shape(shape, wheels, "", actual_.toe_left_rad, actual_.toe_right_rad);
+  return shape;
+}
+
+void PlanarDifferentialDrive::pose_parts(VehiclePosture& posture) const {
+  posture.bodies = {world_.pose(body_)};
+  posture.wheels = {left(), right()};
+}
+
 void PlanarDifferentialDrive::sample(double time_s, std::vector<double>& readings) {
   WheelPair now{left_encoder_.reading_rad(left().counted_rad), right_encoder_.reading_rad(right().counted_rad)};
   for (const auto& effect : *effects_) {

@@ -29,6 +29,9 @@ class PlanarDifferentialDrive final : public PlanarVehicle, public DrivenByWheel
   WheelState left() const override { return axle_.left(); }
   WheelState right() const override { return axle_.right(); }
 
+  VehicleShape shape() const override;
+  void pose_parts(VehiclePosture& posture) const override;
+
   std::vector<std::string> channels() const override { return {"left_wheel_rad", "right_wheel_rad"}; }
   void sample(double time_s, std::vector<double>& readings) override;
   Pose believed() const override { return believed_; }

@@ -25,6 +25,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
         actual_(actual),
         masses_(setup.scenario.machine.trailer),
         tow_mass_kg_(setup.scenario.actual.mass_kg),
+        contact_length_m_(setup.scenario.machine.tracks.contact_length_m),
         tracks_middle_{-setup.scenario.machine.tracks.centre_of_mass_x_m, 0.0, 0.0},
         step_s_(setup.scenario.step_s),
         world_(step_s_),
@@ -74,6 +75,20 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   WheelState right() const override { return tracks_.right(); }
   void place_other_bodies(std::vector<Pose>& poses) const override { poses = {world_.pose(towed_)}; }
 
+  VehicleShape shape() const override {
+    VehicleShape shape;
+    const int tow = add_tracked_shape(shape, actual_.tow, contact_length_m_, tracks_middle_.x_m);
+    shape.rods.push_back({tow, tow, tracks_middle_.position(), tracks_middle_ * Vec2{-actual_.hitch_offset_m, 0.0}});
+    add_trailer_shape(shape, actual_.trailer, actual_.drawbar_length_m, "trailer ");
+    shape.gauges = {{"hitch angle", "hitch_angle_rad", false}};
+    return shape;
+  }
+  void pose_parts(VehiclePosture& posture) const override {
+    posture.bodies = {world_.pose(body_), world_.pose(towed_)};
+    posture.wheels = {left(), right(), wheels_[0].state, wheels_[1].state};
+    posture.gauges = {{wrapped(world_.pose(body_).heading_rad - world_.pose(towed_).heading_rad), 0.0}};
+  }
+
   std::vector<std::string> channels() const override {
     return {"left_wheel_rad", "right_wheel_rad", "trailer_left_wheel_rad", "trailer_right_wheel_rad",
             "hitch_angle_rad"};
@@ -81,8 +96,8 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   void sample(double time_s, std::vector<double>& readings) override {
     const WheelPair noise = slip_ring_.false_counts(time_s);
     const double rad_per_count = 2.0 * kPi / nominal_.trailer.counts_per_wheel_turn();
-    const WheelPair now{wheels_[0].encoder.reading_rad(wheels_[0].rotation_rad) + noise.left * rad_per_count,
-                        wheels_[1].encoder.reading_rad(wheels_[1].rotation_rad) + noise.right * rad_per_count};
+    const WheelPair now{wheels_[0].encoder.reading_rad(wheels_[0].state.rotation_rad) + noise.left * rad_per_count,
+                        wheels_[1].encoder.reading_rad(wheels_[1].state.rotation_rad) + noise.right * rad_per_count};
     const double hitch_rad = hitch_reading_rad();
     // Section 4.5: dead reckoning of the trailer, then "a simple coordinate transformation" by the hitch's angle.
     if (read_)
@@ -101,7 +116,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
     Side side = Side::left;
     Vec2 place;
     double radius_m = 0.05;
-    double rotation_rad = 0.0;
+    WheelState state{};
     double travelled_m = 0.0;
     Encoder encoder{1.0, 0.0};
   };
@@ -119,7 +134,11 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
       const Contact contact = ground.under({wheel.side, middle + rotated(wheel.place, heading_rad), heading_rad,
                                             wheel.radius_m, wheel.travelled_m, kTrailerAxle});
       wheel.travelled_m += rolled_m;
-      wheel.rotation_rad += rolled_m / (wheel.radius_m * contact.horizontal_share);
+      const double turned_rad = rolled_m / (wheel.radius_m * contact.horizontal_share);
+      wheel.state.rotation_rad += turned_rad;
+      wheel.state.speed_radps = turned_rad / step_s_;
+      wheel.state.on_bump = contact.on_bump;
+      wheel.state.in_slip_zone = contact.in_slip_zone;
     }
   }
 
@@ -135,6 +154,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   EncoderTrailer nominal_, actual_;
   ActualTrailer masses_;
   double tow_mass_kg_;
+  double contact_length_m_;
   Pose tracks_middle_;  // in the frame of the towing vehicle's centre of mass
   double step_s_;
   PlanarWorld world_;

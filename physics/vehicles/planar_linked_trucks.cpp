@@ -68,17 +68,53 @@ std::vector<std::string> PlanarLinkedTrucks::channels() const {
           "link_angle_a_rad", "link_angle_b_rad",  "link_length_m"};
 }
 
-LinkReadings PlanarLinkedTrucks::read_link() const {
+VehicleShape PlanarLinkedTrucks::shape() const {
+  VehicleShape shape;
+  const int a = add_drive_shape(shape, lengths_.truck_a, "A ");
+  const int b = add_drive_shape(shape, lengths_.truck_b, "B ");
+  if (platform_) {
+    const double half_m = 0.5 * lengths_.link_length_m, side_m = 0.25 * lengths_.link_length_m;
+    const double end_m = half_m + 0.2 * lengths_.link_length_m;
+    shape.free_castors.clear();  // they stand under the platform
+    for (const double x : {-half_m, half_m})
+      for (const double y : {-0.8 * side_m, 0.8 * side_m}) shape.free_castors.push_back({2, {x, y}, 0.02});
+    shape.bodies.push_back({{{-end_m, -side_m}, {end_m, -side_m}, {end_m, side_m}, {-end_m, side_m}}, true});
+  }
+  shape.rods.push_back({b, a, {}, {}, true});
+  shape.joints = {{a, {}}, {b, {}}};
+  shape.gauges = {{"link angle A", "link_angle_a_rad", false},
+                  {"link angle B", "link_angle_b_rad", false},
+                  {"link length", "link_length_m", true}};
+  return shape;
+}
+
+void PlanarLinkedTrucks::pose_parts(VehiclePosture& posture) const {
+  posture.bodies = {a_.pose(), b_.pose()};
+  if (platform_) posture.bodies.push_back(world_.pose(*platform_));
+  posture.wheels = {a_.axle().left(), a_.axle().right(), b_.axle().left(), b_.axle().right()};
+  const LinkReadings link = true_link();
+  posture.gauges = {{wrapped(link.angle_a_rad), 0.0}, {wrapped(link.angle_b_rad), 0.0}, {link.length_m, 0.0}};
+}
+
+LinkReadings PlanarLinkedTrucks::true_link() const {
   const Vec2 link = a_.pose().position() - b_.pose().position();
   const double heading_rad = std::atan2(link.y_m, link.x_m);
-  const double angle_a_rad = a_.pose().heading_rad - heading_rad, angle_b_rad = b_.pose().heading_rad - heading_rad;
-  const double swing_m = link_.length_eccentricity_m * std::cos(angle_a_rad + link_.length_eccentricity_phase_rad);
+  LinkReadings out;
+  out.angle_a_rad = a_.pose().heading_rad - heading_rad;
+  out.angle_b_rad = b_.pose().heading_rad - heading_rad;
+  out.length_m = length(link);
+  return out;
+}
+
+LinkReadings PlanarLinkedTrucks::read_link() const {
+  const LinkReadings link = true_link();
+  const double swing_m = link_.length_eccentricity_m * std::cos(link.angle_a_rad + link_.length_eccentricity_phase_rad);
   LinkReadings out;
   out.angle_a_rad =
-      wrapped(quantised(angle_a_rad + lengths_.link_angle_a_offset_rad, nominal_.link_angle_resolution_rad));
+      wrapped(quantised(link.angle_a_rad + lengths_.link_angle_a_offset_rad, nominal_.link_angle_resolution_rad));
   out.angle_b_rad =
-      wrapped(quantised(angle_b_rad + lengths_.link_angle_b_offset_rad, nominal_.link_angle_resolution_rad));
-  out.length_m = quantised(length(link) + lengths_.link_length_offset_m + swing_m, nominal_.link_length_resolution_m);
+      wrapped(quantised(link.angle_b_rad + lengths_.link_angle_b_offset_rad, nominal_.link_angle_resolution_rad));
+  out.length_m = quantised(link.length_m + lengths_.link_length_offset_m + swing_m, nominal_.link_length_resolution_m);
   return out;
 }
 

@@ -28,12 +28,16 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   WheelState right() const override { return a_.axle().right(); }
   void place_other_bodies(std::vector<Pose>& poses) const override;  // truck B, and the platform if there is one
 
+  VehicleShape shape() const override;
+  void pose_parts(VehiclePosture& posture) const override;
+
   std::vector<std::string> channels() const override;
   void sample(double time_s, std::vector<double>& readings) override;
   Pose believed() const override { return belief_.truck_a(); }
   Pose believed_driven_point() const override { return belief_.link_centre(nominal_.link_length_m); }
 
  private:
+  LinkReadings true_link() const;
   LinkReadings read_link() const;
 
   LinkedTrucks nominal_, lengths_;

@@ -1,5 +1,6 @@
 // A platform on active split offset castors: each castor a body of its own on two driven wheels, pinned beside its
 // axle.
+#include <algorithm>
 #include <memory>
 
 #include "core/base/random.h"
@@ -94,6 +95,39 @@ class PlanarMultiCastor final : public PlanarVehicle {
   void place_other_bodies(std::vector<Pose>& poses) const override {
     poses.resize(castors_.size());
     for (std::size_t i = 0; i < castors_.size(); ++i) poses[i] = world_.pose(castors_[i].body);
+  }
+
+  VehicleShape shape() const override {
+    VehicleShape shape;
+    double reach_m = 0.0;
+    for (const Castor& castor : lengths_.castors) reach_m = std::max(reach_m, castor.pivot_radius_m);
+    shape.bodies.push_back({round_outline(reach_m + 0.03), true});
+    for (std::size_t i = 0; i < lengths_.castors.size(); ++i) {
+      const Castor& c = lengths_.castors[i];
+      const int body = int(i) + 1;
+      const std::string name = "castor " + std::to_string(body) + " ";
+      const double width_m = std::min(0.5 * c.wheel_radius_left_m, 0.25 * c.track_m());
+      shape.bodies.push_back({});
+      shape.rods.push_back({body, body, {0.0, c.wheel_offset_left_m}, {0.0, -c.wheel_offset_right_m}, false});
+      shape.rods.push_back({body, body, {0.0, 0.0}, {c.offset_m, 0.0}, false});
+      shape.wheels.push_back({name + "left", body, {0.0, c.wheel_offset_left_m}, 0.0, c.wheel_radius_left_m, width_m});
+      shape.wheels.push_back(
+          {name + "right", body, {0.0, -c.wheel_offset_right_m}, 0.0, c.wheel_radius_right_m, width_m});
+      shape.joints.push_back({body, {c.offset_m, 0.0}});
+      shape.gauges.push_back({"pivot " + std::to_string(body), "castor" + std::to_string(body) + "_pivot_rad", false});
+    }
+    return shape;
+  }
+  void pose_parts(VehiclePosture& posture) const override {
+    posture.bodies = {world_.pose(platform_)};
+    posture.wheels.clear();
+    posture.gauges.clear();
+    for (std::size_t i = 0; i < castors_.size(); ++i) {
+      posture.bodies.push_back(world_.pose(castors_[i].body));
+      posture.wheels.push_back(castors_[i].axle.left());
+      posture.wheels.push_back(castors_[i].axle.right());
+      posture.gauges.push_back({wrapped(pivot_rad_of(i)), 0.0});
+    }
   }
 
   std::vector<std::string> channels() const override {

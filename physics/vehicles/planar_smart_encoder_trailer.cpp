@@ -42,7 +42,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
     pull_downhill(world_, towed_, trailer_.mass_kg, floor);
     world_.step();
     tow_.axle().after_step();
-    axle_.after_step(ground);
+    axle_.after_step(ground, step_s_);
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(tow_.body(), (1.0 / step_s_) * impulse_ns); }
 
@@ -54,6 +54,19 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
   void place_other_bodies(std::vector<Pose>& poses) const override {
     poses.resize(1);
     poses[0] = world_.pose(towed_);
+  }
+
+  VehicleShape shape() const override {
+    VehicleShape shape;
+    add_drive_shape(shape, lengths_.tow, "");
+    add_trailer_shape(shape, lengths_.trailer, lengths_.drawbar_length_m, "trailer ");
+    shape.gauges = {{"hitch angle", "hitch_angle_rad", false}};
+    return shape;
+  }
+  void pose_parts(VehiclePosture& posture) const override {
+    posture.bodies = {tow_.pose(), world_.pose(towed_)};
+    posture.wheels = {left(), right(), axle_.left(), axle_.right()};
+    posture.gauges = {{wrapped(tow_.pose().heading_rad - world_.pose(towed_).heading_rad), 0.0}};
   }
 
   std::vector<std::string> channels() const override {

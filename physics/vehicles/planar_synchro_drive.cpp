@@ -1,6 +1,7 @@
 // A synchro drive on the floor: a base on three wheels that one motor turns and another steers, all alike. Where the
 // wheels do not agree, the floor decides which of them slips: the solver, by Coulomb's law and the rubber's creep. The
 // base keeps its direction but for what the wheels' quarrels turn it by.
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -27,6 +28,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
         step_s_(setup.scenario.step_s),
         world_(step_s_),
         body_(world_.add_body({setup.start, mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
+        start_heading_rad_(setup.start.heading_rad),
         grip_(world_, body_, mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2, step_s_),
         drive_(setup.scenario.motor, actual.wheel_radius_m, mass_kg_ * actual.wheel_radius_m * actual.wheel_radius_m),
         steering_(setup.scenario.motor, 1.0, kTurretInertia_kgm2),
@@ -79,6 +81,29 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   }
   WheelState left() const override { return wheels_[1].state; }
   WheelState right() const override { return wheels_[2].state; }
+
+  VehicleShape shape() const override {
+    VehicleShape shape;
+    const double circle_m = wheels_as_built_.wheel_circle_radius_m;
+    shape.bodies.push_back({round_outline(circle_m + 0.8 * actual_.wheel_radius_m), false});
+    const char* kNames[] = {"front", "rear left", "rear right"};
+    for (std::size_t i = 0; i < wheels_.size(); ++i) {
+      const double radius_m = actual_.wheel_radius_m * (1.0 + wheels_as_built_.radius_error[i]);
+      shape.wheels.push_back({kNames[i], 0, wheels_[i].place, wheels_as_built_.misalignment_rad[i], radius_m,
+                              std::min(0.4 * radius_m, 0.5 * circle_m), 0.0});
+    }
+    shape.gauges = {{"steering", "steering_rad", false}, {"base turned", "", false}};
+    return shape;
+  }
+  void pose_parts(VehiclePosture& posture) const override {
+    posture.bodies = {world_.pose(body_)};
+    posture.wheels.clear();
+    for (const Wheel& wheel : wheels_) {
+      posture.wheels.push_back(wheel.state);
+      posture.wheels.back().steered_rad = wheel_direction_rad();
+    }
+    posture.gauges = {{wheel_direction_rad(), 0.0}, {world_.pose(body_).heading_rad - start_heading_rad_, 0.0}};
+  }
 
   std::vector<std::string> channels() const override { return {"drive_wheel_rad", "steering_rad"}; }
   void sample(double /*time_s*/, std::vector<double>& readings) override {
@@ -157,6 +182,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   double step_s_;
   PlanarWorld world_;
   int body_;
+  double start_heading_rad_;
   FloorGrip grip_;
   WheelDrive drive_, steering_;
   std::array<Wheel, 3> wheels_;

@@ -16,14 +16,16 @@ class PlanarTracked final : public PlanarVehicle {
  public:
   PlanarTracked(const VehicleSetup& setup, const Tracked& nominal, const Tracked& actual)
       : nominal_(as_differential_drive(nominal)),
+        sprockets_(as_differential_drive(actual)),
+        contact_length_m_(setup.scenario.machine.tracks.contact_length_m),
         mass_kg_(setup.scenario.actual.mass_kg),
         tracks_middle_{-setup.scenario.machine.tracks.centre_of_mass_x_m, 0.0, 0.0},
         step_s_(setup.scenario.step_s),
         world_(step_s_),
         body_(world_.add_body(
             {setup.start * inverse(tracks_middle_), mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
-        tracks_(world_, body_, as_differential_drive(actual), setup.scenario.machine.tracks, setup.scenario.actual,
-                setup.scenario.motor, step_s_),
+        tracks_(world_, body_, sprockets_, setup.scenario.machine.tracks, setup.scenario.actual, setup.scenario.motor,
+                step_s_),
         believed_(setup.start) {
     Random phases(setup.sensor_seed);
     left_encoder_ = Encoder(nominal_.counts_per_wheel_turn(), phases.uniform());
@@ -46,6 +48,16 @@ class PlanarTracked final : public PlanarVehicle {
   WheelState left() const override { return tracks_.left(); }
   WheelState right() const override { return tracks_.right(); }
 
+  VehicleShape shape() const override {
+    VehicleShape shape;
+    add_tracked_shape(shape, sprockets_, contact_length_m_, tracks_middle_.x_m);
+    return shape;
+  }
+  void pose_parts(VehiclePosture& posture) const override {
+    posture.bodies = {world_.pose(body_)};
+    posture.wheels = {left(), right()};
+  }
+
   std::vector<std::string> channels() const override { return {"left_wheel_rad", "right_wheel_rad"}; }
   void sample(double /*time_s*/, std::vector<double>& readings) override {
     const WheelPair now{left_encoder_.reading_rad(left().counted_rad), right_encoder_.reading_rad(right().counted_rad)};
@@ -56,7 +68,9 @@ class PlanarTracked final : public PlanarVehicle {
   Pose believed() const override { return believed_; }
 
  private:
-  DifferentialDrive nominal_;  // whose dead reckoning the vehicle's is
+  DifferentialDrive nominal_;    // whose dead reckoning the vehicle's is
+  DifferentialDrive sprockets_;  // true radii, and the tracks' distance as wheelbase
+  double contact_length_m_;
   double mass_kg_;
   Pose tracks_middle_;  // in the frame of the centre of mass
   double step_s_;

@@ -12,6 +12,7 @@
 #include "physics/driver/base_command.h"
 #include "physics/effects/effects.h"
 #include "physics/ground.h"
+#include "physics/vehicles/vehicle_shape.h"
 #include "physics/vehicles/wheel_state.h"
 #include "physics/wheel_pair.h"
 
@@ -67,6 +68,10 @@ class PlanarVehicle {
   virtual WheelState right() const = 0;
   // Where the other bodies stand on the floor: none, or always the same ones in the same order.
   virtual void place_other_bodies(std::vector<Pose>& /*poses*/) const {}
+
+  // What it looks like, and how it stands at this moment: bodies, wheels and the truth of its gauges.
+  virtual VehicleShape shape() const = 0;
+  virtual void pose_parts(VehiclePosture& posture) const = 0;
 
   // The recording's columns that its sensors fill (contract's names), and one sample of them in that order. Sampling
   // also advances the vehicle's own dead reckoning, which starts at the first sample.

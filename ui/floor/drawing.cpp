@@ -50,7 +50,9 @@ void hatch(ImDrawList& draw, const std::vector<ImVec2>& outline, float spacing, 
   }
 }
 
-void arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 colour, float width, float head) {
+}  // namespace
+
+void draw_arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 colour, float width, float head) {
   const float length = std::hypot(to.x - from.x, to.y - from.y);
   if (length < 1.0f) return;
   const ImVec2 d{(to.x - from.x) / length, (to.y - from.y) / length};
@@ -59,30 +61,6 @@ void arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 colour, float width, 
   draw.AddTriangleFilled(to, {base.x - d.y * head * 0.5f, base.y + d.x * head * 0.5f},
                          {base.x + d.y * head * 0.5f, base.y - d.x * head * 0.5f}, colour);
 }
-
-// Corners of a rectangle in a pose's frame.
-std::vector<ImVec2> box(const Camera& camera, const Pose& pose, double x0, double y0, double x1, double y1) {
-  return {camera.screen(pose * Vec2{x0, y0}), camera.screen(pose * Vec2{x1, y0}), camera.screen(pose * Vec2{x1, y1}),
-          camera.screen(pose * Vec2{x0, y1})};
-}
-
-void draw_wheel(ImDrawList& draw, const Camera& camera, const Pose& pose, double y_m, double radius_m, double width_m,
-                double rotation_rad, const Theme& theme) {
-  const std::vector<ImVec2> tyre = box(camera, pose, -radius_m, y_m - 0.5 * width_m, radius_m, y_m + 0.5 * width_m);
-  draw.AddConvexPolyFilled(tyre.data(), 4, theme.ink);
-  if (radius_m * camera.px_per_m < theme.px(9)) return;
-  // Treads seen from above: they move forward on top of the wheel and crowd at its ends.
-  constexpr int kTreads = 8;
-  for (int i = 0; i < kTreads; ++i) {
-    const double angle = std::remainder(rotation_rad + 2.0 * kPi * i / kTreads, 2.0 * kPi);
-    if (std::abs(angle) > 0.5 * kPi) continue;
-    const double x = radius_m * std::sin(angle);
-    draw.AddLine(camera.screen(pose * Vec2{x, y_m - 0.5 * width_m}), camera.screen(pose * Vec2{x, y_m + 0.5 * width_m}),
-                 faded(theme.paper, 0.75f), theme.px(1));
-  }
-}
-
-}  // namespace
 
 std::pair<Vec2, Vec2> ends_of(const Bump& bump) {
   const Vec2 half = rotated({0.5 * bump.length_m, 0.0}, bump.direction_rad);
@@ -135,7 +113,7 @@ void draw_origin(ImDrawList& draw, const Camera& camera, const Theme& theme) {
   const float l = theme.px(26), halo = theme.px(1.5f);
   for (const ImVec2 tip : {ImVec2(o.x + l, o.y), ImVec2(o.x, o.y - l)}) {
     draw.AddLine(o, tip, faded(theme.paper, 0.9f), theme.px(5));
-    arrow(draw, o, tip, theme.muted, theme.px(1.5f), theme.px(7));
+    draw_arrow(draw, o, tip, theme.muted, theme.px(1.5f), theme.px(7));
   }
   const auto letter = [&](ImVec2 at, const char* text) {
     for (const float dx : {-halo, 0.0f, halo})
@@ -202,7 +180,8 @@ void draw_tilt(ImDrawList& draw, const Camera& camera, const Floor& floor, const
   const ImVec2 d{float(std::cos(floor.downhill_direction_rad)), -float(std::sin(floor.downhill_direction_rad))};
   draw.AddCircleFilled(at, l + theme.px(6), faded(theme.paper, 0.85f));
   draw.AddCircle(at, l + theme.px(6), theme.line);
-  arrow(draw, {at.x - d.x * l, at.y - d.y * l}, {at.x + d.x * l, at.y + d.y * l}, theme.ink, theme.px(3), theme.px(13));
+  draw_arrow(draw, {at.x - d.x * l, at.y - d.y * l}, {at.x + d.x * l, at.y + d.y * l}, theme.ink, theme.px(3),
+             theme.px(13));
   const std::string text = "downhill " + shown(std::abs(floor.tilt_rad), kDegrees, 1);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   draw.AddText({std::round(std::min(at.x - size.x / 2, camera.high.x - size.x - theme.px(6))), at.y + l + theme.px(9)},
@@ -253,39 +232,6 @@ void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, d
   }
   if (line.end && !points.empty()) points.push_back(camera.screen(line.end->position()));
   draw_stroke(draw, points, line.colour, line.dash, theme);
-}
-
-void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, const Theme& theme) {
-  const double w = v.wheelbase_m, tyre = 0.16 * w;
-  const double back = -0.85 * w, front = 0.85 * w, side = 0.5 * w + tyre;
-  // The body's corners are cut, so that its front is told from its back at any size.
-  const Vec2 shape[] = {{back, -side},        {0.55 * front, -side}, {front, -0.55 * side},
-                        {front, 0.55 * side}, {0.55 * front, side},  {back, side}};
-  std::vector<ImVec2> body;
-  for (const Vec2 p : shape) body.push_back(camera.screen(v.pose * p));
-  if (v.outline) {
-    std::vector<ImVec2> closed = body;
-    closed.push_back(body.front());
-    dashed_line(draw, closed, v.colour, theme.px(2), theme.px(6), theme.px(4));
-  } else {
-    draw.AddConvexPolyFilled(body.data(), int(body.size()), faded(theme.panel, 0.92f));
-    draw.AddPolyline(body.data(), int(body.size()), v.colour, ImDrawFlags_Closed, theme.px(1.8f));
-    for (const double x : {back + 0.12 * w, front - 0.22 * w})
-      draw.AddCircle(camera.screen(v.pose * Vec2{x, 0.0}), std::max(1.5f, float(0.06 * w * camera.px_per_m)),
-                     theme.muted, 0, theme.px(1.2f));
-    draw_wheel(draw, camera, v.pose, 0.5 * w, v.wheel_radius_left_m, tyre, v.left_rotation_rad, theme);
-    draw_wheel(draw, camera, v.pose, -0.5 * w, v.wheel_radius_right_m, tyre, v.right_rotation_rad, theme);
-  }
-  // The axle's centre, which every pose on the screen is the pose of, and the way ahead.
-  const ImVec2 centre = camera.screen(v.pose * Vec2{0.0, 0.0});
-  draw.AddCircleFilled(centre, theme.px(v.outline ? 3.0f : 3.5f), v.colour);
-  const ImVec2 ahead = camera.screen(v.pose * Vec2{0.5 * front, 0.0});
-  const float length = std::hypot(ahead.x - centre.x, ahead.y - centre.y);
-  const float reach = std::max(length, theme.px(10));
-  if (length > 0.0f)
-    arrow(draw, centre,
-          {centre.x + (ahead.x - centre.x) / length * reach, centre.y + (ahead.y - centre.y) / length * reach},
-          v.colour, theme.px(1.8f), theme.px(6));
 }
 
 }  // namespace odolab::ui

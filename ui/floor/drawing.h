@@ -20,7 +20,7 @@ void draw_planned(ImDrawList& draw, const Camera& camera, const std::vector<Vec2
 void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, Dash dash, const Theme& theme);
 // `exaggeration` multiplies the deviation from the line's reference, where it has one.
 void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration, const Theme& theme);
-void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& vehicle, const Theme& theme);
+void draw_arrow(ImDrawList& draw, ImVec2 from, ImVec2 to, ImU32 colour, float width, float head);
 
 // The pose whose deviation from `reference` is `factor` times that of `deviating`.
 Pose exaggerated(const Pose& reference, const Pose& deviating, double factor);

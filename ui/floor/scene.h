@@ -7,6 +7,7 @@
 
 #include "core/geometry/track.h"
 #include "core/scenario/scenario.h"
+#include "physics/vehicles/vehicle_shape.h"
 #include "ui/look/theme.h"
 
 namespace odolab::ui {
@@ -26,12 +27,9 @@ struct TrackLine {
 
 // A vehicle as it is drawn: solid for the real one, an outline for what an estimate believes.
 struct VehicleGlyph {
-  Pose pose;
-  double wheelbase_m = 0.34;
-  double wheel_radius_left_m = 0.075;
-  double wheel_radius_right_m = 0.075;
-  double left_rotation_rad = 0.0;
-  double right_rotation_rad = 0.0;
+  const VehicleShape* shape = nullptr;
+  VehiclePosture posture;
+  Pose pose;  // where its reference is drawn, and all its parts about it
   bool outline = false;
   ImU32 colour = 0;
 };
@@ -44,6 +42,7 @@ struct FloorScene {
   std::vector<VehicleGlyph> vehicles;
   // The two poses whose gap matters, for the gap line and the lens; the second deviates from the first.
   std::optional<Pose> reference, deviating;
+  double push_ns = 20.0;   // that a click gives the vehicle
   std::string empty_text;  // said in the middle while there is nothing else to see
   std::string reference_name = "true", deviating_name = "estimated";
 };

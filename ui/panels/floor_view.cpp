@@ -5,6 +5,7 @@
 
 #include "ui/floor/drawing.h"
 #include "ui/floor/lens.h"
+#include "ui/floor/vehicle_drawing.h"
 #include "ui/look/strokes.h"
 #include "ui/look/widgets.h"
 
@@ -94,11 +95,13 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
     low = {std::min(low.x_m, p.x_m - reach), std::min(low.y_m, p.y_m - reach)};
     high = {std::max(high.x_m, p.x_m + reach), std::max(high.y_m, p.y_m + reach)};
   };
-  for (const Vec2 p : scene.planned) take(p, 0.3);
+  // All along its path the vehicle stays in sight, without the view growing when it comes to an edge.
+  const double reach_m = scene.vehicles.empty() ? 0.3 : reach_of(scene.vehicles.front());
+  for (const Vec2 p : scene.planned) take(p, reach_m);
   for (const TrackLine& line : scene.tracks)
     if (line.track)
       for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
-  for (const VehicleGlyph& v : scene.vehicles) take(v.pose.position(), v.wheelbase_m);
+  for (const VehicleGlyph& v : scene.vehicles) take(v.pose.position(), reach_of(v));
   if (scene.floor && low.x_m <= high.x_m)
     for (const Bump& bump : scene.floor->bumps) {
       const auto [a, b] = ends_of(bump);
@@ -226,7 +229,7 @@ Actions context_menu(const FloorScene& scene, FloorViewState& state) {
     ImGui::Separator();
     if (!scene.vehicles.empty() && ImGui::MenuItem("Push the vehicle toward here")) {
       const Vec2 way = state.menu_at - scene.vehicles.front().pose.position();
-      if (length(way) > 0.0) actions.push_back(Push{(20.0 / length(way)) * way});
+      if (length(way) > 0.0) actions.push_back(Push{(scene.push_ns / length(way)) * way});
     }
   }
   if (ImGui::MenuItem("Fit everything", "F")) state.fit_next = true;

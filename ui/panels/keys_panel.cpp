@@ -19,6 +19,7 @@ void keys_panel(bool& open, const Theme& theme) {
       {"F", "fit the floor into sight"},
       {"Delete", "take the selected cable or patch away"},
       {"Arrows, W A S D", "drive, while driving by hand"},
+      {"Q, E", "the same, to the left and to the right"},
       {"Ctrl+Z, Ctrl+Y", "undo, redo"},
       {"Ctrl+O, Ctrl+S", "open, save the recording as CSV"},
       {"1, 2, 3", "Drive, Calibrate, Compare"},

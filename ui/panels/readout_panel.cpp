@@ -41,9 +41,10 @@ void pose_table(const Readout& r, const Theme& theme) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("true", theme.truth);
-  tooltip("The pose of the axle's centre on the floor.", theme);
+  tooltip("The pose on the floor: of the axle's centre, of linked trucks truck A's, of a platform its own.", theme);
   header("estimated", theme.orange);
-  tooltip("What the robot believes: dead reckoning from its encoders alone (UMBmark report, Eqs. 2.1 to 2.6).", theme);
+  tooltip("What the robot believes, from its encoders alone: what it steers by unless a person sees where it is.",
+          theme);
   const Pose &t = r.state.true_pose, &e = r.state.estimated_pose;
   const auto row = [&](const char* label, const std::string& true_text, const std::string& estimated) {
     ImGui::TableNextRow();
@@ -58,16 +59,28 @@ void pose_table(const Readout& r, const Theme& theme) {
   ImGui::EndTable();
 }
 
-void wheel_table(const Readout& r, const Theme& theme) {
+const Unit kTreadSpeed{"mm/s", 1e3, 1, 0.0}, kNewton{"N", 1.0, 1, 0.0};
+constexpr const char* kSpeedTip = "Of the tread: wheel speed times its true radius.";
+constexpr const char* kSlipTip = "Tread against floor, along the wheel.";
+constexpr const char* kTractionTip = "Force of the floor on the wheel, along it.";
+
+void columns(std::initializer_list<float> widths) {
+  for (const float width : widths) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
+}
+
+const char* ground_under(const WheelState& s) {
+  return s.on_bump ? "on a bump" : s.in_slip_zone ? "slippery" : "floor";
+}
+
+// Of two wheels, side by side.
+void wheel_pair_table(const Readout& r, const Theme& theme) {
   if (!ImGui::BeginTable("wheels", 3)) return;
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.7f);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+  columns({0.7f, 1.0f, 1.0f});
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("left", theme.muted);
   header("right", theme.muted);
-  const WheelState &l = r.state.left, &w = r.state.right;
+  const WheelState &l = r.posture.wheels[0], &w = r.posture.wheels[1];
   const auto row = [&](const char* label, const std::string& left, const std::string& right, const char* tip) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -76,19 +89,63 @@ void wheel_table(const Readout& r, const Theme& theme) {
     cell(left, theme.ink);
     cell(right, theme.ink);
   };
-  const Unit mmps{"mm/s", 1e3, 1, 0.0}, newton{"N", 1.0, 1, 0.0};
-  row("speed", shown(l.speed_radps * r.wheel_radius_left_m, mmps), shown(w.speed_radps * r.wheel_radius_right_m, mmps),
-      "Of the tread: wheel speed times its true radius.");
-  row("slip", shown(l.slip_speed_mps, mmps, 2), shown(w.slip_speed_mps, mmps, 2),
-      "Tread against floor, along the wheel.");
-  row("traction", shown(l.traction_n, newton), shown(w.traction_n, newton),
-      "Force of the floor on the wheel, along it.");
-  const auto on = [](const WheelState& s) { return s.on_bump ? "on a bump" : s.in_slip_zone ? "slippery" : "floor"; };
+  row("speed", shown(l.speed_radps * r.shape->wheels[0].radius_m, kTreadSpeed),
+      shown(w.speed_radps * r.shape->wheels[1].radius_m, kTreadSpeed), kSpeedTip);
+  row("slip", shown(l.slip_speed_mps, kTreadSpeed, 2), shown(w.slip_speed_mps, kTreadSpeed, 2), kSlipTip);
+  row("traction", shown(l.traction_n, kNewton), shown(w.traction_n, kNewton), kTractionTip);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextUnformatted("stands on");
-  cell(on(l), l.on_bump || l.in_slip_zone ? theme.orange : theme.muted);
-  cell(on(w), w.on_bump || w.in_slip_zone ? theme.orange : theme.muted);
+  cell(ground_under(l), l.on_bump || l.in_slip_zone ? theme.orange : theme.muted);
+  cell(ground_under(w), w.on_bump || w.in_slip_zone ? theme.orange : theme.muted);
+  ImGui::EndTable();
+}
+
+// Of more wheels, below each other; the name of one that stands on something is orange.
+void wheel_rows(const Readout& r, const Theme& theme) {
+  if (!ImGui::BeginTable("wheels", 4)) return;
+  columns({1.25f, 0.8f, 0.8f, 0.8f});
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  header("speed", theme.muted);
+  tooltip(std::string(kSpeedTip) + " In mm/s.", theme);
+  header("slip", theme.muted);
+  tooltip(std::string(kSlipTip) + " In mm/s.", theme);
+  header("traction", theme.muted);
+  tooltip(std::string(kTractionTip) + " In newtons.", theme);
+  const Unit mmps{"", 1e3, 1, 0.0}, newton{"", 1.0, 1, 0.0};
+  for (std::size_t i = 0; i < r.posture.wheels.size(); ++i) {
+    const WheelState& w = r.posture.wheels[i];
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::PushStyleColor(ImGuiCol_Text, w.on_bump || w.in_slip_zone ? theme.orange : theme.ink);
+    ImGui::TextUnformatted(r.shape->wheels[i].name.c_str());
+    ImGui::PopStyleColor();
+    tooltip(words_of(r.shape->wheels[i]) + ", " + ground_under(w), theme);
+    cell(shown(w.speed_radps * r.shape->wheels[i].radius_m, mmps), theme.ink);
+    cell(shown(w.slip_speed_mps, mmps), theme.ink);
+    cell(shown(w.traction_n, newton), theme.ink);
+  }
+  ImGui::EndTable();
+}
+
+void gauge_table(const Readout& r, const Theme& theme) {
+  if (!ImGui::BeginTable("gauges", 3)) return;
+  columns({0.9f, 1.0f, 1.0f});
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  header("true", theme.truth);
+  header("measured", theme.orange);
+  tooltip("As the encoder read it last, its bias and its steps included.", theme);
+  for (std::size_t i = 0; i < r.posture.gauges.size(); ++i) {
+    const GaugeShape& gauge = r.shape->gauges[i];
+    const Unit& unit = gauge.is_length ? kMillimetres : kDegrees;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(gauge.name.c_str());
+    cell(shown(r.posture.gauges[i].truth, unit), theme.truth);
+    cell(shown(r.posture.gauges[i].measured, unit), theme.orange);
+  }
   ImGui::EndTable();
 }
 
@@ -106,14 +163,25 @@ Actions readout_panel(const Readout& r, const Theme& theme) {
        theme);
   heading("Poses", theme);
   pose_table(r, theme);
-  heading("Wheels", theme);
-  wheel_table(r, theme);
+  if (r.shape && !r.posture.gauges.empty()) {
+    heading("Joints", theme);
+    gauge_table(r, theme);
+  }
+  if (r.shape) {
+    heading("Wheels", theme);
+    if (r.posture.wheels.size() == 2)
+      wheel_pair_table(r, theme);
+    else
+      wheel_rows(r, theme);
+  }
   ImGui::Dummy({1, theme.px(2)});
   ButtonLook hand;
   hand.toggled = r.by_hand;
-  hand.tip =
-      r.by_hand ? "Back to the path that was driven before." : "Take the wheel: drive with the arrow keys or W A S D.";
-  if (text_button(r.by_hand ? "Driven by hand: arrow keys" : "Drive by hand", theme, hand, -1.0f))
+  hand.tip = r.by_hand    ? "Back to the path that was driven before."
+             : r.sideways ? "Take the wheel: drive with the arrow keys or W A S D, sideways with Q and E."
+                          : "Take the wheel: drive with the arrow keys or W A S D.";
+  const char* driven = r.sideways ? "Driven by hand: arrows, Q and E" : "Driven by hand: arrow keys";
+  if (text_button(r.by_hand ? driven : "Drive by hand", theme, hand, -1.0f))
     actions.push_back(DriveByHandInstead{!r.by_hand});
   return actions;
 }

@@ -18,9 +18,10 @@ struct Readout {
   double gap_heading_rad = 0.0;
   double gap_along_m = 0.0;   // ahead of the true pose
   double gap_across_m = 0.0;  // left of it
-  double wheel_radius_left_m = 0.075;
-  double wheel_radius_right_m = 0.075;
-  bool by_hand = false;  // the arrow keys drive
+  const VehicleShape* shape = nullptr;
+  VehiclePosture posture;
+  bool by_hand = false;   // the arrow keys drive
+  bool sideways = false;  // and Q and E, where the vehicle can
 };
 
 Actions readout_panel(const Readout& readout, const Theme& theme);

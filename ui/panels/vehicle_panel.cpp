@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "core/vehicle/parameters.h"
+#include "ui/panels/kind_fields.h"
+
 namespace odolab::ui {
 
 namespace {
@@ -82,7 +85,8 @@ Actions vehicle_panel(Scenario& draft, bool& editing, const Theme& theme) {
     DifferentialDrive* nominal = std::get_if<DifferentialDrive>(&draft.vehicle.kind);
     ImGui::TextUnformatted(draft.vehicle.name.c_str());
     ImGui::SameLine();
-    ImGui::TextDisabled("differential drive");
+    ImGui::TextDisabled("%s", words_of(draft.vehicle.kind).c_str());
+    if (!nominal) result = kind_fields(draft, theme);
     if (nominal) {
       result = more(result, drive_table(*nominal, draft.actual, theme));
       if (ImGui::TreeNodeEx("More of the machine", ImGuiTreeNodeFlags_NoTreePushOnOpen)) {

@@ -1,0 +1,129 @@
+#include "core/vehicle/parameters.h"
+
+namespace odolab {
+
+namespace {
+
+using Unit = ParameterUnit;
+
+struct Lister {
+  std::vector<VehicleParameter>* list;
+  std::string group;
+
+  void add(const char* label, Unit unit, double& value, const char* about, bool machine_has_its_own = true) const {
+    list->push_back({group, label, about, unit, &value, machine_has_its_own});
+  }
+  Lister in(const std::string& name) const { return {list, name}; }
+
+  void wheels(DifferentialDrive& drive) const {
+    add("radius left", Unit::metres, drive.wheel_radius_left_m, "Rolling radius of the left wheel.");
+    add("radius right", Unit::metres, drive.wheel_radius_right_m, "Rolling radius of the right wheel.");
+    add("wheelbase", Unit::metres, drive.wheelbase_m, "Between the points where the wheels touch the floor.");
+  }
+  void counts(double& value) const {
+    add("counts a turn", Unit::count, value, "Pulses of the encoder for each turn of its shaft.", false);
+  }
+};
+
+void list_of(DifferentialDrive& v, const Lister& to) {
+  to.wheels(v);
+  to.counts(v.encoder_counts_per_revolution);
+}
+
+void list_of(SynchroDrive& v, const Lister& to) {
+  to.add("wheel radius", Unit::metres, v.wheel_radius_m, "Rolling radius of all three wheels.");
+  to.add("steering ratio", Unit::ratio, v.steering_ratio, "The steering encoder's angle over that of the wheels.");
+  to.add("roll by steering", Unit::ratio, v.wheel_rad_per_steering_rad,
+         "Rotation of the wheels for each radian of steering that moves nothing.", false);
+  to.add("base turn", Unit::radians_per_metre, v.base_turn_rad_per_m,
+         "By how much the base turns on each metre, though it should not.", false);
+  to.add("base turn, cos", Unit::radians_per_metre, v.base_turn_cos_rad_per_m,
+         "The part of that which goes with the cosine of the wheels' direction: unequal wheels.", false);
+  to.add("base turn, sin", Unit::radians_per_metre, v.base_turn_sin_rad_per_m,
+         "The part of that which goes with the sine of the wheels' direction: unequal wheels.", false);
+  to.add("drive counts", Unit::count, v.drive_counts_per_revolution, "Pulses for each turn of the wheels.", false);
+  to.add("steering counts", Unit::count, v.steering_counts_per_revolution, "Pulses for each turn of the turret.",
+         false);
+}
+
+void list_of(Tracked& v, const Lister& to) {
+  to.add("sprocket left", Unit::metres, v.sprocket_radius_left_m,
+         "Radius to the middle of the left track: its travel for each radian.");
+  to.add("sprocket right", Unit::metres, v.sprocket_radius_right_m,
+         "Radius to the middle of the right track: its travel for each radian.");
+  to.add("track width", Unit::metres, v.track_width_m, "Between the tracks' middles.");
+  to.add("slip factor", Unit::ratio, v.slip_factor,
+         "How much wider the odometry takes the vehicle to be in turns, because its tracks slip.", false);
+  to.counts(v.encoder_counts_per_revolution);
+}
+
+void list_of(LinkedTrucks& v, const Lister& to) {
+  to.add("link length", Unit::metres, v.link_length_m, "From axle centre to axle centre in a straight train.");
+  to.add("angle A bias", Unit::radians, v.link_angle_a_offset_rad,
+         "Reading minus truth of the rotary encoder on truck A.");
+  to.add("angle B bias", Unit::radians, v.link_angle_b_offset_rad,
+         "Reading minus truth of the rotary encoder on truck B.");
+  to.add("length bias", Unit::metres, v.link_length_offset_m, "Reading minus truth of the linear encoder.");
+  to.add("angle step", Unit::radians, v.link_angle_resolution_rad, "Resolution of the rotary encoders.", false);
+  to.add("length step", Unit::metres, v.link_length_resolution_m, "Resolution of the linear encoder.", false);
+  to.in("truck A").wheels(v.truck_a);
+  to.in("truck B").wheels(v.truck_b);
+}
+
+void list_of(EncoderTrailer& v, const Lister& to) {
+  to.add("hitch behind", Unit::metres, v.hitch_offset_m, "From the towing vehicle's centre back to the hitch.");
+  to.add("drawbar", Unit::metres, v.drawbar_length_m, "From the hitch to the trailer's axle.");
+  to.add("hitch bias", Unit::radians, v.hitch_angle_offset_rad, "Reading minus truth of the hitch's encoder.");
+  to.add("hitch step", Unit::radians, v.hitch_angle_resolution_rad, "Resolution of the hitch's encoder.", false);
+  to.in("trailer").wheels(v.trailer);
+  to.in("tracks").wheels(v.tow);
+}
+
+void list_of(SmartEncoderTrailer& v, const Lister& to) {
+  to.add("drawbar", Unit::metres, v.drawbar_length_m, "From the towing vehicle's centre to the trailer's axle.");
+  to.add("hitch bias", Unit::radians, v.hitch_angle_offset_rad, "Reading minus truth of the hitch's encoder.");
+  to.add("hitch step", Unit::radians, v.hitch_angle_resolution_rad, "Resolution of the hitch's encoder.", false);
+  to.in("towing vehicle").wheels(v.tow);
+  to.in("trailer").wheels(v.trailer);
+}
+
+void list_of(MultiCastor& v, const Lister& to) {
+  to.add("wheel step", Unit::radians, v.wheel_encoder_resolution_rad, "Resolution of the wheels' encoders.", false);
+  to.add("pivot step", Unit::radians, v.pivot_encoder_resolution_rad, "Resolution of the pivots' encoders.", false);
+  for (std::size_t i = 0; i < v.castors.size(); ++i) {
+    Castor& c = v.castors[i];
+    const Lister of = to.in("castor " + std::to_string(i + 1));
+    of.add("pivot radius", Unit::metres, c.pivot_radius_m, "R: the pivot's distance from the body's origin.");
+    of.add("pivot at", Unit::radians, c.pivot_angle_rad, "phi: the pivot's direction from the body's x axis.");
+    of.add("offset", Unit::metres, c.offset_m, "r_c: from the axle to the pivot.");
+    of.add("radius left", Unit::metres, c.wheel_radius_left_m, "r_w of the left wheel.");
+    of.add("radius right", Unit::metres, c.wheel_radius_right_m, "r_w of the right wheel.");
+    of.add("d left", Unit::metres, c.wheel_offset_left_m, "d: from the left wheel to the line through the pivot.");
+    of.add("d right", Unit::metres, c.wheel_offset_right_m, "d: from the right wheel to the line through the pivot.");
+    of.add("pivot bias", Unit::radians, c.pivot_encoder_offset_rad,
+           "beta: reading minus truth of the pivot's encoder.");
+  }
+}
+
+struct Words {
+  std::string operator()(const DifferentialDrive&) const { return "differential drive"; }
+  std::string operator()(const SynchroDrive&) const { return "synchro drive"; }
+  std::string operator()(const Tracked&) const { return "tracked vehicle"; }
+  std::string operator()(const Clapper&) const { return "two trucks on a compliant link"; }
+  std::string operator()(const OmniMate&) const { return "two trucks under a platform"; }
+  std::string operator()(const EncoderTrailer&) const { return "with encoder trailer"; }
+  std::string operator()(const SmartEncoderTrailer&) const { return "with smart encoder trailer"; }
+  std::string operator()(const MultiCastor& v) const { return std::to_string(v.castors.size()) + " driven castors"; }
+};
+
+}  // namespace
+
+std::vector<VehicleParameter> parameters_of(VehicleKind& kind) {
+  std::vector<VehicleParameter> list;
+  std::visit([&](auto& vehicle) { list_of(vehicle, Lister{&list, ""}); }, kind);
+  return list;
+}
+
+std::string words_of(const VehicleKind& kind) { return std::visit(Words{}, kind); }
+
+}  // namespace odolab
