@@ -59,7 +59,8 @@ struct Simulation::Parts {
         start(start_of(scenario, replayed.get(), mounting)),
         built(with_effects_built_in(scenario, effects)),
         vehicle(make_planar_vehicle({built, start, effects, seed_of_stream(seed, kEncoderStream)})),
-        route(route_of(scenario.path, vehicle->believed_driven_point())),
+        driven_start(vehicle->believed_driven_point()),
+        route(route_of(scenario.path, driven_start)),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
         rotation(replays(ReplayPath::By::wheels)
                      ? wheel_samples(*replayed, std::get<DifferentialDrive>(scenario.vehicle.kind))
@@ -184,6 +185,7 @@ struct Simulation::Parts {
     vehicle->sample(state.time_s, readings);
     run.readings.insert(run.readings.end(), readings.begin(), readings.end());
     run.time_s.push_back(state.time_s);
+    read_gauges();
     state.estimated_pose = vehicle->believed();
     estimated.push_back({state.time_s, state.estimated_pose});
     exact.push_back({state.time_s, state.true_pose});
@@ -193,6 +195,17 @@ struct Simulation::Parts {
           follower.update(scenario.driving.by_eye ? vehicle->pose() : vehicle->believed_driven_point());
     if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
     if (scenario.sensors.record_commands) record_command();
+  }
+
+  void read_gauges() {
+    if (gauges.empty()) return;
+    vehicle->pose_parts(posture);
+    gauges_read = posture.gauges;
+    for (std::size_t i = 0; i < gauges.size(); ++i) {
+      const auto channel = std::find(run.channels.begin(), run.channels.end(), gauges[i].channel);
+      gauges_read[i].measured =
+          channel == run.channels.end() ? kNone : readings[static_cast<std::size_t>(channel - run.channels.begin())];
+    }
   }
 
   // What the driver asks of the base from now until the next sample; of a path that knows wheel speeds alone, what they
@@ -248,6 +261,7 @@ struct Simulation::Parts {
   Pose start;
   Scenario built;  // with what effects change of the machine
   std::unique_ptr<PlanarVehicle> vehicle;
+  Pose driven_start;
   std::vector<Leg> route;
   PathFollower follower;
   RecordedRotation rotation;
@@ -265,6 +279,8 @@ struct Simulation::Parts {
   SampledRun run;
   std::vector<double> readings;  // of one sample
   std::vector<GaugeShape> gauges;
+  VehiclePosture posture;                 // at the last sample
+  std::vector<GaugeReading> gauges_read;  // in it
   Track exact, estimated;
   Pose measured_start, measured_end;
 };
@@ -295,16 +311,11 @@ VehiclePosture Simulation::posture() const {
   VehiclePosture posture;
   posture.reference = parts.state.true_pose;
   parts.vehicle->pose_parts(posture);
-  const std::vector<GaugeShape>& gauges = parts.gauges;
-  for (std::size_t i = 0; i < gauges.size(); ++i) {
-    const auto channel = std::find(parts.run.channels.begin(), parts.run.channels.end(), gauges[i].channel);
-    posture.gauges[i].measured = channel == parts.run.channels.end()
-                                     ? kNone
-                                     : parts.readings[static_cast<std::size_t>(channel - parts.run.channels.begin())];
-  }
+  posture.gauges = parts.gauges_read;
   return posture;
 }
 
+Pose Simulation::driven_start() const { return parts_->driven_start; }
 std::size_t Simulation::samples() const { return parts_->run.time_s.size(); }
 const std::vector<std::string>& Simulation::channels() const { return parts_->run.channels; }
 const std::vector<double>& Simulation::readings() const { return parts_->readings; }

@@ -45,9 +45,11 @@ class Simulation {
   const SimulationState& state() const;
   double expected_duration_s() const;  // a guess for progress bars and timelines
 
-  // What the vehicle looks like, and how its parts stand now; measured is what the last sample read.
+  // What the vehicle looks like, and how its parts stand now; gauges are those of the last sample.
   VehicleShape shape() const;
   VehiclePosture posture() const;
+  // Where its path begins: the point that the driver steers, of linked trucks the link's centre.
+  Pose driven_start() const;
   // How many samples there are, and the last one's readings in the order of the vehicle's channels.
   std::size_t samples() const;
   const std::vector<std::string>& channels() const;

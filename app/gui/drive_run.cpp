@@ -34,18 +34,26 @@ void DriveRun::restart() {
   gap_m_.clear();
   gap_heading_.clear();
   events_.clear();
+  samples_seen_ = 0;
   shown_s_ = 0.0;
   remember();
 }
 
+void DriveRun::see_sample() {
+  if (simulation_.samples() == samples_seen_) return;
+  samples_seen_ = simulation_.samples();
+  gap_ = between(simulation_.state().true_pose, simulation_.state().estimated_pose);
+}
+
 void DriveRun::remember() {
-  const SimulationState& s = simulation_.state();
-  const Pose gap = between(s.true_pose, s.estimated_pose);
+  SimulationState s = simulation_.state();
+  see_sample();
+  s.estimated_pose = s.true_pose * gap_;
   history_.push_back(s);
   postures_.push_back(simulation_.posture());
   times_.push_back(s.time_s - start_s());
-  gap_m_.push_back(length(gap.position()));
-  gap_heading_.push_back(wrapped(gap.heading_rad));
+  gap_m_.push_back(length(gap_.position()));
+  gap_heading_.push_back(wrapped(gap_.heading_rad));
 }
 
 void DriveRun::note_events(const VehiclePosture& before, const VehiclePosture& now) {
@@ -69,7 +77,10 @@ void DriveRun::note_events(const VehiclePosture& before, const VehiclePosture& n
 
 void DriveRun::simulate_picture() {
   if (finished()) return;
-  for (int i = 0; i < steps_per_picture_ && !simulation_.state().finished; ++i) simulation_.step();
+  for (int i = 0; i < steps_per_picture_ && !simulation_.state().finished; ++i) {
+    simulation_.step();
+    see_sample();
+  }
   remember();
   note_events(postures_[postures_.size() - 2], postures_.back());
 }

@@ -48,7 +48,8 @@ class DriveRun {
   VehiclePosture shown_posture() const;
   const VehicleShape& shape() const { return shape_; }
 
-  // The gap between estimate and truth at every picture.
+  // The gap between estimate and truth at every picture: that of the last sample, since the estimate is older than the
+  // picture. The estimated poses shown are the true ones with this gap.
   const std::vector<double>& time_s() const { return times_; }
   const std::vector<double>& gap_m() const { return gap_m_; }
   const std::vector<double>& gap_heading_rad() const { return gap_heading_; }
@@ -56,6 +57,7 @@ class DriveRun {
 
  private:
   void simulate_picture();
+  void see_sample();
   void remember();
   void note_events(const VehiclePosture& before, const VehiclePosture& now);
   // The pictures on either side of the shown moment, and how far it is from the first to the second.
@@ -74,6 +76,8 @@ class DriveRun {
   std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;
   std::vector<RunEvent> events_;
+  std::size_t samples_seen_ = 0;
+  Pose gap_;  // at the last sample
   double shown_s_ = 0.0;
 };
 

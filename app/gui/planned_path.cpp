@@ -57,13 +57,13 @@ struct Line {
 
 }  // namespace
 
-std::vector<Vec2> planned_path(const Scenario& scenario) {
+std::vector<Vec2> planned_path(const Scenario& scenario, const Pose& start) {
   std::vector<Vec2> line = std::visit(Line{}, scenario.path);
   const bool on_the_floor = std::holds_alternative<WaypointPath>(scenario.path);
   if (on_the_floor)
-    line.front() = scenario.start.position();
+    line.front() = start.position();
   else
-    for (Vec2& p : line) p = scenario.start * p;
+    for (Vec2& p : line) p = start * p;
   return line;
 }
 

@@ -7,7 +7,8 @@
 
 namespace odolab {
 
-// Corners of the line on the floor; empty where a path has no line, as with wheel speeds.
-std::vector<Vec2> planned_path(const Scenario& scenario);
+// Corners of the line on the floor, from where the steered point starts; empty where a path has no line, as with wheel
+// speeds.
+std::vector<Vec2> planned_path(const Scenario& scenario, const Pose& start);
 
 }  // namespace odolab

@@ -289,6 +289,11 @@ void Session::forget(const std::string& text) {
       messages_.end());
 }
 
+std::string Session::title() const {
+  const std::string& name = run_->scenario().name;
+  return title_file_.empty() || name != titled_ ? name : name + " – " + title_file_;
+}
+
 bool Session::take_picture_wish() {
   const bool wished = picture_wished_;
   picture_wished_ = false;
@@ -305,7 +310,8 @@ void Session::load(const Scenario& scenario, std::shared_ptr<const Recording> re
   replayed_ = std::move(replayed);
   run_ = std::make_unique<DriveRun>(scenario, replayed_);
   scenario_path_ = path;
-  title_ = path.empty() ? scenario.name : scenario.name + " – " + path.substr(path.find_last_of('/') + 1);
+  titled_ = scenario.name;
+  title_file_ = path.substr(path.find_last_of('/') + 1);
   undo_.clear();
   redo_.clear();
   if (!jobs_.running()) bench_.clear();

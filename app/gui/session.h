@@ -38,7 +38,8 @@ class Session {
   const Comparison& comparison() const { return comparison_; }
   const Jobs& jobs() const { return jobs_; }
   const std::vector<ui::Message>& messages() const { return messages_; }
-  const std::string& title() const { return title_; }
+  // The scenario's name, and the file that it came from.
+  std::string title() const;
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
   bool wants_to_quit() const { return wants_to_quit_; }
@@ -79,7 +80,7 @@ class Session {
   Comparison comparison_;
   std::optional<Vehicle> opened_vehicle_;
   std::vector<ui::Message> messages_;
-  std::string title_;
+  std::string titled_, title_file_;  // the scenario that came from a file, by its name
   std::vector<Step> undo_, redo_;
   std::vector<std::string> opened_files_;
   bool picture_wished_ = false;

@@ -32,7 +32,7 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   ui::FloorScene scene;
   scene.floor = &scenario.floor;
   scene.editable = true;
-  scene.planned = planned_path(scenario);
+  scene.planned = planned_path(scenario, run.simulation().driven_start());
   const Track &true_track = run.simulation().true_track(), &estimated = run.simulation().estimated_track();
   ui::TrackLine truth;
   truth.label = "true";

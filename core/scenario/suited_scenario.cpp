@@ -35,8 +35,8 @@ struct Suit {
 };
 
 bool fits(const Path& path, const VehicleKind& kind) {
-  if (std::holds_alternative<DifferentialDrive>(kind)) return true;
-  if (std::holds_alternative<WheelSpeedPath>(path) || std::holds_alternative<ReplayPath>(path)) return false;
+  if (std::holds_alternative<WheelSpeedPath>(path) || std::holds_alternative<ReplayPath>(path))
+    return std::holds_alternative<DifferentialDrive>(kind);
   const auto* manoeuvres = std::get_if<ManoeuvrePath>(&path);
   return !manoeuvres || moves_sideways(kind) ||
          std::all_of(manoeuvres->moves.begin(), manoeuvres->moves.end(),
@@ -52,6 +52,9 @@ Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
   scenario.machine.lengths.reset();
   if (!same_kind) {
     const Scenario plain;
+    scenario.name = vehicle.name;
+    scenario.about.clear();
+    scenario.expectations.clear();
     scenario.machine = {};
     scenario.effects.clear();
     scenario.actual = plain.actual;

@@ -32,18 +32,17 @@ void list_of(DifferentialDrive& v, const Lister& to) {
 
 void list_of(SynchroDrive& v, const Lister& to) {
   to.add("wheel radius", Unit::metres, v.wheel_radius_m, "Rolling radius of all three wheels.");
-  to.add("steering ratio", Unit::ratio, v.steering_ratio, "The steering encoder's angle over that of the wheels.");
-  to.add("roll by steering", Unit::ratio, v.wheel_rad_per_steering_rad,
+  to.add("steer ratio", Unit::ratio, v.steering_ratio, "The steering encoder's angle over that of the wheels.");
+  to.add("steer roll", Unit::ratio, v.wheel_rad_per_steering_rad,
          "Rotation of the wheels for each radian of steering that moves nothing.", false);
   to.add("base turn", Unit::radians_per_metre, v.base_turn_rad_per_m,
          "By how much the base turns on each metre, though it should not.", false);
-  to.add("base turn, cos", Unit::radians_per_metre, v.base_turn_cos_rad_per_m,
+  to.add("… cosine", Unit::radians_per_metre, v.base_turn_cos_rad_per_m,
          "The part of that which goes with the cosine of the wheels' direction: unequal wheels.", false);
-  to.add("base turn, sin", Unit::radians_per_metre, v.base_turn_sin_rad_per_m,
+  to.add("… sine", Unit::radians_per_metre, v.base_turn_sin_rad_per_m,
          "The part of that which goes with the sine of the wheels' direction: unequal wheels.", false);
   to.add("drive counts", Unit::count, v.drive_counts_per_revolution, "Pulses for each turn of the wheels.", false);
-  to.add("steering counts", Unit::count, v.steering_counts_per_revolution, "Pulses for each turn of the turret.",
-         false);
+  to.add("steer counts", Unit::count, v.steering_counts_per_revolution, "Pulses for each turn of the turret.", false);
 }
 
 void list_of(Tracked& v, const Lister& to) {

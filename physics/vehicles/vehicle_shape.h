@@ -64,9 +64,10 @@ struct VehicleShape {
   std::vector<GaugeShape> gauges;
 };
 
+// Of the same instant.
 struct GaugeReading {
   double truth = 0.0;     // rad or m
-  double measured = 0.0;  // as last read; not a number where no encoder does
+  double measured = 0.0;  // as the encoder reads it; not a number where none does
 };
 
 // One entry for each of the shape's.

@@ -337,7 +337,7 @@ TEST(PlannedPath, OfASquareClosesAndTurnsTheWayItIsDriven) {
   Scenario s;
   s.start = {1.0, 1.0, 0.0};
   s.path = SquarePath{4.0, true};
-  const std::vector<Vec2> line = planned_path(s);
+  const std::vector<Vec2> line = planned_path(s, s.start);
   ASSERT_EQ(line.size(), 5u);
   EXPECT_NEAR(length(line.front() - line.back()), 0.0, 1e-12);
   EXPECT_NEAR(line[2].y_m, -3.0, 1e-12);  // clockwise: to the right of the start

@@ -93,18 +93,23 @@ void draw_spring(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 colour, const Theme
   draw.AddPolyline(points.data(), int(points.size()), colour, 0, theme.px(2));
 }
 
-void draw_bodies(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, bool see_through, const Theme& theme) {
+// A body above others is filled below them, and its edge drawn over them.
+enum class Layer { below, bodies, above };
+
+void draw_bodies(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, Layer layer, const Theme& theme) {
   for (std::size_t i = 0; i < v.shape->bodies.size(); ++i) {
     const BodyShape& body = v.shape->bodies[i];
-    if (body.outline.size() < 3 || body.see_through != see_through) continue;
+    if (body.outline.size() < 3 || body.see_through != (layer != Layer::bodies)) continue;
     std::vector<ImVec2> outline = on_screen(camera, placed(v, int(i)), body.outline);
     if (v.outline) {
+      if (layer == Layer::below) continue;
       outline.push_back(outline.front());
       dashed_line(draw, outline, v.colour, theme.px(2), theme.px(6), theme.px(4));
       continue;
     }
-    draw.AddConvexPolyFilled(outline.data(), int(outline.size()), faded(theme.panel, see_through ? 0.35f : 0.92f));
-    draw.AddPolyline(outline.data(), int(outline.size()), v.colour, ImDrawFlags_Closed, theme.px(1.8f));
+    if (layer != Layer::above) draw.AddConvexPolyFilled(outline.data(), int(outline.size()), faded(theme.panel, 0.92f));
+    if (layer != Layer::below)
+      draw.AddPolyline(outline.data(), int(outline.size()), v.colour, ImDrawFlags_Closed, theme.px(1.8f));
   }
 }
 
@@ -148,10 +153,11 @@ void draw_joints(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, 
 
 void draw_vehicle(ImDrawList& draw, const Camera& camera, const VehicleGlyph& v, const Theme& theme) {
   if (!v.shape) return;
-  draw_bodies(draw, camera, v, false, theme);
+  draw_bodies(draw, camera, v, Layer::below, theme);
+  draw_bodies(draw, camera, v, Layer::bodies, theme);
   draw_rods(draw, camera, v, false, theme);
   if (!v.outline) draw_wheels(draw, camera, v, theme);
-  draw_bodies(draw, camera, v, true, theme);
+  draw_bodies(draw, camera, v, Layer::above, theme);
   draw_rods(draw, camera, v, true, theme);
   if (!v.outline) draw_joints(draw, camera, v, theme);
   // The point that every pose on the screen is the pose of, and the way ahead.

@@ -104,7 +104,7 @@ void wheel_pair_table(const Readout& r, const Theme& theme) {
 // Of more wheels, below each other; the name of one that stands on something is orange.
 void wheel_rows(const Readout& r, const Theme& theme) {
   if (!ImGui::BeginTable("wheels", 4)) return;
-  columns({1.25f, 0.8f, 0.8f, 0.8f});
+  columns({1.45f, 0.75f, 0.7f, 0.8f});
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("speed", theme.muted);
@@ -136,7 +136,7 @@ void gauge_table(const Readout& r, const Theme& theme) {
   ImGui::TableNextColumn();
   header("true", theme.truth);
   header("measured", theme.orange);
-  tooltip("As the encoder read it last, its bias and its steps included.", theme);
+  tooltip("As the encoder reads it, its bias and its steps included; both at the last sample.", theme);
   for (std::size_t i = 0; i < r.posture.gauges.size(); ++i) {
     const GaugeShape& gauge = r.shape->gauges[i];
     const Unit& unit = gauge.is_length ? kMillimetres : kDegrees;
@@ -144,7 +144,8 @@ void gauge_table(const Readout& r, const Theme& theme) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(gauge.name.c_str());
     cell(shown(r.posture.gauges[i].truth, unit), theme.truth);
-    cell(shown(r.posture.gauges[i].measured, unit), theme.orange);
+    const double measured = r.posture.gauges[i].measured;
+    cell(std::isnan(measured) ? "–" : shown(measured, unit), theme.orange);
   }
   ImGui::EndTable();
 }

@@ -84,8 +84,10 @@ Actions vehicle_panel(Scenario& draft, bool& editing, const Theme& theme) {
     ImGui::PushID("vehicle");
     DifferentialDrive* nominal = std::get_if<DifferentialDrive>(&draft.vehicle.kind);
     ImGui::TextUnformatted(draft.vehicle.name.c_str());
-    ImGui::SameLine();
-    ImGui::TextDisabled("%s", words_of(draft.vehicle.kind).c_str());
+    const std::string words = words_of(draft.vehicle.kind);
+    if (ImGui::CalcTextSize((draft.vehicle.name + words).c_str()).x + theme.px(12) < ImGui::GetContentRegionAvail().x)
+      ImGui::SameLine();
+    ImGui::TextDisabled("%s", words.c_str());
     if (!nominal) result = kind_fields(draft, theme);
     if (nominal) {
       result = more(result, drive_table(*nominal, draft.actual, theme));
