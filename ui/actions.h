@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/guide/guide_session.h"
 #include "core/scenario/scenario.h"
 
 namespace odolab::ui {
@@ -59,6 +60,31 @@ struct AdoptCalibration {};  // the corrected vehicle becomes the one that Drive
 struct ClearBenchmark {};
 struct CancelJob {};
 
+// The guides.
+struct ShowGuides {  // in Calibrate, instead of the bench
+  bool on = true;
+};
+struct BeginGuide {
+  GuideKind kind = GuideKind::umbmark;
+  bool real_robot = true;
+};
+struct ResumeGuide {
+  std::string path;
+};
+struct LeaveGuide {};  // it is kept, and can be gone on with
+struct ChangeGuide {   // what a person has entered, or another page
+  GuideSession session;
+};
+struct ChooseGuideVehicle {  // a vehicle file
+  std::string path;
+};
+struct DriveGuide {};  // the simulated robot drives what the page asks for
+enum class GuideExport { vehicle, ros2, report };
+struct ExportGuide {
+  GuideExport what = GuideExport::vehicle;
+  std::string path;
+};
+
 // Recordings.
 enum class ReplayVehicle { nominal, calibrated };
 struct ReplayWith {
@@ -90,8 +116,9 @@ struct Quit {};
 using Action =
     std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
                  DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration,
-                 ClearBenchmark, CancelJob, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile,
-                 SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+                 ClearBenchmark, CancelJob, ShowGuides, BeginGuide, ResumeGuide, LeaveGuide, ChangeGuide,
+                 ChooseGuideVehicle, DriveGuide, ExportGuide, ReplayWith, CalibrateFromRecording, RecordSimulatedRun,
+                 OpenFile, SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
 
 using Actions = std::vector<Action>;
 

@@ -77,11 +77,11 @@ void remember_files(const Session& session, std::size_t& known, ScreenState& sta
   }
 }
 
-// The scenarios that come with the project.
-std::vector<std::string> example_files() {
+// What comes with the project: its scenarios, its vehicles.
+std::vector<std::string> files_of_assets(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/scenarios", none))
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/" + folder, none))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
@@ -94,9 +94,11 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   const double scale = options.scale > 0.0 ? options.scale : 1.0;
   const ui::Theme theme = window.use_theme(options.dark, scale);
   state.welcome.open = options.files.empty();
-  state.example_files = example_files();
+  state.example_files = files_of_assets("scenarios");
+  state.vehicle_files = files_of_assets("vehicles");
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
-  if (session.mode() == ui::Mode::calibrate) {  // the picture shows what a click on both buttons leads to
+  if (session.mode() == ui::Mode::calibrate &&
+      !session.guide().shown()) {  // the picture shows what a click on both buttons leads to
     const std::optional<Benchmark>& asked = session.run().scenario().benchmark;
     session.execute(ui::StartBenchmark{asked ? asked->runs_each_way : 5, asked && !asked->extended});
     session.execute(ui::ApplyCalibration{});
@@ -121,8 +123,10 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
 int run_for_person(const GuiOptions& options, Session& session, Window& window, const Settings& settings) {
   ScreenState state = screen_state_of(settings);
   if (options.scale > 0.0) state.choices.scale = options.scale;
+  state.guide.export_folder = std::filesystem::current_path().string();
   state.welcome.open = options.files.empty() && !settings.welcome_seen;
-  state.example_files = example_files();
+  state.example_files = files_of_assets("scenarios");
+  state.vehicle_files = files_of_assets("vehicles");
   std::size_t known_files = 0;
   double scale = 0.0;
   bool dark = false;
@@ -170,7 +174,7 @@ int run_gui(const GuiOptions& options) {
   const std::optional<ui::Mode> mode = mode_named(options.mode);
   if (!options.mode.empty() && !mode)
     return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate or compare"});
-  Session session(!for_picture);
+  Session session(!for_picture, for_picture ? "" : guides_folder());
   for (const std::string& file : options.files)
     if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal
       std::fprintf(stderr, "odolab: %s\n", session.messages().back().text.c_str());

@@ -10,6 +10,8 @@
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/compare_panel.h"
 #include "ui/panels/error_panel.h"
+#include "ui/panels/guide_notes_panel.h"
+#include "ui/panels/guide_panel.h"
 #include "ui/panels/keys_panel.h"
 #include "ui/panels/path_panel.h"
 #include "ui/panels/run_panel.h"
@@ -104,6 +106,12 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   ImGui::End();
 }
 
+ui::GuideView guide_of(const Session& session, const ScreenState& state) {
+  ui::GuideView view = session.guide().view(session.jobs());
+  view.vehicle_files = state.vehicle_files;
+  return view;
+}
+
 Actions left_pane(const Session& session, ScreenState& state, const Theme& theme) {
   Actions actions;
   switch (session.mode()) {
@@ -117,7 +125,11 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
       break;
     }
     case ui::Mode::calibrate:
-      append(actions, ui::calibrate_panel(bench_of(session), state.calibrate, theme));
+      if (const auto choice = ui::segmented("calibrate", {"Bench", "Guides"}, session.guide().shown() ? 1 : 0, theme,
+                                            ImGui::GetContentRegionAvail().x))
+        actions.push_back(ui::ShowGuides{*choice == 1});
+      append(actions, session.guide().shown() ? ui::guide_panel(guide_of(session, state), theme)
+                                              : ui::calibrate_panel(bench_of(session), state.calibrate, theme));
       break;
     case ui::Mode::compare:
       append(actions, ui::compare_panel(compare_of(session, state.example_files), state.choices.show_open, theme));
@@ -134,7 +146,10 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
       append(actions, ui::readout_panel(readout_of(session, shown), theme));
       break;
     case ui::Mode::calibrate:
-      ui::calibration_result_panel(bench_of(session), theme);
+      if (session.guide().shown())
+        append(actions, ui::guide_notes_panel(guide_of(session, state), theme));
+      else
+        ui::calibration_result_panel(bench_of(session), theme);
       break;
     case ui::Mode::compare:
       ui::error_panel(compare_of(session, state.example_files), error_now(session), theme);
@@ -148,6 +163,7 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
     case ui::Mode::drive:
       return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
     case ui::Mode::calibrate:
+      if (session.guide().shown()) return ui::guide_page(guide_of(session, state), state.guide, theme);
       ui::cluster_panel(bench_of(session), state.clusters, theme);
       return {};
     case ui::Mode::compare:

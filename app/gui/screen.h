@@ -9,6 +9,7 @@
 #include "ui/panels/cluster_panel.h"
 #include "ui/panels/floor_panel.h"
 #include "ui/panels/floor_view.h"
+#include "ui/panels/guide_page.h"
 #include "ui/panels/path_dialog.h"
 #include "ui/panels/readout_panel.h"
 #include "ui/panels/top_bar.h"
@@ -26,12 +27,13 @@ struct ScreenState {
   ui::TransportState drive_transport, compare_transport;
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;
+  ui::GuidePageState guide;
   FolderListing folders;
   ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
   Scenario draft;  // of the parameters that a person is editing
   bool editing = false;
   int loads_seen = 0;
-  std::vector<std::string> recent_files, example_files;
+  std::vector<std::string> recent_files, example_files, vehicle_files;
 };
 
 // A dialog is open: no key belongs to what lies behind it.

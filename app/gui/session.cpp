@@ -161,6 +161,20 @@ struct Session::Executor {
     if (!s.bench_.running()) s.bench_.clear();
   }
   void operator()(const ui::CancelJob&) const { s.jobs_.cancel(); }
+  void operator()(const ui::ShowGuides& a) const { s.guide_.show(a.on); }
+  void operator()(const ui::BeginGuide& a) const { s.guide_.begin(a.kind, a.real_robot, s.run_->scenario()); }
+  void operator()(const ui::ResumeGuide& a) const { s.done_or_said(s.guide_.resume(a.path)); }
+  void operator()(const ui::LeaveGuide&) const {
+    if (!s.refuse_while_busy("something else")) s.guide_.leave();
+  }
+  void operator()(const ui::ChangeGuide& a) const { s.guide_.change(a.session); }
+  void operator()(const ui::ChooseGuideVehicle& a) const { s.done_or_said(s.guide_.choose_vehicle(a.path)); }
+  void operator()(const ui::DriveGuide&) const {
+    if (!s.refuse_while_busy("the guide's drive")) s.guide_.drive(s.jobs_);
+  }
+  void operator()(const ui::ExportGuide& a) const {
+    if (s.done_or_said(s.guide_.write(a.what, a.path))) s.say("Written: " + a.path, false);
+  }
   void operator()(const ui::ReplayWith& a) const { s.comparison_.choose(a.vehicle); }
   void operator()(const ui::CalibrateFromRecording&) const {
     if (!s.refuse_while_busy("the calibration"))
@@ -237,7 +251,9 @@ struct Session::Executor {
   void operator()(const ui::Quit&) const { s.wants_to_quit_ = true; }
 };
 
-Session::Session(bool threaded) : jobs_(threaded) { load(first_scenario(), nullptr, ""); }
+Session::Session(bool threaded, const std::string& guide_folder) : guide_(guide_folder), jobs_(threaded) {
+  load(first_scenario(), nullptr, "");
+}
 
 void Session::execute(const ui::Action& action) {
   std::visit(Executor{*this}, action);
@@ -246,6 +262,7 @@ void Session::execute(const ui::Action& action) {
 
 void Session::advance(double wall_s, const std::function<bool()>& go_on) {
   jobs_.poll();
+  guide_.advance(wall_s);
   for (ui::Message& m : messages_) m.left_s -= wall_s;
   messages_.erase(
       std::remove_if(messages_.begin(), messages_.end(), [](const ui::Message& m) { return m.left_s <= 0.0; }),
@@ -300,6 +317,11 @@ bool Session::take_picture_wish() {
   return wished;
 }
 
+bool Session::done_or_said(const Result<Done>& done) {
+  if (!done) say(done.error().message(), true);
+  return done.ok();
+}
+
 bool Session::refuse_while_busy(const std::string& what) {
   if (!jobs_.running()) return false;
   say("Busy " + jobs_.name() + ": cancel it, or start " + what + " when it is done.", true);
@@ -330,7 +352,11 @@ bool Session::open(const std::string& path) {
       opened = open_scenario(path);
       break;
     case FileKind::vehicle:
-      opened = open_vehicle(path);
+      opened = guide_in_hand() ? done_or_said(guide_.choose_vehicle(path)) : open_vehicle(path);
+      break;
+    case FileKind::guide:
+      opened = done_or_said(guide_.resume(path));
+      if (opened) mode_ = ui::Mode::calibrate;
       break;
     default:
       opened = open_recording(path);  // says itself what it is missing in a file of no known kind
@@ -389,6 +415,7 @@ bool Session::open_recording(const std::string& path) {
     return false;
   }
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
+  if (guide_in_hand()) return done_or_said(guide_.take(path, imported->recording, jobs_));
   const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
   compare(recording, replay_scenario(opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle, *recording));
   return true;

@@ -9,6 +9,7 @@
 
 #include "app/gui/comparison.h"
 #include "app/gui/drive_run.h"
+#include "app/gui/guide_desk.h"
 #include "app/gui/jobs.h"
 #include "app/gui/umbmark_bench.h"
 #include "ui/actions.h"
@@ -19,7 +20,8 @@ namespace odolab {
 class Session {
  public:
   // Without threads every job is done when its action has been carried out.
-  explicit Session(bool threaded);
+  // `guide_folder` keeps the sessions of guides; empty: they are kept nowhere.
+  explicit Session(bool threaded, const std::string& guide_folder = "");
 
   void execute(const ui::Action& action);
   // Plays on after `wall_s` seconds in front of the window; `go_on` says whether there is time left for this picture.
@@ -36,6 +38,7 @@ class Session {
   const DriveRun& run() const { return *run_; }
   const UmbmarkBench& bench() const { return bench_; }
   const Comparison& comparison() const { return comparison_; }
+  const GuideDesk& guide() const { return guide_; }
   const Jobs& jobs() const { return jobs_; }
   const std::vector<ui::Message>& messages() const { return messages_; }
   // The scenario's name, and the file that it came from.
@@ -67,6 +70,9 @@ class Session {
   bool open_recording(const std::string& path);
   void compare(std::shared_ptr<const Recording> recording, const Scenario& scenario);
   bool refuse_while_busy(const std::string& what);
+  // A guide is on the screen: what is dropped belongs to it.
+  bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
+  bool done_or_said(const Result<Done>& done);
 
   ui::Mode mode_ = ui::Mode::drive;
   bool playing_ = false;
@@ -78,6 +84,7 @@ class Session {
   std::shared_ptr<const Recording> replayed_;
   UmbmarkBench bench_;
   Comparison comparison_;
+  GuideDesk guide_;
   std::optional<Vehicle> opened_vehicle_;
   std::vector<ui::Message> messages_;
   std::string titled_, title_file_;  // the scenario that came from a file, by its name

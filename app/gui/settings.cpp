@@ -27,6 +27,12 @@ std::string settings_path() {
   return home.empty() ? "" : home + "/.config/odolab/window";
 }
 
+std::string guides_folder() {
+  const std::string data = from_environment("XDG_DATA_HOME"), home = from_environment("HOME");
+  if (!data.empty()) return data + "/odolab/guides";
+  return home.empty() ? "" : home + "/.local/share/odolab/guides";
+}
+
 Settings read_settings(const std::string& path) {
   Settings s;
   const Result<std::string> text = read_whole_file(path);

@@ -18,6 +18,10 @@ struct Settings {
 // $XDG_CONFIG_HOME/odolab/window, else ~/.config/odolab/window; empty where neither variable is set.
 std::string settings_path();
 
+// $XDG_DATA_HOME/odolab/guides, else ~/.local/share/odolab/guides: what people have entered in guides. Empty where
+// neither variable is set.
+std::string guides_folder();
+
 // Defaults where there is no such file; lines that are not understood are skipped.
 Settings read_settings(const std::string& path);
 // Says nothing where it cannot be written: a window that forgets is no reason to stop.

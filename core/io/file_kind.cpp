@@ -45,6 +45,8 @@ FileKind file_kind(const std::string& path) {
     const std::string_view key = trimmed(line.substr(0, line.find('=')));
     if (line.find('=') == std::string_view::npos || !is_name(key)) continue;
     if (key == "kind") return FileKind::vehicle;
+    if (key == "lesson") return FileKind::lesson;
+    if (key == "schema" && line.find("odolab.guide") != std::string_view::npos) return FileKind::guide;
     is_toml = true;
   }
   if (is_toml) return FileKind::scenario;

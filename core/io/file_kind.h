@@ -5,10 +5,11 @@
 
 namespace odolab {
 
-enum class FileKind { scenario, vehicle, recording, foreign_recording, unknown };
+enum class FileKind { scenario, vehicle, lesson, guide, recording, foreign_recording, unknown };
 
 // Looks at the beginning alone, so that a broken file is still taken for what it was meant to be. A TOML file with a
-// key `kind` at its top is a vehicle, another one a scenario; a CSV file whose header names `time_s` is a recording.
+// key `kind` at its top is a vehicle, with `lesson` a lesson, with a guide's `schema` a guide's session, another one a
+// scenario; a CSV file whose header names `time_s` is a recording.
 FileKind file_kind(const std::string& path);
 
 }  // namespace odolab

@@ -1,5 +1,6 @@
 #include "core/io/whole_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -16,6 +17,14 @@ namespace {
 std::string lower_first(std::string text) {
   if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
+}
+
+void sync_folder_of(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const int handle = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (handle < 0) return;
+  ::fsync(handle);
+  ::close(handle);
 }
 
 }  // namespace
@@ -82,11 +91,13 @@ void GrowingFile::write(std::string_view bytes) {
   if (failure_ == 0 && std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) failure_ = errno;
 }
 
-Result<Done> GrowingFile::finish() {
+Result<Done> GrowingFile::finish(bool durably) {
+  if (durably && failure_ == 0 && (std::fflush(file_) != 0 || ::fsync(::fileno(file_)) != 0)) failure_ = errno;
   if (std::fclose(file_) != 0 && failure_ == 0) failure_ = errno;
   file_ = nullptr;
   const bool in_place = temporary_ == path_;
   if (failure_ == 0 && !in_place && std::rename(temporary_.c_str(), path_.c_str()) != 0) failure_ = errno;
+  if (failure_ == 0 && durably) sync_folder_of(path_);
   if (failure_ == 0) return Done{};
   if (!in_place) std::remove(temporary_.c_str());
   return Error{path_, lower_first(std::strerror(failure_)), "a file that can be written"};
@@ -97,6 +108,13 @@ Result<Done> write_whole_file(const std::string& path, const std::string& text) 
   if (!file) return file.error();
   file->write(text);
   return file->finish();
+}
+
+Result<Done> write_whole_file_durably(const std::string& path, const std::string& text) {
+  Result<GrowingFile> file = GrowingFile::create(path);
+  if (!file) return file.error();
+  file->write(text);
+  return file->finish(true);
 }
 
 }  // namespace odolab

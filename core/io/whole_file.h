@@ -20,6 +20,10 @@ std::string read_file_start(const std::string& path, std::size_t bytes = 8192);
 // Folders that are missing on the way are made.
 Result<Done> write_whole_file(const std::string& path, const std::string& text);
 
+// The same, and what was written is on the disk when this returns: it outlives a crash of the machine, too. Takes the
+// time of a disk, some milliseconds.
+Result<Done> write_whole_file_durably(const std::string& path, const std::string& text);
+
 // The same for a file that is written piece by piece. Where finish() is not reached, nothing is left.
 class GrowingFile {
  public:
@@ -29,7 +33,7 @@ class GrowingFile {
   ~GrowingFile();
 
   void write(std::string_view bytes);  // what goes wrong comes out of finish()
-  Result<Done> finish();
+  Result<Done> finish(bool durably = false);
 
  private:
   GrowingFile() = default;

@@ -43,10 +43,10 @@ MultiCastor drawn_castor_machine(const MultiCastor& nominal, std::uint64_t seed,
   return actual;
 }
 
-std::vector<Revolution> calibration_revolutions(const MultiCastor& actual, const MultiCastor& nominal, double sweep_rad,
-                                                std::uint64_t seed) {
+std::vector<std::vector<CastorSample>> calibration_drives(const MultiCastor& actual, const MultiCastor& nominal,
+                                                          double sweep_rad, std::uint64_t seed) {
   constexpr double kComingRound_rad = 1.2;  // by which r_c / D has brought the castors within a step of their way
-  std::vector<Revolution> runs;
+  std::vector<std::vector<CastorSample>> drives;
   for (std::size_t still = 0; still < nominal.castors.size(); ++still)
     for (const bool clockwise : {true, false}) {
       const double rate = clockwise ? -0.5 : 0.5;
@@ -62,8 +62,16 @@ std::vector<Revolution> calibration_revolutions(const MultiCastor& actual, const
         vehicle.move(about);
         samples.push_back(rounded(vehicle.reading(), actual, phases));
       }
-      if (Result<Revolution> run = revolution_in(samples, nominal)) runs.push_back(std::move(*run));
+      drives.push_back(std::move(samples));
     }
+  return drives;
+}
+
+std::vector<Revolution> calibration_revolutions(const MultiCastor& actual, const MultiCastor& nominal, double sweep_rad,
+                                                std::uint64_t seed) {
+  std::vector<Revolution> runs;
+  for (const std::vector<CastorSample>& samples : calibration_drives(actual, nominal, sweep_rad, seed))
+    if (Result<Revolution> run = revolution_in(samples, nominal)) runs.push_back(std::move(*run));
   return runs;
 }
 

@@ -23,6 +23,9 @@ MultiCastor drawn_castor_machine(const MultiCastor& nominal, std::uint64_t seed,
 
 // Section III.A on that machine: each castor is held still once, the body turns about it both ways by `sweep_rad` after
 // the other castors have come round. Sampled at 20 Hz, rounded by the encoders.
+std::vector<std::vector<CastorSample>> calibration_drives(const MultiCastor& actual, const MultiCastor& nominal,
+                                                          double sweep_rad, std::uint64_t seed);
+// What those drives say, those that hold a revolution.
 std::vector<Revolution> calibration_revolutions(const MultiCastor& actual, const MultiCastor& nominal, double sweep_rad,
                                                 std::uint64_t seed);
 

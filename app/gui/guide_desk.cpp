@@ -1,0 +1,408 @@
+#include "app/gui/guide_desk.h"
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+#include "core/base/random.h"
+#include "core/calibration/internal.h"
+#include "core/guide/misfit.h"
+#include "core/guide/recorded_run.h"
+#include "core/io/guide_report.h"
+#include "core/io/guide_toml.h"
+#include "core/io/import/imported_recording.h"
+#include "core/io/recording_csv.h"
+#include "core/io/ros2_yaml.h"
+#include "core/io/scenario_toml.h"
+#include "core/io/vehicle_toml.h"
+#include "physics/benchmark.h"
+#include "physics/experiments/castor_prototype.h"
+#include "physics/experiments/guide_drives.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kSaveAfter_s = 0.4;  // of changes: less than the second that may be lost
+
+namespace fs = std::filesystem;
+
+std::string new_file(const std::string& folder, const std::string& key) {
+  char stamp[32];
+  const std::time_t now = std::time(nullptr);
+  std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", std::localtime(&now));
+  std::string path = folder + "/" + key + "-" + stamp + ".toml";
+  std::error_code none;
+  for (int k = 2; fs::exists(path, none); ++k)
+    path = folder + "/" + key + "-" + stamp + "-" + std::to_string(k) + ".toml";
+  return path;
+}
+
+// Beside the session: the simulated robot with its true machine and its floor.
+std::string scenario_file_of(const std::string& file) { return file + ".scenario"; }
+
+Vehicle usual_vehicle(GuideKind kind) {
+  Vehicle vehicle;
+  if (kind == GuideKind::castors) {
+    vehicle.name = "Three castors";
+    vehicle.kind = assumed_castor_prototype();
+  } else if (kind == GuideKind::linked) {
+    vehicle.name = "CLAPPER";
+    vehicle.kind = Clapper{};
+  }
+  return vehicle;
+}
+
+}  // namespace
+
+PageTask GuideDesk::task() const {
+  return guide_of(session_->kind).pages[static_cast<std::size_t>(session_->page)].task;
+}
+
+void GuideDesk::open(const GuideSession& session, const std::string& file) {
+  session_ = session;
+  file_ = file;
+  problem_.clear();
+  internal_.reset();
+  recordings_.clear();
+  actual_.reset();
+  shown_ = true;
+  reckon();
+}
+
+void GuideDesk::begin(GuideKind kind, bool real_robot, const Scenario& scenario) {
+  save();
+  GuideSession session;
+  session.kind = kind;
+  session.real_robot = real_robot;
+  scenario_ = scenario;
+  session.vehicle = scenario.vehicle;
+  if (!why_not(guide_of(kind), session.vehicle).empty()) {
+    session.vehicle = usual_vehicle(kind);
+    scenario_ = Scenario{};
+    scenario_.vehicle = session.vehicle;
+  }
+  if (kind == GuideKind::extended_umbmark) session.draft.has_heading = true;
+  open(session, folder_.empty() ? "" : new_file(folder_, guide_of(kind).key));
+  changed_ = true;
+  save();
+  if (!real_robot && !file_.empty() && std::holds_alternative<DifferentialDrive>(session.vehicle.kind)) {
+    Scenario kept = scenario_;
+    kept.vehicle_file.clear();
+    if (const Result<Done> done = write_scenario(scenario_file_of(file_), kept); !done)
+      problem_ = done.error().message();
+  }
+}
+
+Result<Done> GuideDesk::resume(const std::string& path) {
+  const Result<GuideSession> read = read_guide_session(path);
+  if (!read) return read.error();
+  save();
+  std::error_code none;
+  scenario_ = Scenario{};
+  scenario_.vehicle = read->vehicle;
+  if (fs::exists(scenario_file_of(path), none))
+    if (Result<Scenario> scenario = read_scenario(scenario_file_of(path))) scenario_ = std::move(*scenario);
+  open(*read, path);
+  changed_ = false;
+  for (const std::string& file : read->recordings) {
+    const Result<ImportedRecording> recording = load_recording(file);
+    if (recording)
+      recordings_.push_back(recording->recording);
+    else
+      problem_ = recording.error().message();
+  }
+  return Done{};
+}
+
+void GuideDesk::leave() {
+  save();
+  session_.reset();
+  look_for_saved();
+}
+
+void GuideDesk::show(bool on) {
+  shown_ = on;
+  if (on && !session_) look_for_saved();
+}
+
+void GuideDesk::change(const GuideSession& session) {
+  if (!session_) return;
+  const std::size_t files = session_->recordings.size();
+  const int page = session_->page;
+  session_ = session;
+  session_->page = std::clamp(session.page, 0, int(guide_of(session.kind).pages.size()) - 1);
+  session_->reached = std::max(session_->reached, session_->page);
+  if (session_->page != page) problem_.clear();
+  if (session_->recordings.size() != files) {  // one was taken away
+    recordings_.clear();
+    internal_.reset();
+    for (const std::string& file : session_->recordings)
+      if (const Result<ImportedRecording> recording = load_recording(file)) recordings_.push_back(recording->recording);
+  }
+  changed_ = true;
+  reckon();
+}
+
+Result<Done> GuideDesk::choose_vehicle(const std::string& path) {
+  const Result<Vehicle> vehicle = read_vehicle(path);
+  if (!vehicle) return vehicle.error();
+  if (!session_) return Done{};
+  const std::string why = why_not(guide_of(session_->kind), *vehicle);
+  if (!why.empty()) return Error{path, why, "another vehicle"};
+  session_->vehicle = *vehicle;
+  changed_ = true;
+  reckon();
+  return Done{};
+}
+
+void GuideDesk::reckon() {
+  outcome_ = outcome_of(*session_, internal_.get());
+  experiments_.clear();
+  const auto add = [this](const GuideRound& round, const std::string& name) {
+    ui::BenchExperiment e;
+    e.name = name;
+    e.vehicle = round.nominal;
+    e.runs = umbmark_runs(round, session_->side_m);
+    e.measure = measure_umbmark(e.runs);
+    experiments_.push_back(e);
+  };
+  for (std::size_t k = 0; k < session_->rounds.size(); ++k)
+    add(session_->rounds[k], k == 0 ? "as it was" : k == 1 ? "after calibration" : "after a second compensation");
+  if (!session_->bumped.runs.empty()) add(session_->bumped, "with bumps");
+}
+
+void GuideDesk::drive(Jobs& jobs) {
+  if (!session_ || jobs.running()) return;
+  const PageTask page = task();
+  problem_.clear();
+  const std::uint64_t seed = seed_of_stream(scenario_.seed, 100 + 10 * session_->rounds.size() + std::uint64_t(page));
+  if (page == PageTask::tape) {
+    const double accuracy_m = session_->tape ? session_->tape->tape_accuracy_m : 0.001;
+    Scenario scenario = scenario_;
+    scenario.vehicle = session_->vehicle;
+    const auto reading = std::make_shared<std::optional<TapeReading>>();
+    jobs.start(
+        "driving along the tape",
+        [scenario, accuracy_m, seed, reading](const Progress& progress, const Jobs::Deliver&) {
+          *reading = drive_along_tape(scenario, 4.0, accuracy_m, seed, progress);
+        },
+        [this, reading](bool cancelled) {
+          if (cancelled || !session_) return;
+          if (!*reading) {
+            problem_ = "The robot did not arrive at the end of the tape: look at the floor in Drive.";
+            return;
+          }
+          session_->tape = **reading;
+          changed_ = true;
+          reckon();
+        });
+    return;
+  }
+  if (page == PageTask::runs || page == PageTask::again || page == PageTask::bumps) {
+    Scenario scenario = on_guide_square(scenario_, session_->side_m, session_->runs_each_way);
+    if (page == PageTask::bumps) scenario.floor.bumps = ten_cables(session_->side_m);
+    if (page == PageTask::again && session_->rounds.size() < 2) return;
+    if (page == PageTask::runs) session_->rounds.assign(1, {});  // what followed from the old runs goes with them
+    GuideRound& round = page == PageTask::bumps ? session_->bumped : session_->rounds.back();
+    round.runs.clear();
+    round.lost = 0;
+    scenario.vehicle = session_->vehicle;
+    scenario.vehicle.kind = page == PageTask::again ? round.nominal : first_nominal(*session_);
+    jobs.start("driving the squares",
+               [this, scenario, seed, page](const Progress& progress, const Jobs::Deliver& deliver) {
+                 run_umbmark(
+                     scenario, seed,
+                     [this, page, &deliver](const BenchmarkRun& run) {
+                       deliver([this, page, run] {
+                         if (!session_) return;
+                         GuideRun entry;
+                         entry.clockwise = run.clockwise;
+                         entry.measured = {run.error.x_m, run.error.y_m, run.error.heading_rad};
+                         entry.has_heading = true;
+                         entry.source = "simulated";
+                         if (run.finished)
+                           enter_run(*session_, page, entry);
+                         else if (page == PageTask::bumps)
+                           ++session_->bumped.lost;
+                         else if (!session_->rounds.empty())
+                           ++session_->rounds.back().lost;
+                         changed_ = true;
+                         reckon();
+                       });
+                     },
+                     progress);
+               },
+               {});
+    reckon();
+    return;
+  }
+  if (page == PageTask::recordings) {
+    const Vehicle nominal = session_->vehicle;
+    const auto drives = std::make_shared<InsideDrives>();
+    const auto found = std::make_shared<std::optional<Result<InternalCalibration>>>();
+    jobs.start(
+        "driving, and calibrating from the inside",
+        [nominal, seed, drives, found](const Progress& progress, const Jobs::Deliver&) {
+          *drives = drive_for_calibration_from_inside(nominal, seed,
+                                                      [&](double share) { return goes_on(progress, 0.8 * share); });
+          if (drives->recordings.empty()) return;
+          *found = calibrate_internally(drives->recordings, nominal,
+                                        [&](double share) { return goes_on(progress, 0.8 + 0.2 * share); });
+        },
+        [this, drives, found](bool cancelled) {
+          if (cancelled || !session_) return;
+          if (!*found || !**found) {
+            problem_ =
+                *found ? (*found)->error().message() : "The simulation does not drive this kind of vehicle here.";
+            return;
+          }
+          session_->recordings.clear();
+          recordings_ = drives->recordings;
+          const std::string folder = file_.empty() ? "" : file_.substr(0, file_.size() - 5) + "-recordings";
+          for (std::size_t i = 0; i < recordings_.size(); ++i) {
+            std::string name = recordings_[i].name;
+            if (!folder.empty()) {
+              name = folder + "/" + std::to_string(i + 1) + ".csv";
+              if (const Result<Done> done = write_recording_csv(name, recordings_[i]); !done)
+                problem_ = done.error().message();
+            }
+            session_->recordings.push_back(name);
+          }
+          actual_ = drives->actual;
+          internal_ = std::make_shared<const InternalCalibration>(***found);
+          changed_ = true;
+          reckon();
+        });
+  }
+}
+
+void GuideDesk::calibrate_inside(Jobs& jobs) {
+  internal_.reset();
+  reckon();
+  if (recordings_.empty()) return;
+  const Vehicle nominal = session_->vehicle;
+  const std::vector<Recording> recordings = recordings_;
+  const auto found = std::make_shared<std::optional<Result<InternalCalibration>>>();
+  jobs.start(
+      "calibrating from the inside",
+      [nominal, recordings, found](const Progress& progress, const Jobs::Deliver&) {
+        *found = calibrate_internally(recordings, nominal, progress);
+      },
+      [this, found](bool cancelled) {
+        if (cancelled || !session_ || !*found) return;
+        if (**found)
+          internal_ = std::make_shared<const InternalCalibration>(***found);
+        else
+          problem_ = (*found)->error().message();
+        reckon();
+      });
+}
+
+Result<Done> GuideDesk::take(const std::string& path, const Recording& recording, Jobs& jobs) {
+  if (!session_) return Done{};
+  const PageTask page = task();
+  if (page == PageTask::recordings) {
+    if (jobs.running()) return Error{path, "a calibration under way", "it to be done first"};
+    for (const std::string& known : session_->recordings)
+      if (known == path) return Error{path, "a recording that is here already", "each once"};
+    const std::string missing = missing_columns(recording, session_->vehicle);
+    if (!missing.empty()) return Error{path, "no " + missing, "these columns"};
+    session_->recordings.push_back(path);
+    recordings_.push_back(recording);
+    changed_ = true;
+    calibrate_inside(jobs);
+    return Done{};
+  }
+  const GuideRound* round = round_on(*session_, page);
+  if (!round || page == PageTask::verdict)
+    return Error{path, "a recording", "it on the page on which the runs are entered"};
+  Vehicle nominal = session_->vehicle;
+  nominal.kind = round->runs.empty() && page != PageTask::again ? first_nominal(*session_) : round->nominal;
+  const Result<GuideRun> run = run_in(recording, nominal);
+  if (!run) return run.error();
+  enter_run(*session_, page, *run);
+  changed_ = true;
+  reckon();
+  return Done{};
+}
+
+Result<Done> GuideDesk::write(ui::GuideExport what, const std::string& path) const {
+  if (!session_) return Done{};
+  if (what == ui::GuideExport::report) return write_report(path, guide_report(*session_, outcome_));
+  if (!outcome_.calibrated) return Error{path, "no calibration yet", "one to write"};
+  if (what == ui::GuideExport::vehicle) return write_vehicle(path, *outcome_.calibrated);
+  const auto* before = std::get_if<DifferentialDrive>(&session_->vehicle.kind);
+  const auto* after = std::get_if<DifferentialDrive>(&outcome_.calibrated->kind);
+  if (!before || !after) return Error{path, kind_name(session_->vehicle), "a differential drive"};
+  return write_ros2_diff_drive_yaml(path, *before, *after);
+}
+
+void GuideDesk::advance(double wall_s) {
+  if (!changed_) return;
+  unsaved_s_ += wall_s;
+  if (unsaved_s_ >= kSaveAfter_s) save();
+}
+
+void GuideDesk::save() {
+  if (!changed_ || !session_ || file_.empty()) return;
+  const Result<Done> done = write_guide_session(file_, *session_);
+  if (done)
+    changed_ = false;
+  else
+    problem_ = "This session could not be saved: " + done.error().message();
+  unsaved_s_ = 0.0;
+}
+
+void GuideDesk::look_for_saved() {
+  saved_.clear();
+  std::vector<std::pair<fs::file_time_type, std::string>> files;
+  std::error_code none;
+  if (folder_.empty()) return;
+  for (const auto& entry : fs::directory_iterator(folder_, none))
+    if (entry.path().extension() == ".toml")
+      files.emplace_back(fs::last_write_time(entry, none), entry.path().string());
+  std::sort(files.rbegin(), files.rend());
+  for (const auto& [time, path] : files) {
+    const Result<GuideSession> read = read_guide_session(path);
+    if (!read) continue;
+    const Guide& guide = guide_of(read->kind);
+    saved_.push_back({path, guide.name + ", " + read->vehicle.name,
+                      "page " + std::to_string(read->page + 1) + " of " + std::to_string(guide.pages.size()) + ", " +
+                          guide.pages[std::size_t(read->page)].title});
+    if (saved_.size() == 6) break;
+  }
+}
+
+ui::GuideView GuideDesk::view(const Jobs& jobs) const {
+  ui::GuideView v;
+  v.saved = saved_;
+  v.problem = problem_;
+  v.busy = jobs.running();
+  v.job = jobs.name();
+  v.share_done = jobs.share_done();
+  v.file = file_;
+  v.all_saved = !changed_;
+  if (!session_) return v;
+  v.session = &*session_;
+  v.outcome = &outcome_;
+  v.experiments = &experiments_;
+  if (const GuideRound* round = round_on(*session_, task())) v.misfits = misfits(*round);
+  if (!session_->real_robot) {
+    if (const auto* drive = std::get_if<DifferentialDrive>(&session_->vehicle.kind)) {
+      DifferentialDrive actual = *drive;
+      actual.wheel_radius_left_m = scenario_.actual.wheel_radius_left_m;
+      actual.wheel_radius_right_m = scenario_.actual.wheel_radius_right_m;
+      actual.wheelbase_m = scenario_.actual.wheelbase_m;
+      v.actual = session_->vehicle;
+      v.actual->kind = actual;
+    } else {
+      v.actual = actual_;
+    }
+    if (std::holds_alternative<OmniMate>(session_->vehicle.kind))
+      v.can_simulate = "The simulation of this guide drives a CLAPPER; the OmniMate can be calibrated from recordings.";
+  }
+  return v;
+}
+
+}  // namespace odolab

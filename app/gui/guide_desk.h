@@ -1,0 +1,72 @@
+// The guide that is open: what has been entered, what came of it, and its file, which is written as it grows.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gui/jobs.h"
+#include "core/guide/guide_session.h"
+#include "core/guide/outcome.h"
+#include "core/recording/recording.h"
+#include "core/scenario/scenario.h"
+#include "ui/actions.h"
+#include "ui/guide.h"
+
+namespace odolab {
+
+class GuideDesk {
+ public:
+  // `folder` keeps the sessions; empty: they are not kept, as where pictures must always be the same.
+  explicit GuideDesk(std::string folder) : folder_(std::move(folder)) {}
+  ~GuideDesk() { save(); }
+  GuideDesk(const GuideDesk&) = delete;
+  GuideDesk& operator=(const GuideDesk&) = delete;
+
+  // A new session about the vehicle of this scenario, or the usual one of the guide where it cannot be calibrated so.
+  void begin(GuideKind kind, bool real_robot, const Scenario& scenario);
+  Result<Done> resume(const std::string& path);
+  void leave();
+  void change(const GuideSession& session);
+  Result<Done> choose_vehicle(const std::string& path);
+  // What the page asks for, driven by the simulated robot in a job.
+  void drive(Jobs& jobs);
+  // A recording that was dropped: a run of squares, or one of the recordings of a calibration from the inside.
+  Result<Done> take(const std::string& path, const Recording& recording, Jobs& jobs);
+  Result<Done> write(ui::GuideExport what, const std::string& path) const;
+
+  // Once for each picture: writes what has changed, at most twice a second.
+  void advance(double wall_s);
+  void save();
+
+  void show(bool on);  // in Calibrate, instead of the bench
+  bool shown() const { return shown_; }
+  bool is_open() const { return session_.has_value(); }
+  const GuideSession& session() const { return *session_; }
+  const std::string& file() const { return file_; }
+  ui::GuideView view(const Jobs& jobs) const;
+
+ private:
+  PageTask task() const;
+  void reckon();
+  void calibrate_inside(Jobs& jobs);
+  void look_for_saved();
+  void open(const GuideSession& session, const std::string& file);
+
+  std::string folder_, file_;
+  std::optional<GuideSession> session_;
+  Scenario scenario_;  // of the simulated robot
+  GuideOutcome outcome_;
+  std::vector<ui::BenchExperiment> experiments_;
+  std::shared_ptr<const InternalCalibration> internal_;
+  std::vector<Recording> recordings_;  // of a calibration from the inside, in the order of the session's files
+  std::optional<Vehicle> actual_;
+  std::vector<ui::SavedGuide> saved_;
+  std::string problem_;
+  bool shown_ = false;
+  bool changed_ = false;
+  double unsaved_s_ = 0.0;  // for so long
+};
+
+}  // namespace odolab

@@ -1,0 +1,20 @@
+// The page of the guide in the middle: what to do, and where it is entered.
+#pragma once
+
+#include "ui/actions.h"
+#include "ui/guide.h"
+#include "ui/look/theme.h"
+#include "ui/panels/cluster_panel.h"
+
+namespace odolab::ui {
+
+struct GuidePageState {
+  GuideSession draft;  // what is being edited; anything else shows the session as it is
+  bool editing = false;
+  ClusterState clusters;
+  std::string export_folder;  // where files are proposed
+};
+
+Actions guide_page(const GuideView& view, GuidePageState& state, const Theme& theme);
+
+}  // namespace odolab::ui
