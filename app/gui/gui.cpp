@@ -77,11 +77,11 @@ void remember_files(const Session& session, std::size_t& known, ScreenState& sta
   }
 }
 
-// What comes with the project: its scenarios, its vehicles.
-std::vector<std::string> files_of_assets(const std::string& folder) {
+// The scenarios that come with the project.
+std::vector<std::string> example_files() {
   std::vector<std::string> files;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/" + folder, none))
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(ODOLAB_ASSETS) + "/scenarios", none))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
@@ -94,8 +94,7 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   const double scale = options.scale > 0.0 ? options.scale : 1.0;
   const ui::Theme theme = window.use_theme(options.dark, scale);
   state.welcome.open = options.files.empty();
-  state.example_files = files_of_assets("scenarios");
-  state.vehicle_files = files_of_assets("vehicles");
+  state.example_files = example_files();
   if (session.mode() == ui::Mode::drive) session.execute(ui::Play{});
   if (session.mode() == ui::Mode::calibrate &&
       !session.guide().shown()) {  // the picture shows what a click on both buttons leads to
@@ -125,8 +124,7 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
   if (options.scale > 0.0) state.choices.scale = options.scale;
   state.guide.export_folder = std::filesystem::current_path().string();
   state.welcome.open = options.files.empty() && !settings.welcome_seen;
-  state.example_files = files_of_assets("scenarios");
-  state.vehicle_files = files_of_assets("vehicles");
+  state.example_files = example_files();
   std::size_t known_files = 0;
   double scale = 0.0;
   bool dark = false;

@@ -67,6 +67,13 @@ void GuideDesk::open(const GuideSession& session, const std::string& file) {
   recordings_.clear();
   actual_.reset();
   shown_ = true;
+  vehicle_files_.clear();
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(std::string(ODOLAB_ASSETS) + "/vehicles", none))
+    if (const Result<Vehicle> vehicle = read_vehicle(entry.path().string());
+        vehicle && why_not(guide_of(session.kind), *vehicle).empty())
+      vehicle_files_.push_back(entry.path().string());
+  std::sort(vehicle_files_.begin(), vehicle_files_.end());
   reckon();
 }
 
@@ -94,7 +101,7 @@ void GuideDesk::begin(GuideKind kind, bool real_robot, const Scenario& scenario)
   }
 }
 
-Result<Done> GuideDesk::resume(const std::string& path) {
+Result<Done> GuideDesk::resume(const std::string& path, Jobs& jobs) {
   const Result<GuideSession> read = read_guide_session(path);
   if (!read) return read.error();
   save();
@@ -105,13 +112,7 @@ Result<Done> GuideDesk::resume(const std::string& path) {
     if (Result<Scenario> scenario = read_scenario(scenario_file_of(path))) scenario_ = std::move(*scenario);
   open(*read, path);
   changed_ = false;
-  for (const std::string& file : read->recordings) {
-    const Result<ImportedRecording> recording = load_recording(file);
-    if (recording)
-      recordings_.push_back(recording->recording);
-    else
-      problem_ = recording.error().message();
-  }
+  read_recordings(jobs);
   return Done{};
 }
 
@@ -126,7 +127,7 @@ void GuideDesk::show(bool on) {
   if (on && !session_) look_for_saved();
 }
 
-void GuideDesk::change(const GuideSession& session) {
+void GuideDesk::change(const GuideSession& session, Jobs& jobs) {
   if (!session_) return;
   const std::size_t files = session_->recordings.size();
   const int page = session_->page;
@@ -134,17 +135,12 @@ void GuideDesk::change(const GuideSession& session) {
   session_->page = std::clamp(session.page, 0, int(guide_of(session.kind).pages.size()) - 1);
   session_->reached = std::max(session_->reached, session_->page);
   if (session_->page != page) problem_.clear();
-  if (session_->recordings.size() != files) {  // one was taken away
-    recordings_.clear();
-    internal_.reset();
-    for (const std::string& file : session_->recordings)
-      if (const Result<ImportedRecording> recording = load_recording(file)) recordings_.push_back(recording->recording);
-  }
+  if (session_->recordings.size() != files) read_recordings(jobs);  // one was taken away
   changed_ = true;
   reckon();
 }
 
-Result<Done> GuideDesk::choose_vehicle(const std::string& path) {
+Result<Done> GuideDesk::choose_vehicle(const std::string& path, Jobs& jobs) {
   const Result<Vehicle> vehicle = read_vehicle(path);
   if (!vehicle) return vehicle.error();
   if (!session_) return Done{};
@@ -152,7 +148,7 @@ Result<Done> GuideDesk::choose_vehicle(const std::string& path) {
   if (!why.empty()) return Error{path, why, "another vehicle"};
   session_->vehicle = *vehicle;
   changed_ = true;
-  reckon();
+  calibrate_inside(jobs);
   return Done{};
 }
 
@@ -277,6 +273,18 @@ void GuideDesk::drive(Jobs& jobs) {
   }
 }
 
+void GuideDesk::read_recordings(Jobs& jobs) {
+  recordings_.clear();
+  for (const std::string& file : session_->recordings) {
+    const Result<ImportedRecording> recording = load_recording(file);
+    if (recording)
+      recordings_.push_back(recording->recording);
+    else
+      problem_ = recording.error().message();
+  }
+  calibrate_inside(jobs);
+}
+
 void GuideDesk::calibrate_inside(Jobs& jobs) {
   internal_.reset();
   reckon();
@@ -387,6 +395,7 @@ ui::GuideView GuideDesk::view(const Jobs& jobs) const {
   v.session = &*session_;
   v.outcome = &outcome_;
   v.experiments = &experiments_;
+  v.vehicle_files = vehicle_files_;
   if (const GuideRound* round = round_on(*session_, task())) v.misfits = misfits(*round);
   if (!session_->real_robot) {
     if (const auto* drive = std::get_if<DifferentialDrive>(&session_->vehicle.kind)) {

@@ -26,10 +26,10 @@ class GuideDesk {
 
   // A new session about the vehicle of this scenario, or the usual one of the guide where it cannot be calibrated so.
   void begin(GuideKind kind, bool real_robot, const Scenario& scenario);
-  Result<Done> resume(const std::string& path);
+  Result<Done> resume(const std::string& path, Jobs& jobs);
   void leave();
-  void change(const GuideSession& session);
-  Result<Done> choose_vehicle(const std::string& path);
+  void change(const GuideSession& session, Jobs& jobs);
+  Result<Done> choose_vehicle(const std::string& path, Jobs& jobs);
   // What the page asks for, driven by the simulated robot in a job.
   void drive(Jobs& jobs);
   // A recording that was dropped: a run of squares, or one of the recordings of a calibration from the inside.
@@ -50,6 +50,7 @@ class GuideDesk {
  private:
   PageTask task() const;
   void reckon();
+  void read_recordings(Jobs& jobs);
   void calibrate_inside(Jobs& jobs);
   void look_for_saved();
   void open(const GuideSession& session, const std::string& file);
@@ -63,6 +64,7 @@ class GuideDesk {
   std::vector<Recording> recordings_;  // of a calibration from the inside, in the order of the session's files
   std::optional<Vehicle> actual_;
   std::vector<ui::SavedGuide> saved_;
+  std::vector<std::string> vehicle_files_;  // of the project, those that the guide can calibrate
   std::string problem_;
   bool shown_ = false;
   bool changed_ = false;

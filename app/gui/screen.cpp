@@ -106,11 +106,7 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   ImGui::End();
 }
 
-ui::GuideView guide_of(const Session& session, const ScreenState& state) {
-  ui::GuideView view = session.guide().view(session.jobs());
-  view.vehicle_files = state.vehicle_files;
-  return view;
-}
+ui::GuideView guide_of(const Session& session) { return session.guide().view(session.jobs()); }
 
 Actions left_pane(const Session& session, ScreenState& state, const Theme& theme) {
   Actions actions;
@@ -128,7 +124,7 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
       if (const auto choice = ui::segmented("calibrate", {"Bench", "Guides"}, session.guide().shown() ? 1 : 0, theme,
                                             ImGui::GetContentRegionAvail().x))
         actions.push_back(ui::ShowGuides{*choice == 1});
-      append(actions, session.guide().shown() ? ui::guide_panel(guide_of(session, state), theme)
+      append(actions, session.guide().shown() ? ui::guide_panel(guide_of(session), theme)
                                               : ui::calibrate_panel(bench_of(session), state.calibrate, theme));
       break;
     case ui::Mode::compare:
@@ -147,7 +143,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
       break;
     case ui::Mode::calibrate:
       if (session.guide().shown())
-        append(actions, ui::guide_notes_panel(guide_of(session, state), theme));
+        append(actions, ui::guide_notes_panel(guide_of(session), theme));
       else
         ui::calibration_result_panel(bench_of(session), theme);
       break;
@@ -163,7 +159,7 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
     case ui::Mode::drive:
       return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
     case ui::Mode::calibrate:
-      if (session.guide().shown()) return ui::guide_page(guide_of(session, state), state.guide, theme);
+      if (session.guide().shown()) return ui::guide_page(guide_of(session), state.guide, theme);
       ui::cluster_panel(bench_of(session), state.clusters, theme);
       return {};
     case ui::Mode::compare:

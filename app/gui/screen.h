@@ -33,7 +33,7 @@ struct ScreenState {
   Scenario draft;  // of the parameters that a person is editing
   bool editing = false;
   int loads_seen = 0;
-  std::vector<std::string> recent_files, example_files, vehicle_files;
+  std::vector<std::string> recent_files, example_files;
 };
 
 // A dialog is open: no key belongs to what lies behind it.

@@ -163,12 +163,12 @@ struct Session::Executor {
   void operator()(const ui::CancelJob&) const { s.jobs_.cancel(); }
   void operator()(const ui::ShowGuides& a) const { s.guide_.show(a.on); }
   void operator()(const ui::BeginGuide& a) const { s.guide_.begin(a.kind, a.real_robot, s.run_->scenario()); }
-  void operator()(const ui::ResumeGuide& a) const { s.done_or_said(s.guide_.resume(a.path)); }
+  void operator()(const ui::ResumeGuide& a) const { s.done_or_said(s.guide_.resume(a.path, s.jobs_)); }
   void operator()(const ui::LeaveGuide&) const {
     if (!s.refuse_while_busy("something else")) s.guide_.leave();
   }
-  void operator()(const ui::ChangeGuide& a) const { s.guide_.change(a.session); }
-  void operator()(const ui::ChooseGuideVehicle& a) const { s.done_or_said(s.guide_.choose_vehicle(a.path)); }
+  void operator()(const ui::ChangeGuide& a) const { s.guide_.change(a.session, s.jobs_); }
+  void operator()(const ui::ChooseGuideVehicle& a) const { s.done_or_said(s.guide_.choose_vehicle(a.path, s.jobs_)); }
   void operator()(const ui::DriveGuide&) const {
     if (!s.refuse_while_busy("the guide's drive")) s.guide_.drive(s.jobs_);
   }
@@ -352,10 +352,10 @@ bool Session::open(const std::string& path) {
       opened = open_scenario(path);
       break;
     case FileKind::vehicle:
-      opened = guide_in_hand() ? done_or_said(guide_.choose_vehicle(path)) : open_vehicle(path);
+      opened = guide_in_hand() ? done_or_said(guide_.choose_vehicle(path, jobs_)) : open_vehicle(path);
       break;
     case FileKind::guide:
-      opened = done_or_said(guide_.resume(path));
+      opened = done_or_said(guide_.resume(path, jobs_));
       if (opened) mode_ = ui::Mode::calibrate;
       break;
     default:

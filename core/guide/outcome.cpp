@@ -120,7 +120,7 @@ void squares_outcome(GuideOutcome& out, const GuideSession& session) {
     out.extended = measure_extended_umbmark(umbmark_runs(session.rounds.front(), session.side_m),
                                             umbmark_runs(session.bumped, session.side_m));
     if (!out.extended) return;
-    out.sentences.push_back(text_of("Ten bumps turn the robot by %.2f degrees on average, up or down (Eq. 3.5).",
+    out.sentences.push_back(text_of("Ten bumps turn the robot by %.2f degrees on average (Eq. 3.5).",
                                     degrees(out.extended->mean_absolute_heading_error_rad)));
     out.sentences.push_back(
         text_of("Taken off before: %.2f degrees clockwise and %.2f degrees counter-clockwise, the "

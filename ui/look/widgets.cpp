@@ -57,14 +57,6 @@ void tooltip_beside(const std::string& text, const Theme& theme) {
   tooltip(text, theme);
 }
 
-void wrapped_words(const std::string& text, ImU32 colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-}
-
 }  // namespace
 
 void tooltip(const std::string& text, const Theme& theme) {
@@ -186,9 +178,36 @@ void heading(const char* title, const Theme& theme) {
   ImGui::TextUnformatted(title);
 }
 
-void note(const std::string& text, const Theme& theme) { wrapped_words(text, theme.muted); }
+void words(const std::string& text, ImU32 colour, float width) {
+  if (width <= 0.0f) width = ImGui::GetContentRegionAvail().x;
+  std::string lines, line;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    const std::string longer = line.empty() ? text.substr(at, end - at) : line + " " + text.substr(at, end - at);
+    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
+      lines += line + "\n";
+      line = text.substr(at, end - at);
+    } else {
+      line = longer;
+    }
+    if (end < text.size() && text[end] == '\n') {
+      lines += line + "\n";
+      line.clear();
+    }
+    at = end + 1;
+  }
+  lines += line;
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(0.0f);  // for what has no blank
+  ImGui::TextUnformatted(lines.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
 
-void warning(const std::string& text, const Theme& theme) { wrapped_words(text, theme.error); }
+void note(const std::string& text, const Theme& theme) { words(text, theme.muted); }
+
+void warning(const std::string& text, const Theme& theme) { words(text, theme.error); }
 
 Edited number_field(const NumberField& field, double& value_si, float width, const Theme& theme) {
   double value = value_si * field.unit.per_si;

@@ -33,7 +33,9 @@ std::optional<int> segmented(const char* id, const std::vector<std::string>& lab
 bool section(const char* title, const Theme& theme, bool open_at_first = true);
 // A small heading inside a panel.
 void heading(const char* title, const Theme& theme);
-// Wrapped words in the quiet colour.
+// Words wrapped at blanks alone, so that no number is broken; `width` 0: the remaining one.
+void words(const std::string& text, ImU32 colour, float width = 0.0f);
+// The same in the quiet colour.
 void note(const std::string& text, const Theme& theme);
 // The same in the colour of errors.
 void warning(const std::string& text, const Theme& theme);

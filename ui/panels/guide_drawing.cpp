@@ -60,14 +60,14 @@ void square(const Pen& pen, ImVec2 low, float side, bool clockwise, double side_
   const ImVec2 middle{low.x + 0.5f * side, low.y + 0.5f * side};
   pen.words({middle.x, middle.y - theme.px(10)}, clockwise ? "clockwise" : "counter-clockwise", colour, 0.5f);
   pen.words({middle.x, middle.y + theme.px(10)}, clockwise ? "turns right" : "turns left", theme.muted, 0.5f);
-  pen.words({middle.x, clockwise ? a.y - theme.px(18) : a.y + theme.px(20)},
-            shown(side_m, kMetres) + ", then turn on the spot", theme.muted, 0.5f);
+  pen.words({middle.x, clockwise ? a.y - theme.px(26) : a.y + theme.px(28)}, shown(side_m, kMetres) + " and turn",
+            theme.muted, 0.5f);
 }
 
 // What is measured at the end: the start mark, and where the robot really stands.
 void corner(const Pen& pen, ImVec2 low, float width, float height, bool heading) {
   const Theme& theme = pen.theme;
-  const ImVec2 mark{low.x + 0.2f * width, low.y + 0.74f * height};
+  const ImVec2 mark{low.x + 0.22f * width, low.y + 0.74f * height};
   const ImVec2 stands{low.x + 0.62f * width, low.y + 0.36f * height};
   pen.draw.AddRectFilled(low, {low.x + width, low.y + height}, theme.paper, theme.px(4));
   pen.draw.AddRect(low, {low.x + width, low.y + height}, theme.line, theme.px(4));
@@ -78,7 +78,7 @@ void corner(const Pen& pen, ImVec2 low, float width, float height, bool heading)
   pen.arrow(mark, {stands.x, mark.y}, theme.green);
   pen.arrow({stands.x, mark.y}, {stands.x, stands.y + theme.px(3)}, theme.purple);
   pen.words({0.5f * (mark.x + stands.x), mark.y + theme.px(13)}, "x", theme.green, 0.5f);
-  pen.words({stands.x + theme.px(8), 0.5f * (mark.y + stands.y) + theme.px(6)}, "y, to the left", theme.purple);
+  pen.words({stands.x + theme.px(8), 0.5f * (mark.y + stands.y) + theme.px(6)}, "y, left", theme.purple);
   pen.words({mark.x, mark.y + theme.px(34)}, "start mark", theme.muted, 0.5f);
   pen.words({stands.x, stands.y - theme.px(36)},
             heading ? "where it really stands, and looks" : "where it really stands", theme.ink, 0.5f);
@@ -111,8 +111,10 @@ void castors(const Pen& pen, ImVec2 low, float width, float height) {
   for (int k = 0; k < 3; ++k) {
     pen.draw.AddCircleFilled(pivot[k], theme.px(9), k == 0 ? theme.ink : theme.paper);
     pen.draw.AddCircle(pivot[k], theme.px(9), theme.ink, 0, theme.px(1.6f));
-    pen.words({pivot[k].x + theme.px(14), pivot[k].y},
-              "castor " + std::to_string(k + 1) + (k == 0 ? ", held still" : ""), k == 0 ? theme.ink : theme.muted);
+    const bool left = pivot[k].x < centre.x - 1.0f;
+    pen.words({pivot[k].x + theme.px(left ? -14 : 14), pivot[k].y},
+              "castor " + std::to_string(k + 1) + (k == 0 ? ", held still" : ""), k == 0 ? theme.ink : theme.muted,
+              left ? 1.0f : 0.0f);
   }
   pen.words({centre.x, low.y + height - theme.px(10)},
             "the others drive round it, both ways; then castor 2, then castor 3", theme.muted, 0.5f);
@@ -137,6 +139,7 @@ void trucks(const Pen& pen, ImVec2 low, float width, float height) {
     pen.robot(b, size, moves[k].truck_angle, theme.ink, true);
     const float reach = theme.px(46);
     for (const ImVec2 p : {a, b}) {
+      if (k == 0 && p.x < centre.x) continue;
       const float dy = spin ? (p.x > centre.x ? -1.0f : 1.0f) : moves[k].dy;
       pen.arrow({p.x + moves[k].dx * 0.6f * reach, p.y + dy * 0.7f * reach},
                 {p.x + moves[k].dx * 1.3f * reach, p.y + dy * 1.6f * reach}, theme.orange);
@@ -155,11 +158,11 @@ void guide_drawing(const GuideSession& session, float height, const Theme& theme
     case GuideKind::umbmark:
     case GuideKind::extended_umbmark: {
       const bool bumps = session.kind == GuideKind::extended_umbmark;
-      const float side = std::min(height - theme.px(70), 0.25f * width);
+      const float side = std::min(height - theme.px(80), 0.21f * width);
       const float y = at.y + 0.5f * (height - side);
       square(pen, {at.x + theme.px(28), y}, side, true, session.side_m, bumps);
-      square(pen, {at.x + theme.px(28) + side + 0.09f * width, y}, side, false, session.side_m, bumps);
-      const float x = at.x + theme.px(28) + 2.0f * side + 0.17f * width;
+      square(pen, {at.x + theme.px(28) + side + 0.07f * width, y}, side, false, session.side_m, bumps);
+      const float x = at.x + theme.px(28) + 2.0f * side + 0.13f * width;
       corner(pen, {x, at.y + theme.px(6)}, at.x + width - x, height - theme.px(12), bumps);
       break;
     }

@@ -33,7 +33,17 @@ Actions robot(const GuideView& view, GuidePageState& state, const Theme& theme) 
   Actions actions;
   GuideSession& s = state.draft;
   const bool fixed = !view.session->rounds.empty() && !view.session->rounds.front().runs.empty();
-  heading(s.vehicle.name.c_str(), theme);
+  char name[128];
+  std::snprintf(name, sizeof name, "%s", s.vehicle.name.c_str());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Name");
+  ImGui::SameLine(theme.px(300));
+  ImGui::SetNextItemWidth(theme.px(150));
+  if (ImGui::InputText("##name", name, sizeof name)) {
+    s.vehicle.name = name;
+    state.editing = true;
+    actions.push_back(ChangeGuide{s});
+  }
   if (auto* drive = std::get_if<DifferentialDrive>(&s.vehicle.kind)) {
     double left = 2.0 * drive->wheel_radius_left_m, right = 2.0 * drive->wheel_radius_right_m;
     Edited e = Edited::no;
@@ -236,7 +246,8 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
   pose_row("Its odometry says", "What the robot believes at the end, set to zero at the start.", s.draft.odometry);
   keep(e, state, actions);
   ButtonLook enter;
-  enter.primary = true;
+  const int cw = counted(round, true), ccw = counted(round, false), wanted = s.runs_each_way;
+  enter.primary = cw < wanted || ccw < wanted;
   enter.tip = "The run becomes a point. It can be taken back from the list.";
   if (text_button("Enter this run", theme, enter, theme.px(150))) {
     GuideRun run = s.draft;
@@ -250,7 +261,24 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
     state.editing = false;
     actions.push_back(ChangeGuide{s});
   }
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%d of %d clockwise, %d of %d counter-clockwise%s", cw, wanted, ccw, wanted,
+                      cw >= wanted && ccw >= wanted ? ": go on" : "");
   return actions;
+}
+
+// The rounds so far in the rest of the page.
+void clusters(const GuideView& view, bool last_alone, GuidePageState& state, const Theme& theme) {
+  if (!view.experiments) return;
+  std::vector<BenchExperiment> rounds = *view.experiments;
+  if (last_alone && !rounds.empty()) rounds.erase(rounds.begin(), rounds.end() - 1);
+  Bench bench;
+  bench.experiments = &rounds;
+  bench.running = view.busy;
+  ImGui::BeginChild("clusters", {0, std::max(theme.px(200), ImGui::GetContentRegionAvail().y - theme.px(4))}, false);
+  cluster_panel(bench, state.clusters, theme);
+  ImGui::EndChild();
 }
 
 Actions runs(const GuideView& view, PageTask task, GuidePageState& state, const Theme& theme) {
@@ -264,20 +292,7 @@ Actions runs(const GuideView& view, PageTask task, GuidePageState& state, const 
          theme);
   }
   append(actions, s.real_robot ? entry_form(view, task, state, theme) : drive_button(view, "Drive", theme));
-  if (view.experiments) {
-    Bench bench;
-    std::vector<BenchExperiment> shown_ones;
-    if (task == PageTask::bumps && !view.experiments->empty())
-      shown_ones = {view.experiments->back()};
-    else
-      shown_ones = *view.experiments;
-    bench.experiments = &shown_ones;
-    bench.running = view.busy;
-    const float height = std::max(theme.px(200), ImGui::GetContentRegionAvail().y - theme.px(4));
-    ImGui::BeginChild("clusters", {0, height}, false);
-    cluster_panel(bench, state.clusters, theme);
-    ImGui::EndChild();
-  }
+  clusters(view, task == PageTask::bumps, state, theme);
   return actions;
 }
 
@@ -326,7 +341,7 @@ std::optional<double> true_value(const Setting& s, const std::optional<Vehicle>&
   return std::nullopt;
 }
 
-void result(const GuideView& view, const Theme& theme) {
+void result(const GuideView& view, GuidePageState& state, const Theme& theme) {
   const GuideOutcome& out = *view.outcome;
   if (out.settings.empty()) {
     if (!out.extended) note(view.busy ? "Still reckoning…" : "There is no result yet.", theme);
@@ -365,7 +380,8 @@ void result(const GuideView& view, const Theme& theme) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(s.words.c_str());
     if (!s.ros2.empty()) {
-      ImGui::TextDisabled("%s", (s.key + "  ·  ROS 2: " + s.ros2).c_str());
+      ImGui::TextDisabled("vehicle file: %s", s.key.c_str());
+      ImGui::TextDisabled("ROS 2: %s", s.ros2.c_str());
     } else {
       tooltip(s.key, theme);
     }
@@ -396,17 +412,16 @@ void result(const GuideView& view, const Theme& theme) {
         theme);
   else
     note("Uncertainties are one standard deviation.", theme);
+  if (!out.rounds.empty()) clusters(view, false, state, theme);
 }
 
-Actions verdict(const GuideView& view, const Theme& theme) {
+Actions verdict(const GuideView& view, GuidePageState& state, const Theme& theme) {
   Actions actions;
   const GuideOutcome& out = *view.outcome;
   for (const std::string& sentence : out.sentences)
     if (sentence.find("standard error") != std::string::npos || sentence.find("times smaller") != std::string::npos) {
       WithFont strong(theme.strong);
-      ImGui::PushTextWrapPos(0.0f);
-      ImGui::TextUnformatted(sentence.c_str());
-      ImGui::PopTextWrapPos();
+      words(sentence, theme.ink);
     }
   ButtonLook again;
   again.primary = out.compensate_again;
@@ -420,6 +435,7 @@ Actions verdict(const GuideView& view, const Theme& theme) {
       actions.push_back(ChangeGuide{s});
     }
   }
+  clusters(view, false, state, theme);
   return actions;
 }
 
@@ -465,10 +481,10 @@ Actions guide_entries(const GuideView& view, PageTask task, GuidePageState& stat
     case PageTask::recordings:
       return recordings(view, state, theme);
     case PageTask::result:
-      result(view, theme);
+      result(view, state, theme);
       return {};
     case PageTask::verdict:
-      return verdict(view, theme);
+      return verdict(view, state, theme);
     case PageTask::finish:
       return finish(view, state, theme);
   }

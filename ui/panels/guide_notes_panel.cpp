@@ -14,6 +14,46 @@ std::vector<GuideRun>* runs_of(GuideSession& session, PageTask task) {
   return task == PageTask::bumps ? &session.bumped.runs : nullptr;
 }
 
+// While there is nothing to say yet: what the guide looks for.
+void append_words_before(GuideKind kind, const Theme& theme) {
+  heading("What it looks for", theme);
+  switch (kind) {
+    case GuideKind::umbmark:
+      note("Type A: a wrong wheelbase. Every turn is too large or too small.", theme);
+      note("Type B: unequal wheels. Straight sides become arcs.", theme);
+      note("The scale: both wheels larger or smaller than believed.", theme);
+      note(
+          "Driven one way, types A and B can cancel each other at the end of the square. Driven the other way they add "
+          "up. "
+          "Both ways together tell them apart (J. Borenstein, L. Feng, UMBmark, 1994).",
+          theme);
+      break;
+    case GuideKind::extended_umbmark:
+      note(
+          "How far a bump turns the robot. A wheel that climbs a bump rolls further than the robot moves, and the "
+          "odometry "
+          "cannot know.",
+          theme);
+      break;
+    case GuideKind::castors:
+      note(
+          "For each castor the radius of both wheels, their distance to the line through the pivot, the distance from "
+          "axle "
+          "to pivot, and the zero of the pivot's encoder.",
+          theme);
+      note("J. Doebbler, J. J. Davis, J. L. Junkins, J. Valasek, 2008.", theme);
+      break;
+    case GuideKind::linked:
+      note(
+          "The zero of both rotary encoders and of the linear one, the wheelbases of both trucks and the ratios of "
+          "their "
+          "wheels. The scale is that of truck A's mean wheel: no encoder on board can find it.",
+          theme);
+      note("J. Borenstein, 1995.", theme);
+      break;
+  }
+}
+
 Actions run_list(const GuideView& view, PageTask task, const GuideRound& round, const Theme& theme) {
   Actions actions;
   const Unit mm{"", 1e3, 1, 0.0}, deg{"°", kDegrees.per_si, 2, 0.0};
@@ -105,14 +145,14 @@ Actions guide_notes_panel(const GuideView& view, const Theme& theme) {
   const GuideRound* round = round_on(*view.session, task);
   if (round && task != PageTask::verdict) append(actions, run_list(view, task, *round, theme));
   const GuideOutcome& out = *view.outcome;
+  if (task == PageTask::robot || task == PageTask::tape || task == PageTask::drive)
+    append_words_before(view.session->kind, theme);
   const bool measured = !out.rounds.empty() && out.rounds.front().measure;
   if (task == PageTask::runs && !measured) return actions;
   if (!out.sentences.empty() && task != PageTask::robot && task != PageTask::drive) {
     heading("What it says", theme);
     for (const std::string& sentence : out.sentences) {
-      ImGui::PushTextWrapPos(0.0f);
-      ImGui::TextUnformatted(sentence.c_str());
-      ImGui::PopTextWrapPos();
+      words(sentence, theme.ink);
       ImGui::Dummy({1, theme.px(2)});
     }
   }

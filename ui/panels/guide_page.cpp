@@ -11,9 +11,7 @@ namespace odolab::ui {
 namespace {
 
 void paragraph(const std::string& text, const Theme& theme) {
-  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::min(ImGui::GetContentRegionAvail().x, theme.px(760)));
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
+  words(text, theme.ink, std::min(ImGui::GetContentRegionAvail().x, theme.px(760)));
   ImGui::Dummy({1, theme.px(1)});
 }
 
