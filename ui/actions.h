@@ -11,7 +11,7 @@
 
 namespace odolab::ui {
 
-enum class Mode { drive, calibrate, compare };
+enum class Mode { drive, calibrate, compare, learn };
 
 // The transport bar, of whatever the present mode plays.
 struct Play {};
@@ -52,7 +52,7 @@ struct Redo {};
 
 // The bench.
 struct StartBenchmark {
-  int runs_each_way = 5;
+  int runs_each_way = 5;     // 0: as the scenario asks for
   bool keep_things = false;  // cables and patches stay on the floor; else only its friction, tilt and roughness count
 };
 struct ApplyCalibration {};  // the corrected vehicle is driven through the same benchmark
@@ -84,6 +84,20 @@ struct ExportGuide {
   GuideExport what = GuideExport::vehicle;
   std::string path;
 };
+
+// Lessons.
+struct OpenLesson {
+  std::string path;
+};
+struct LessonStepTo {
+  int step = 0;  // counted from 0
+};
+struct AnswerLesson {
+  int choice = 0;
+  int stake = 0;
+};
+struct AskMystery {};  // the concealed robot drives, and is diagnosed
+struct LeaveLesson {};
 
 // Recordings.
 enum class ReplayVehicle { nominal, calibrated };
@@ -117,8 +131,9 @@ using Action =
     std::variant<Play, Pause, StepForward, StepBack, ToStart, ToEnd, Restart, SetSpeed, ScrubTo, EditScenario, SetFloor,
                  DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration,
                  ClearBenchmark, CancelJob, ShowGuides, BeginGuide, ResumeGuide, LeaveGuide, ChangeGuide,
-                 ChooseGuideVehicle, DriveGuide, ExportGuide, ReplayWith, CalibrateFromRecording, RecordSimulatedRun,
-                 OpenFile, SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+                 ChooseGuideVehicle, DriveGuide, ExportGuide, OpenLesson, LessonStepTo, AnswerLesson, AskMystery,
+                 LeaveLesson, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile, SaveScenario,
+                 SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
 
 using Actions = std::vector<Action>;
 

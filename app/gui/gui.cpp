@@ -30,6 +30,7 @@ std::optional<ui::Mode> mode_named(const std::string& name) {
   if (name == "drive") return ui::Mode::drive;
   if (name == "calibrate") return ui::Mode::calibrate;
   if (name == "compare") return ui::Mode::compare;
+  if (name == "learn") return ui::Mode::learn;
   return std::nullopt;
 }
 
@@ -171,7 +172,7 @@ int run_gui(const GuiOptions& options) {
   const bool for_picture = !options.screenshot_path.empty();
   const std::optional<ui::Mode> mode = mode_named(options.mode);
   if (!options.mode.empty() && !mode)
-    return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate or compare"});
+    return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate, compare or learn"});
   Session session(!for_picture, for_picture ? "" : guides_folder());
   for (const std::string& file : options.files)
     if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal

@@ -64,6 +64,8 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
       return {SetMode{Mode::calibrate}};
     case Key::three:
       return {SetMode{Mode::compare}};
+    case Key::four:
+      return {SetMode{Mode::learn}};
     case Key::f:
       choices.fit_view = true;
       return {};

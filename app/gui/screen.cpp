@@ -106,6 +106,20 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   ImGui::End();
 }
 
+// The lesson's step is a benchmark: clouds instead of a floor.
+bool learns_by_squares(const Session& session) {
+  return session.mode() == ui::Mode::learn && session.lesson().is_open() && session.run().scenario().benchmark;
+}
+
+ui::LessonView lesson_of(const Session& session) {
+  ui::LessonView view = session.lesson().view(session.jobs());
+  view.benchmark = learns_by_squares(session);
+  const auto& experiments = session.bench().experiments();
+  view.can_drive_squares = experiments.empty();
+  view.can_apply = experiments.size() == 1 && experiments.front().calibration;
+  return view;
+}
+
 ui::GuideView guide_of(const Session& session) { return session.guide().view(session.jobs()); }
 
 Actions left_pane(const Session& session, ScreenState& state, const Theme& theme) {
@@ -130,6 +144,9 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
     case ui::Mode::compare:
       append(actions, ui::compare_panel(compare_of(session, state.example_files), state.choices.show_open, theme));
       break;
+    case ui::Mode::learn:
+      append(actions, ui::lesson_panel(lesson_of(session), state.lesson, theme));
+      break;
   }
   return actions;
 }
@@ -150,6 +167,12 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
     case ui::Mode::compare:
       ui::error_panel(compare_of(session, state.example_files), error_now(session), theme);
       break;
+    case ui::Mode::learn:
+      if (learns_by_squares(session))
+        ui::calibration_result_panel(bench_of(session), theme);
+      else
+        append(actions, ui::readout_panel(readout_of(session, shown), theme));
+      break;
   }
   return actions;
 }
@@ -164,6 +187,11 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
       return {};
     case ui::Mode::compare:
       return ui::floor_view(compare_scene(session, theme), state.compare_floor, theme);
+    case ui::Mode::learn:
+      if (!learns_by_squares(session))
+        return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
+      ui::cluster_panel(bench_of(session), state.clusters, theme);
+      return {};
   }
   return {};
 }
@@ -232,7 +260,7 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     state.editing = false;
   }
   const SimulationState shown = session.run().shown();
-  const bool has_bottom = session.mode() != ui::Mode::calibrate;
+  const bool has_bottom = session.mode() != ui::Mode::calibrate && !learns_by_squares(session);
   const Layout l = lay_out(state, screen, has_bottom, theme);
 
   begin_pane("centre", l.centre_low, l.centre_size, false, false,
@@ -265,19 +293,19 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     ImGui::GetWindowDrawList()->AddLine({0, l.top_size.y - 1}, {screen.x, l.top_size.y - 1}, theme.line);
     ImGui::End();
 
-    const char* left_names[] = {"left drive", "left calibrate", "left compare"};
+    const char* left_names[] = {"left drive", "left calibrate", "left compare", "left learn"};
     begin_pane(left_names[int(session.mode())], l.left_low, l.left_size, true, true, theme.panel);
     append(actions, left_pane(session, state, theme));
     ImGui::End();
 
-    const char* right_names[] = {"right drive", "right calibrate", "right compare"};
+    const char* right_names[] = {"right drive", "right calibrate", "right compare", "right learn"};
     begin_pane(right_names[int(session.mode())], l.right_low, l.right_size, true, true, theme.panel);
     append(actions, right_pane(session, state, shown, theme));
     ImGui::End();
 
     if (has_bottom) {
       begin_pane("bottom", l.bottom_low, l.bottom_size, true, false, theme.panel);
-      if (session.mode() == ui::Mode::drive)
+      if (session.mode() != ui::Mode::compare)
         append(actions, ui::transport_bar(drive_transport(session, theme), state.drive_transport, theme));
       else
         append(actions, ui::transport_bar(compare_transport(session, theme), state.compare_transport, theme));

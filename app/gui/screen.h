@@ -10,6 +10,7 @@
 #include "ui/panels/floor_panel.h"
 #include "ui/panels/floor_view.h"
 #include "ui/panels/guide_page.h"
+#include "ui/panels/lesson_panel.h"
 #include "ui/panels/path_dialog.h"
 #include "ui/panels/readout_panel.h"
 #include "ui/panels/top_bar.h"
@@ -28,6 +29,7 @@ struct ScreenState {
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;
   ui::GuidePageState guide;
+  ui::LessonPanelState lesson;
   FolderListing folders;
   ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
   Scenario draft;  // of the parameters that a person is editing

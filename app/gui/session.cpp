@@ -142,7 +142,9 @@ struct Session::Executor {
       s.change(step.scenario);
   }
   void operator()(const ui::StartBenchmark& a) const {
-    if (!s.refuse_while_busy("UMBmark")) s.bench_.start(s.run_->scenario(), a.runs_each_way, a.keep_things, s.jobs_);
+    const std::optional<Benchmark>& asked = s.run_->scenario().benchmark;
+    const int runs = a.runs_each_way > 0 ? a.runs_each_way : asked ? asked->runs_each_way : 5;
+    if (!s.refuse_while_busy("UMBmark")) s.bench_.start(s.run_->scenario(), runs, a.keep_things, s.jobs_);
   }
   void operator()(const ui::ApplyCalibration&) const {
     if (!s.refuse_while_busy("the calibrated squares")) s.bench_.apply(s.jobs_);
@@ -174,6 +176,23 @@ struct Session::Executor {
   }
   void operator()(const ui::ExportGuide& a) const {
     if (s.done_or_said(s.guide_.write(a.what, a.path))) s.say("Written: " + a.path, false);
+  }
+  void operator()(const ui::OpenLesson& a) const { s.open_lesson(a.path); }
+  void operator()(const ui::LessonStepTo& a) const {
+    if (s.refuse_while_busy("another step")) return;
+    s.lesson_.step_to(a.step);
+    s.begin_lesson_step();
+  }
+  void operator()(const ui::AnswerLesson& a) const { s.lesson_.answer(a.choice, a.stake); }
+  void operator()(const ui::AskMystery&) const {
+    if (!s.refuse_while_busy("the diagnosis")) s.lesson_.ask(s.jobs_);
+  }
+  void operator()(const ui::LeaveLesson&) const {
+    if (s.refuse_while_busy("something else")) return;
+    s.lesson_.leave();
+    s.playing_ = false;
+    if (s.before_lesson_) s.load(*s.before_lesson_, nullptr, "");
+    s.before_lesson_.reset();
   }
   void operator()(const ui::ReplayWith& a) const { s.comparison_.choose(a.vehicle); }
   void operator()(const ui::CalibrateFromRecording&) const {
@@ -322,6 +341,24 @@ bool Session::done_or_said(const Result<Done>& done) {
   return done.ok();
 }
 
+bool Session::open_lesson(const std::string& path) {
+  if (refuse_while_busy("the lesson")) return false;
+  const bool was_open = lesson_.is_open();
+  if (!done_or_said(lesson_.open(path))) return false;
+  if (!was_open && !replayed_) before_lesson_ = run_->scenario();
+  mode_ = ui::Mode::learn;
+  begin_lesson_step();
+  return true;
+}
+
+void Session::begin_lesson_step() {
+  const Scenario* scenario = lesson_.scenario();
+  if (!scenario) return;  // the floor stays as the last step left it
+  load(*scenario, nullptr, "");
+  speed_ = lesson_.step().mystery ? 10.0 : lesson_.step().speed;
+  playing_ = !scenario->benchmark;
+}
+
 bool Session::refuse_while_busy(const std::string& what) {
   if (!jobs_.running()) return false;
   say("Busy " + jobs_.name() + ": cancel it, or start " + what + " when it is done.", true);
@@ -353,6 +390,9 @@ bool Session::open(const std::string& path) {
       break;
     case FileKind::vehicle:
       opened = guide_in_hand() ? done_or_said(guide_.choose_vehicle(path, jobs_)) : open_vehicle(path);
+      break;
+    case FileKind::lesson:
+      opened = open_lesson(path);
       break;
     case FileKind::guide:
       opened = done_or_said(guide_.resume(path, jobs_));

@@ -11,6 +11,7 @@
 #include "app/gui/drive_run.h"
 #include "app/gui/guide_desk.h"
 #include "app/gui/jobs.h"
+#include "app/gui/lesson_desk.h"
 #include "app/gui/umbmark_bench.h"
 #include "ui/actions.h"
 #include "ui/panels/message_bar.h"
@@ -39,6 +40,7 @@ class Session {
   const UmbmarkBench& bench() const { return bench_; }
   const Comparison& comparison() const { return comparison_; }
   const GuideDesk& guide() const { return guide_; }
+  const LessonDesk& lesson() const { return lesson_; }
   const Jobs& jobs() const { return jobs_; }
   const std::vector<ui::Message>& messages() const { return messages_; }
   // The scenario's name, and the file that it came from.
@@ -73,6 +75,8 @@ class Session {
   // A guide is on the screen: what is dropped belongs to it.
   bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
   bool done_or_said(const Result<Done>& done);
+  bool open_lesson(const std::string& path);
+  void begin_lesson_step();
 
   ui::Mode mode_ = ui::Mode::drive;
   bool playing_ = false;
@@ -85,6 +89,8 @@ class Session {
   UmbmarkBench bench_;
   Comparison comparison_;
   GuideDesk guide_;
+  LessonDesk lesson_;
+  std::optional<Scenario> before_lesson_;  // to come back to
   std::optional<Vehicle> opened_vehicle_;
   std::vector<ui::Message> messages_;
   std::string titled_, title_file_;  // the scenario that came from a file, by its name

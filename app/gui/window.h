@@ -24,6 +24,7 @@ enum class Key {
   one,
   two,
   three,
+  four,
   erase,
   f1,
   f12,

@@ -95,9 +95,9 @@ void parts(Machine& machine, const VehicleKind& kind, const Part& part) {
 
 }  // namespace
 
-void read_actual(TomlTable table, Scenario& scenario) {
+void read_actual(TomlTable table, Scenario& scenario, bool as_drawn_at_first) {
   if (const auto* drive = std::get_if<DifferentialDrive>(&scenario.vehicle.kind)) {
-    scenario.actual = as_drawn(*drive);
+    if (as_drawn_at_first) scenario.actual = as_drawn(*drive);
     wheel_fields(scenario.actual, table);
     body_fields(scenario.actual, table);
     return;
@@ -106,7 +106,7 @@ void read_actual(TomlTable table, Scenario& scenario) {
   const std::string kind = kind_name(scenario.vehicle);
   if (table.has_table(kind.c_str())) {
     TomlTable lengths = table.table(kind.c_str());
-    scenario.machine.lengths = scenario.vehicle.kind;
+    if (as_drawn_at_first || !scenario.machine.lengths) scenario.machine.lengths = scenario.vehicle.kind;
     read_vehicle_kind(lengths, *scenario.machine.lengths);
   }
   parts(scenario.machine, scenario.vehicle.kind, [&](const char* name, const auto& fields) {

@@ -196,6 +196,8 @@ void read_floor(TomlTable table, Floor& floor) {
   floor_fields(floor, table);
   TomlTable roughness = table.table("roughness");
   roughness_fields(floor.roughness, roughness);
+  if (table.has("bump")) floor.bumps.clear();  // those of an included scenario
+  if (table.has("slip_zone")) floor.slip_zones.clear();
   for (TomlTable& element : table.tables("bump")) {
     Bump bump;
     bump_fields(bump, element);
@@ -279,6 +281,7 @@ void write_path(TomlText& text, const Path& path) {
 // The nominal vehicle: a file named, a table inside, or the LabMate where neither stands there.
 Result<Done> read_nominal(TomlTable& top, const std::string& path, Scenario& scenario) {
   if (top.has_table("vehicle")) {
+    scenario.vehicle_file.clear();
     TomlTable inside = top.table("vehicle");
     scenario.vehicle = vehicle_from(inside, "vehicle.");
     return Done{};
@@ -296,6 +299,66 @@ Result<Done> read_nominal(TomlTable& top, const std::string& path, Scenario& sce
   return Done{};
 }
 
+// What an included scenario says, seen from the including file.
+Result<Done> read_included(TomlTable& top, const std::string& path, Scenario& scenario) {
+  std::string named;
+  top.field("include", named);
+  const std::string file = beside(path, named);
+  std::error_code failure;
+  if (!std::filesystem::exists(file, failure))
+    return Error{top.place_of("include") + ": include", "'" + named + "', which does not exist",
+                 "a scenario, relative to this file"};
+  Result<Scenario> included = read_scenario(file);
+  if (!included) return included.error();
+  scenario = std::move(*included);
+  scenario.expectations.clear();
+  const auto seen_from_here = [&](std::string& other) {
+    if (!other.empty())
+      other = std::filesystem::path(beside(file, other))
+                  .lexically_relative(std::filesystem::path(path).parent_path().lexically_normal())
+                  .string();
+  };
+  seen_from_here(scenario.vehicle_file);
+  if (ReplayPath* replays = std::get_if<ReplayPath>(&scenario.path)) seen_from_here(replays->recording);
+  return Done{};
+}
+
+// All but the checks at the end, which are the whole file's.
+Result<Done> read_fields(TomlTable& top, const std::string& path, Scenario& scenario) {
+  const bool includes = top.has("include");
+  if (includes)
+    if (const Result<Done> done = read_included(top, path, scenario); !done) return done.error();
+  top_fields(scenario, top);
+  const bool another_vehicle = top.has("vehicle");
+  const Result<Done> nominal = read_nominal(top, path, scenario);
+  if (!nominal) return nominal.error();
+  if (another_vehicle) scenario.machine = {};
+
+  read_actual(top.table("actual"), scenario, !includes || another_vehicle);
+  TomlTable motor = top.table("motor");
+  motor_fields(scenario.motor, motor);
+  read_floor(top.table("floor"), scenario.floor);
+  if (top.has("effect")) scenario.effects.clear();
+  for (TomlTable& element : top.tables("effect")) scenario.effects.push_back(read_effect(element));
+  TomlTable start = top.table("start");
+  pose_fields(scenario.start, start);
+  TomlTable driving = top.table("driving");
+  driving_fields(scenario.driving, driving);
+  read_path(top.table("path"), scenario.path);
+  TomlTable sensors = top.table("sensors");
+  sensor_fields(scenario.sensors, sensors);
+  if (TomlTable benchmark = top.table("benchmark"); benchmark.present()) {
+    if (!scenario.benchmark) scenario.benchmark.emplace();
+    benchmark_fields(*scenario.benchmark, benchmark);
+  }
+  for (TomlTable& element : top.tables("expect")) {
+    element.require("figure");
+    expectation_fields(scenario.expectations.emplace_back(), element);
+    if (!element.has("at_least")) element.require("at_most");
+  }
+  return Done{};
+}
+
 }  // namespace
 
 std::string beside(const std::string& scenario_path, const std::string& named_file) {
@@ -309,32 +372,18 @@ Result<Scenario> read_scenario(const std::string& path) {
   if (!file) return file.error();
   TomlTable& top = *file;
   Scenario scenario;
-  top_fields(scenario, top);
-  const Result<Done> nominal = read_nominal(top, path, scenario);
-  if (!nominal) return nominal.error();
-
-  read_actual(top.table("actual"), scenario);
-  TomlTable motor = top.table("motor");
-  motor_fields(scenario.motor, motor);
-  read_floor(top.table("floor"), scenario.floor);
-  for (TomlTable& element : top.tables("effect")) scenario.effects.push_back(read_effect(element));
-  TomlTable start = top.table("start");
-  pose_fields(scenario.start, start);
-  TomlTable driving = top.table("driving");
-  driving_fields(scenario.driving, driving);
-  read_path(top.table("path"), scenario.path);
-  TomlTable sensors = top.table("sensors");
-  sensor_fields(scenario.sensors, sensors);
-  if (TomlTable benchmark = top.table("benchmark"); benchmark.present())
-    benchmark_fields(scenario.benchmark.emplace(), benchmark);
-  for (TomlTable& element : top.tables("expect")) {
-    element.require("figure");
-    expectation_fields(scenario.expectations.emplace_back(), element);
-    if (!element.has("at_least")) element.require("at_most");
-  }
+  if (const Result<Done> read = read_fields(top, path, scenario); !read) return read.error();
   const Result<Done> done = top.finish();
   if (!done) return done.error();
   for (const std::string& problem : problems_in(scenario)) return top.error_of(problem);
+  return scenario;
+}
+
+Result<Scenario> scenario_from(TomlTable& table, const std::string& path) {
+  Scenario scenario;
+  if (const Result<Done> read = read_fields(table, path, scenario); !read) return read.error();
+  if (table.failure()) return *table.failure();
+  for (const std::string& problem : problems_in(scenario)) return Error{path + ": scenario." + problem, "", ""};
   return scenario;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/random.h"
 #include "core/recording/vehicle_samples.h"
+#include "physics/driven_recording.h"
 #include "physics/experiments/castor_prototype.h"
 #include "physics/simulation.h"
 
@@ -113,13 +114,13 @@ InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint
                                                   {"manoeuvres", moves}};
     int done = 0;
     for (const auto& [name, path] : paths) {
-      Simulation simulation(clapper_scenario(nominal, actual, path), seed_of_stream(seed, 10 + done));
       const int before = done;
-      const bool arrived = drive_to_end(
-          simulation, [&progress, before](double share) { return goes_on(progress, 0.5 * (before + share)); });
-      if (!arrived) return {};
+      const auto recording =
+          driven_recording(clapper_scenario(nominal, actual, path), seed_of_stream(seed, 10 + done),
+                           [&progress, before](double share) { return goes_on(progress, 0.5 * (before + share)); });
+      if (!recording) return {};
       ++done;
-      drives.recordings.push_back(simulation.recording());
+      drives.recordings.push_back(*recording);
       drives.recordings.back().name = name;
     }
   }

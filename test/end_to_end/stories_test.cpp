@@ -1,6 +1,7 @@
 // The two stories of the README: what hides, and is found.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,38 @@ TEST(Stories, APatchThatUndoesItselfAtTheReturnIsFoundWhereItLies) {
   EXPECT_EQ(d["findings"][0]["effect"], "slip_zone");
   const nlohmann::json& zone = d["findings"][0]["where"]["zone"];
   EXPECT_LT(std::hypot(zone["x_m"].get<double>() - 1.5, zone["y_m"].get<double>() - 0.3), 0.2);  // the bar of the proof
+}
+
+// The lessons keep telling the truth: each step as its lesson expects.
+class LessonStories : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(LessonStories, HoldsWhatItSays) {
+  const Outcome checked = odolab("run 'assets/lessons/" + GetParam() + ".toml' --check");
+  EXPECT_EQ(checked.exit_code, 0) << checked.output << checked.errors;
+  EXPECT_NE(checked.output.find("ok: "), std::string::npos);
+}
+
+std::vector<std::string> lessons() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(ODOLAB_SOURCE_DIR "/assets/lessons"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Lessons, LessonStories, ::testing::ValuesIn(lessons()),
+                         [](const auto& info) { return "of_" + info.param; });
+
+TEST(LessonsStories, ALessonThatNoLongerHoldsFailsAndABrokenOneIsBadInput) {
+  const auto folder = fresh_folder("lessons");
+  std::ofstream(folder / "wrong.toml")
+      << "lesson = \"Wrong\"\n[[step]]\ntitle = \"One\"\ntext = \"Words\"\nscenario = \"" ODOLAB_SOURCE_DIR
+         "/assets/scenarios/no_error.toml\"\n[[step.check]]\nfigure = \"end_position_error_m\"\nat_least = 1.0\n";
+  std::ofstream(folder / "broken.toml") << "lesson = \"Broken\"\n[[step]]\ntitle = 3\n";
+  EXPECT_EQ(odolab("run '" + (folder / "wrong.toml").string() + "' --check").exit_code, 1);
+  const Outcome broken = odolab("run '" + (folder / "broken.toml").string() + "' --check");
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_NE(broken.errors.find("broken.toml:3"), std::string::npos) << broken.errors;
 }
 
 }  // namespace

@@ -178,8 +178,7 @@ void heading(const char* title, const Theme& theme) {
   ImGui::TextUnformatted(title);
 }
 
-void words(const std::string& text, ImU32 colour, float width) {
-  if (width <= 0.0f) width = ImGui::GetContentRegionAvail().x;
+std::string wrapped_at(const std::string& text, float width) {
   std::string lines, line;
   std::size_t at = 0;
   while (at < text.size()) {
@@ -197,7 +196,11 @@ void words(const std::string& text, ImU32 colour, float width) {
     }
     at = end + 1;
   }
-  lines += line;
+  return lines + line;
+}
+
+void words(const std::string& text, ImU32 colour, float width) {
+  const std::string lines = wrapped_at(text, width > 0.0f ? width : ImGui::GetContentRegionAvail().x);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0.0f);  // for what has no blank
   ImGui::TextUnformatted(lines.c_str());

@@ -22,7 +22,7 @@ void keys_panel(bool& open, const Theme& theme) {
       {"Q, E", "the same, to the left and to the right"},
       {"Ctrl+Z, Ctrl+Y", "undo, redo"},
       {"Ctrl+O, Ctrl+S", "open, save the recording as CSV"},
-      {"1, 2, 3", "Drive, Calibrate, Compare"},
+      {"1, 2, 3, 4", "Drive, Calibrate, Compare, Learn"},
       {"H", "hide and show the interface"},
       {"F12", "save a picture"},
       {"F1", "this list"},

@@ -4,6 +4,7 @@
 #include "app/cli/terminal.h"
 #include "core/io/picture/line_picture.h"
 #include "core/io/picture/track_picture.h"
+#include "core/odometry/cast_rejection.h"
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -22,6 +23,23 @@ std::string gap_picture(const Track& believed, const Track& exact) {
     heading.y.push_back(10.0 * degrees(std::abs(gap.heading_rad)));
   }
   return line_picture({"How far the robot is from where it believes to be", "time [s]", "gap", {position, heading}});
+}
+
+// What three castors or more make of the run when the one that contradicts the others is disregarded.
+void add_outvoted(RunOutputs& out, const Simulation& simulation, const Scenario& scenario) {
+  const auto* vehicle = std::get_if<MultiCastor>(&scenario.vehicle.kind);
+  if (!vehicle || vehicle->castors.size() < 3) return;
+  const std::vector<CastorSample> samples = castor_samples(simulation.recording(), vehicle->castors.size());
+  const RejectingTrack rejecting = castor_track_with_rejection(samples, *vehicle, scenario.start);
+  if (rejecting.track.empty()) return;
+  const Pose gap = between(simulation.state().true_pose, rejecting.track.back().pose);
+  out.figure("outvoted_end_position_error_m", length(gap.position()));
+  out.figure("outvoted_end_heading_error_rad", std::abs(wrapped(gap.heading_rad)));
+  double disregarded_s = 0.0;
+  for (const DisregardedCastor& d : rejecting.disregarded) disregarded_s += d.to_s - d.from_s;
+  out.sentences.push_back(
+      text_of("With the castor disregarded that contradicts the others (%.1f s in all) it is %.1f mm and %.2f degrees.",
+              disregarded_s, 1e3 * length(gap.position()), degrees(std::abs(wrapped(gap.heading_rad)))));
 }
 
 }  // namespace
@@ -62,6 +80,7 @@ Result<RunOutputs> drive_outputs(const Scenario& scenario, std::uint64_t seed, c
       "the way it was up to %.1f mm.",
       travelled_m(exact), simulation.state().time_s, 1e3 * length(gap.position()),
       degrees(std::abs(wrapped(gap.heading_rad))), whole ? 1e3 * whole->largest_position_m : 0.0));
+  add_outvoted(out, simulation, scenario);
   out.recordings.emplace_back("recording", simulation.recording());
   out.tracks.emplace_back("true_track", exact);
   out.tracks.emplace_back("estimated_track", believed);

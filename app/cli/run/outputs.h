@@ -28,6 +28,9 @@ struct RunOutputs {
   void figure(const std::string& name, double value) { figures.emplace_back(name, value); }
 };
 
+// The run that a scenario asks for, whatever its kind.
+Result<RunOutputs> run_outputs(const Scenario& scenario, const std::string& scenario_path, const Progress& progress);
+
 // The kinds of run, one file each. `scenario_path` is where the scenario's own files are looked for.
 Result<RunOutputs> drive_outputs(const Scenario& scenario, std::uint64_t seed, const Progress& progress);
 Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& scenario_path, const Progress& progress);

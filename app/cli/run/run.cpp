@@ -2,8 +2,11 @@
 #include <filesystem>
 
 #include "app/cli/command.h"
+#include "app/cli/run/judge.h"
+#include "app/cli/run/lesson.h"
 #include "app/cli/run/outputs.h"
 #include "app/cli/terminal.h"
+#include "core/io/file_kind.h"
 #include "core/io/recording_csv.h"
 #include "core/io/scenario_toml.h"
 #include "core/io/track_csv.h"
@@ -17,14 +20,6 @@ struct RunOptions {
   std::string scenario, out, seed;
   bool check = false;
 };
-
-Result<RunOutputs> run(const Scenario& scenario, const std::string& path, const Progress& progress) {
-  if (scenario.benchmark && scenario.benchmark->extended)
-    return extended_umbmark_outputs(scenario, scenario.seed, progress);
-  if (scenario.benchmark) return umbmark_outputs(scenario, scenario.seed, progress);
-  if (std::holds_alternative<ReplayPath>(scenario.path)) return replay_outputs(scenario, path, progress);
-  return drive_outputs(scenario, scenario.seed, progress);
-}
 
 Result<Done> write(const RunOutputs& out, const Scenario& scenario, const std::string& folder) {
   Json summary = Json::object();
@@ -60,33 +55,6 @@ Result<Done> write(const RunOutputs& out, const Scenario& scenario, const std::s
   return *failure;
 }
 
-struct Judgement {
-  bool all_hold = true;
-  std::string lines;  // how each expectation fared
-};
-
-// An Error where an expectation asks for a figure that this run does not have.
-Result<Judgement> judge(const Scenario& scenario, const RunOutputs& out, const std::string& path) {
-  Judgement judgement;
-  for (const Expectation& e : scenario.expectations) {
-    const double* value = nullptr;
-    std::string known;
-    for (const auto& [name, figure] : out.figures) {
-      if (name == e.figure) value = &figure;
-      known += (known.empty() ? "" : ", ") + name;
-    }
-    if (!value) return Error{path + ": expect", "the figure '" + e.figure + "'", "one of " + known};
-    const bool holds = (!e.at_least || *value >= *e.at_least) && (!e.at_most || *value <= *e.at_most);
-    judgement.all_hold = judgement.all_hold && holds;
-    std::string range;
-    if (e.at_least) range += text_of(" at least %g", *e.at_least);
-    if (e.at_most) range += text_of("%s at most %g", e.at_least ? " and" : "", *e.at_most);
-    judgement.lines +=
-        text_of("%s: %s is %g, expected%s\n", holds ? "ok" : "FAILED", e.figure.c_str(), *value, range.c_str());
-  }
-  return judgement;
-}
-
 std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
   const ActualDrive& actual = scenario.actual;
   if (!std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind))
@@ -103,6 +71,7 @@ std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
 }
 
 int execute(const RunOptions& options) {
+  if (file_kind(options.scenario) == FileKind::lesson) return run_lesson(options.scenario, options.out, options.check);
   Result<Scenario> scenario = read_scenario(options.scenario);
   if (!scenario) return bad_input(scenario.error());
   if (!options.seed.empty()) {
@@ -111,10 +80,10 @@ int execute(const RunOptions& options) {
         read.ec != std::errc() || read.ptr != end)
       return bad_input({"--seed", "'" + options.seed + "'", "a whole number from 0 to 18446744073709551615"});
   }
-  Result<RunOutputs> out = run(*scenario, options.scenario, terminal_progress("running"));
+  Result<RunOutputs> out = run_outputs(*scenario, options.scenario, terminal_progress("running"));
   if (!out) return bad_input(out.error());
 
-  const Result<Judgement> judgement = judge(*scenario, *out, options.scenario);
+  const Result<Judgement> judgement = judge(scenario->expectations, out->figures, options.scenario + ": expect");
   if (!judgement) return bad_input(judgement.error());
   HtmlReport report(scenario->name);
   if (!scenario->about.empty()) report.paragraph(scenario->about);
@@ -142,6 +111,14 @@ int execute(const RunOptions& options) {
 }
 
 }  // namespace
+
+Result<RunOutputs> run_outputs(const Scenario& scenario, const std::string& path, const Progress& progress) {
+  if (scenario.benchmark && scenario.benchmark->extended)
+    return extended_umbmark_outputs(scenario, scenario.seed, progress);
+  if (scenario.benchmark) return umbmark_outputs(scenario, scenario.seed, progress);
+  if (std::holds_alternative<ReplayPath>(scenario.path)) return replay_outputs(scenario, path, progress);
+  return drive_outputs(scenario, scenario.seed, progress);
+}
 
 Command run_command() {
   const auto options = std::make_shared<RunOptions>();
