@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/units/unit_models.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/replay.h"
 
@@ -74,9 +75,40 @@ std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& e
 
 }  // namespace
 
+// Each unit of a linked or castor vehicle driven alone by its own wheels: the joints say where it should come to.
+static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings, const FittedModel& before,
+                                        const FittedModel& after, const std::optional<FitFigures>& noise_floor,
+                                        const Progress& progress) {
+  ModelReplay result;
+  const std::size_t units = units_of(after.vehicle).size();
+  const auto add = [&](std::optional<FitFigures>& sum, const std::optional<FitFigures>& one) {
+    if (!one) return;
+    if (!sum) sum = FitFigures{};
+    const double share = 1.0 / static_cast<double>(units);
+    sum->position_rms_m =
+        std::sqrt(sum->position_rms_m * sum->position_rms_m + share * one->position_rms_m * one->position_rms_m);
+    sum->heading_rms_rad =
+        std::sqrt(sum->heading_rms_rad * sum->heading_rms_rad + share * one->heading_rms_rad * one->heading_rms_rad);
+    sum->normalised_chi2 += share * one->normalised_chi2;
+  };
+  for (std::size_t u = 0; u < units; ++u) {
+    const Progress part = [&](double share) {
+      return goes_on(progress, (static_cast<double>(u) + share) / static_cast<double>(units));
+    };
+    Result<ModelReplay> one = replay_model(recordings_of_unit(recordings, after, u), model_of_unit(before, u),
+                                           model_of_unit(after, u), noise_floor, part);
+    if (!one) return one.error();
+    add(result.fit.calibrated, one->fit.calibrated);
+    add(result.fit.with_findings, one->fit.with_findings);
+    for (std::string& sentence : one->not_switched_on) result.not_switched_on.push_back(std::move(sentence));
+  }
+  return result;
+}
+
 Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
                                  const FittedModel& after, const std::optional<FitFigures>& noise_floor,
                                  const Progress& progress) {
+  if (has_units(after.vehicle)) return replay_units(recordings, before, after, noise_floor, progress);
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {

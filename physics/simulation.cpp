@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scenario/effect_catalogue.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
 #include "physics/effects/effects.h"
@@ -40,6 +41,17 @@ Scenario with_effects_built_in(Scenario scenario, const planar::Effects& effects
   return scenario;
 }
 
+// Those of parts are the parts' own business.
+std::vector<ActiveEffect> of_the_whole(std::vector<ActiveEffect> effects) {
+  const auto of_a_part = [](const ActiveEffect& e) {
+    const bool of_a_joint =
+        e.effect == "link_angle_bias" || e.effect == "link_length_bias" || e.effect == "pivot_angle_bias";
+    return !of_a_joint && !part_component(e.component).part.empty();
+  };
+  effects.erase(std::remove_if(effects.begin(), effects.end(), of_a_part), effects.end());
+  return effects;
+}
+
 // Steps between two readings of a sensor.
 std::int64_t steps_in(double period_s, double step_s) {
   return std::max<std::int64_t>(1, std::llround(period_s / step_s));
@@ -52,7 +64,7 @@ struct Simulation::Parts {
         const std::vector<std::shared_ptr<planar::Effect>>& own)
       : scenario(given),
         replayed(std::move(recorded)),
-        effects(scenario.effects, {scenario.actual, scenario.step_s}, own),
+        effects(of_the_whole(scenario.effects), {scenario.actual, scenario.step_s}, own),
         mounting(effects.mounted(scenario.vehicle.truth)),
         floor_seed(seed_of_stream(seed, kFloorStream)),
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),

@@ -5,12 +5,14 @@
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/units/vehicle_units.h"
 #include "core/io/diagnosis_html.h"
 #include "core/io/diagnosis_json.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/model_toml.h"
 #include "core/io/vehicle_toml.h"
+#include "core/recording/vehicle_samples.h"
 #include "physics/model_replay.h"
 
 namespace odolab {
@@ -28,9 +30,12 @@ struct DiagnoseOptions {
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
   if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
     return Error{path + ": " + problems.front(), "", ""};
-  const auto& drive = std::get<DifferentialDrive>(vehicle.kind);
-  const std::size_t inputs = std::max(wheel_samples(recording, drive).size(), command_samples(recording).size());
-  if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
+  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
+    const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
+    if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
+  } else if (const std::string missing = missing_columns(recording, vehicle); !missing.empty()) {
+    return Error{path, "no " + missing, "the encoders of a " + kind_name(vehicle)};
+  }
   const std::size_t truths = truth_samples(recording).size();
   if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
   return std::nullopt;
@@ -94,7 +99,8 @@ Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, c
 int execute(const DiagnoseOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
-  if (const auto other = other_than_differential_drive(*nominal, "can be diagnosed")) return bad_input(*other);
+  if (!has_units(*nominal))
+    if (const auto other = other_than_differential_drive(*nominal, "can be diagnosed")) return bad_input(*other);
   for (const std::string& seen : options.recordings)
     for (const std::string& unseen : options.hold_out)
       if (is_same_file(seen, unseen))

@@ -9,6 +9,8 @@
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/select.h"
+#include "core/diagnosis/units/diagnose_units.h"
+#include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/where.h"
 
 namespace odolab {
@@ -213,6 +215,7 @@ ActiveEffect Finding::as_active() const {
 
 Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  if (has_units(nominal)) return diagnose_units(train, held_out, nominal, options, progress);
   if (const auto other = other_than_differential_drive(nominal, "can be diagnosed")) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())

@@ -4,14 +4,17 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/quality.h"
+#include "core/diagnosis/units/prediction.h"
+#include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {
 
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle,
                               const std::vector<ActiveEffect>& effects) {
   if (effects.empty()) return predicted_track(recording, vehicle);
+  if (has_units(vehicle)) return predicted_track_of_units(recording, vehicle, effects);
   const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
   if (const auto other = other_than_differential_drive(vehicle, "can have effects fitted to it")) return *other;
   const CheckedRecording ready = checked(recording, vehicle);
@@ -46,25 +49,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   Track track;
   for (int pass = 0; pass < 2; ++pass) {
     const DriveView view = drive_view(0, run, *drive, from_commands, track);
-    Motions sum(view.steps.size());
-    for (const ActiveEffect& a : effects) {
-      const Effect* e = catalogue_entry(a);
-      if (!e || e->clock_rate || (e->only_commands && !from_commands)) continue;
-      std::vector<double> value, shape;
-      if (e->from_parameters)
-        value = e->from_parameters(a);
-      else
-        for (const Effect::Amplitude& p : e->amplitudes) value.push_back(a.parameter(p.name));
-      for (const Effect::Amplitude& p : e->shapes) shape.push_back(p.name == "recording" ? 0.0 : a.parameter(p.name));
-      if (e->forms.size() > 1) shape.push_back(a.parameter("form"));
-      const std::vector<Motions> motions = e->motions(view, shape);
-      for (std::size_t k = 0; k < motions.size(); ++k)
-        for (std::size_t i = 0; i < motions[k].size(); ++i) {
-          sum[i].forward_m += value[k] * motions[k][i].forward_m;
-          sum[i].sideways_m += value[k] * motions[k][i].sideways_m;
-          sum[i].turn_rad += value[k] * motions[k][i].turn_rad;
-        }
-    }
+    const Motions sum = motions_of(view, effects);
     track.clear();
     Pose pose;
     track.push_back({run.wheels[0].time_s, pose});

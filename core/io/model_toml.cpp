@@ -30,7 +30,8 @@ FittedEffect read_effect(TomlTable& table) {
   effect.active.effect = entry.name;
   if (table.failure()) return effect;
   table.require("component");
-  effect.active.component = entry.components[table.index_of_choice("component", 0, entry.components)];
+  table.field("component", effect.active.component);
+  if (!may_act_on(entry, effect.active.component)) table.index_of_choice("component", 0, entry.components);
   table.field("recording", effect.recording);
   const bool at_a_time = table.has("at_s");
   TomlTable errors = table.table("stderr");

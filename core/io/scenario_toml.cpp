@@ -222,7 +222,8 @@ ActiveEffect read_effect(TomlTable& table) {
   active.effect = entry.name;
   if (table.failure()) return active;
   table.require("component");
-  active.component = entry.components[table.index_of_choice("component", 0, entry.components)];
+  table.field("component", active.component);
+  if (!may_act_on(entry, active.component)) table.index_of_choice("component", 0, entry.components);
   for (const EffectParameter& parameter : entry.parameters) {
     if (parameter.required) table.require(parameter.name.c_str());
     std::optional<double> value;

@@ -35,6 +35,16 @@ bool is_one_of(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+bool is_part(const std::string& word) {
+  if (word == "truck_a" || word == "truck_b" || word == "trailer") return true;
+  return word.size() == 7 && word.rfind("castor", 0) == 0 && word[6] >= '1' && word[6] <= '9';
+}
+
+// Biased encoders are of a part as such, and not of the vehicle that it is.
+bool is_of_a_joint(const std::string& effect) {
+  return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
+}
+
 void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
                       std::vector<std::string>& problems) {
   for (const auto& [name, value] : active.parameters) {
@@ -114,6 +124,34 @@ const std::vector<EffectEntry>& effect_catalogue() {
   return entries;
 }
 
+PartComponent part_component(const std::string& component) {
+  const std::size_t dot = component.find('.');
+  if (dot != std::string::npos) return {component.substr(0, dot), component.substr(dot + 1)};
+  if (is_part(component)) return {component, "vehicle"};
+  return {"", component};
+}
+
+bool may_act_on(const EffectEntry& entry, const std::string& component) {
+  if (is_one_of(entry.components, component)) return true;
+  const PartComponent of = part_component(component);
+  const bool is_wheel = of.component == "left_wheel" || of.component == "right_wheel" || of.component == "both_wheels";
+  const bool words_fit = component.find('.') == std::string::npos ? of.component == "vehicle" : is_wheel;
+  return is_part(of.part) && words_fit && is_one_of(entry.components, of.component);
+}
+
+std::vector<ActiveEffect> effects_of_part(const std::vector<ActiveEffect>& effects, const std::string& part) {
+  std::vector<ActiveEffect> own;
+  for (ActiveEffect active : effects) {
+    if (is_of_a_joint(active.effect)) continue;
+    const PartComponent of = part_component(active.component);
+    const bool of_all = active.effect == "floor_slope_creep";
+    if (!of_all && (of.part.empty() || of.part != part)) continue;
+    active.component = of.component;
+    own.push_back(std::move(active));
+  }
+  return own;
+}
+
 const EffectEntry* effect_entry(const std::string& name) {
   for (const EffectEntry& entry : effect_catalogue())
     if (entry.name == name) return &entry;
@@ -130,7 +168,7 @@ std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects) {
       problems.push_back(key + ".effect: found '" + active.effect + "', expected an effect of a differential drive");
       continue;
     }
-    if (!is_one_of(entry->components, active.component))
+    if (!may_act_on(*entry, active.component))
       problems.push_back(key + ".component: found '" + active.component + "', expected " + joined(entry->components));
     check_parameters(active, *entry, key, problems);
   }

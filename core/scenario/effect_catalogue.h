@@ -22,6 +22,19 @@ struct EffectEntry {
   std::vector<EffectParameter> parameters;
 };
 
+// "truck_a.left_wheel" is the left wheel of truck A, "truck_a" that truck as a whole: the part, and what of it, in the
+// words of a vehicle with two wheels. The part is empty where a component is of the vehicle itself.
+struct PartComponent {
+  std::string part, component;
+};
+PartComponent part_component(const std::string& component);
+
+// Whether an effect may be switched on there: one of its components, or one of a part that has wheels.
+bool may_act_on(const EffectEntry& entry, const std::string& component);
+
+// Those of one part ("truck_b", "trailer", "castor2"), in its own words, and those of the floor, which all parts feel.
+std::vector<ActiveEffect> effects_of_part(const std::vector<ActiveEffect>& effects, const std::string& part);
+
 // Every effect; the last ones are those of linked and castor vehicles.
 const std::vector<EffectEntry>& effect_catalogue();
 

@@ -9,6 +9,23 @@ namespace odolab {
 
 namespace {
 constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
+
+// Whether the planar world has this effect on a vehicle of several parts: all of what drives a truck or castor, but for
+// what is laid on the floor for one wheel or acts on the base's commands; of a trailer's free wheels what they count.
+bool acts_on_a_part(const VehicleKind& kind, const ActiveEffect& effect) {
+  const std::string& name = effect.effect;
+  if (effect.component == "truth" || name == "slip_zone" || name == "clock_rate") return true;
+  const bool driven = !std::holds_alternative<Tracked>(kind) && !std::holds_alternative<SynchroDrive>(kind) &&
+                      !std::holds_alternative<EncoderTrailer>(kind);
+  if (name == "floor_slope_creep") return driven && !std::holds_alternative<SmartEncoderTrailer>(kind);
+  if (name == "bump" || name == "actuator_lag" || name == "actuator_delay") return false;
+  const PartComponent of = part_component(effect.component);
+  if (of.part.empty()) return std::holds_alternative<SmartEncoderTrailer>(kind);  // of the towing vehicle
+  if (!has_linked_part(kind, of.part)) return false;
+  if (of.part != "trailer") return true;
+  return name == "wheel_eccentricity" || name == "encoder_missed_counts" || name == "radius_drift" ||
+         name == "speed_dependent_radius" || name == "encoder_data_fault";
+}
 }  // namespace
 
 std::vector<std::string> problems_in(const Scenario& s) {
@@ -33,9 +50,13 @@ std::vector<std::string> problems_in(const Scenario& s) {
     if (of_a_part && !has_linked_part(s.vehicle.kind, effect.component))
       problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
                          ", which this kind of vehicle does not have, expected one of its own parts");
-    if (!of_a_part && !one_drive && effect.component != "truth" && effect.effect != "slip_zone")
+    if (!of_a_part && !one_drive && !acts_on_a_part(s.vehicle.kind, effect))
       problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
-                         ", expected slip zones, biased encoders or effects of the truth for this kind of vehicle");
+                         ", expected slip zones, clocks, biased encoders, effects of the truth, or effects of wheels " +
+                         "that a part of this vehicle has, as truck_a.left_wheel");
+    if (one_drive && !part_component(effect.component).part.empty() && !of_a_part)
+      problems.push_back("effect: found '" + effect.effect + "' on " + effect.component +
+                         ", expected a component of a vehicle without parts");
   }
   if (!one_drive) {
     if (s.benchmark) problems.push_back("benchmark: found one, expected none for this kind of vehicle");

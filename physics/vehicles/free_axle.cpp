@@ -5,10 +5,12 @@
 namespace odolab {
 
 FreeAxle::FreeAxle(PlanarWorld& world, int body, const DifferentialDrive& actual, double counts_per_turn, int number,
-                   Random& phases)
+                   const planar::Effects& effects, double step_s, Random& phases)
     : world_(&world),
       body_(body),
       number_(number),
+      effects_(&effects),
+      step_s_(step_s),
       wheels_{Wheel{Side::left,
                     {0.0, 0.5 * actual.wheelbase_m},
                     actual.wheel_radius_left_m,
@@ -22,7 +24,7 @@ FreeAxle::FreeAxle(PlanarWorld& world, int body, const DifferentialDrive& actual
 
 void FreeAxle::before_step() { before_ = world_->pose(body_); }
 
-void FreeAxle::after_step(const Ground& ground, double step_s) {
+void FreeAxle::after_step(const Ground& ground) {
   const Pose& after = world_->pose(body_);
   const double turn_rad = after.heading_rad - before_.heading_rad;
   const double heading_rad = before_.heading_rad + 0.5 * turn_rad;
@@ -33,17 +35,34 @@ void FreeAxle::after_step(const Ground& ground, double step_s) {
     const Contact contact = ground.under({wheel.side, middle + rotated(wheel.place, heading_rad), heading_rad,
                                           wheel.radius_m, wheel.travelled_m, number_});
     wheel.travelled_m += rolled_m;
-    const double turned_rad = rolled_m / (wheel.radius_m * contact.horizontal_share);
+    planar::RollingWheel rolling;
+    rolling.side = wheel.side;
+    rolling.rotation_rad = wheel.state.rotation_rad;
+    rolling.speed_radps = rolled_m / (wheel.radius_m * step_s_);
+    rolling.radius_m = wheel.radius_m;
+    planar::VehicleMotion motion;
+    motion.since_start_s = motion.time_s = (static_cast<double>(steps_) + 0.5) * step_s_;
+    for (const auto& effect : *effects_) effect->roll(motion, rolling);
+    const double turned_rad = rolled_m / (rolling.radius_m * contact.horizontal_share);
+    double counted_rad = turned_rad;
+    for (const auto& effect : *effects_) effect->count(wheel.side, turned_rad / step_s_, counted_rad);
     wheel.state.rotation_rad += turned_rad;
-    wheel.state.speed_radps = turned_rad / step_s;
+    wheel.state.counted_rad += counted_rad;
+    wheel.state.speed_radps = turned_rad / step_s_;
     wheel.state.on_bump = contact.on_bump;
     wheel.state.in_slip_zone = contact.in_slip_zone;
   }
+  ++steps_;
 }
 
-WheelPair FreeAxle::read() const {
-  return {wheels_[0].encoder.reading_rad(wheels_[0].state.rotation_rad),
-          wheels_[1].encoder.reading_rad(wheels_[1].state.rotation_rad)};
+WheelPair FreeAxle::read(double time_s) const {
+  WheelPair now{wheels_[0].encoder.reading_rad(wheels_[0].state.counted_rad),
+                wheels_[1].encoder.reading_rad(wheels_[1].state.counted_rad)};
+  for (const auto& effect : *effects_) {
+    effect->read_encoder(Side::left, time_s, now.left);
+    effect->read_encoder(Side::right, time_s, now.right);
+  }
+  return now;
 }
 
 }  // namespace odolab

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "core/vehicle/differential_drive.h"
+#include "physics/effects/effects.h"
 #include "physics/ground.h"
 #include "physics/planar_world.h"
 #include "physics/sensors/encoder.h"
@@ -18,12 +20,13 @@ class Random;
 class FreeAxle {
  public:
   // `actual` are the true wheels, `counts_per_turn` the encoders'; the number tells its roughness from other axles'.
+  // The effects must outlive it; those that change how a wheel rolls or counts act on it.
   FreeAxle(PlanarWorld& world, int body, const DifferentialDrive& actual, double counts_per_turn, int number,
-           Random& phases);
+           const planar::Effects& effects, double step_s, Random& phases);
 
   void before_step();
-  void after_step(const Ground& ground, double step_s);  // a wheel turns by what it travelled, and on a bump by more
-  WheelPair read() const;
+  void after_step(const Ground& ground);  // a wheel turns by what it travelled, and on a bump by more
+  WheelPair read(double time_s) const;
   const WheelState& left() const { return wheels_[0].state; }
   const WheelState& right() const { return wheels_[1].state; }
 
@@ -40,6 +43,9 @@ class FreeAxle {
   PlanarWorld* world_;
   int body_;
   int number_;
+  const planar::Effects* effects_;
+  double step_s_;
+  std::int64_t steps_ = 0;
   Pose before_;
   std::array<Wheel, 2> wheels_;
 };

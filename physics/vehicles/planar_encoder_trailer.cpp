@@ -1,14 +1,15 @@
 // A tracked vehicle that tows the Basic Encoder Trailer: a second body, pinned to the first at the hitch, on two wheels
 // that roll freely and only count. Pushed backwards it swivels round its hitch like a castor, and leads.
-#include <array>
 #include <optional>
 
 #include "core/base/random.h"
 #include "core/odometry/differential_drive.h"
 #include "core/odometry/encoder_trailer.h"
+#include "core/scenario/effect_catalogue.h"
 #include "physics/sensors/encoder.h"
 #include "physics/sensors/slip_ring.h"
 #include "physics/vehicles/axle_commands.h"
+#include "physics/vehicles/free_axle.h"
 #include "physics/vehicles/pair_of_tracks.h"
 #include "physics/vehicles/planar_vehicle.h"
 
@@ -35,6 +36,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
                                 masses_.mass_kg, masses_.moment_of_inertia_kgm2})),
         tracks_(world_, body_, actual.tow, setup.scenario.machine.tracks, setup.scenario.actual, setup.scenario.motor,
                 step_s_),
+        effects_(effects_of_part(setup.scenario.effects, "trailer"), {setup.scenario.actual, step_s_}),
         slip_ring_(setup.scenario.machine.slip_ring.bursts_per_s, setup.scenario.machine.slip_ring.largest_burst_counts,
                    seed_of_stream(setup.sensor_seed, 1)),
         hitch_noise_(seed_of_stream(setup.sensor_seed, 2)),
@@ -42,29 +44,23 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
         believed_(setup.start) {
     world_.add_pin(
         {body_, towed_, tracks_middle_ * Vec2{-actual.hitch_offset_m, 0.0}, Vec2{actual.drawbar_length_m, 0.0}});
-    world_.add_free_wheel(towed_, {});  // both wheels: on one axle they hold the same sideways motion
     Random phases(setup.sensor_seed);
     left_encoder_ = Encoder(nominal_.tow.counts_per_wheel_turn(), phases.uniform());
     right_encoder_ = Encoder(nominal_.tow.counts_per_wheel_turn(), phases.uniform());
-    constexpr Side kSides[] = {Side::left, Side::right};
-    for (std::size_t i = 0; i < 2; ++i) {
-      wheels_[i].side = kSides[i];
-      wheels_[i].place = {0.0, (i == 0 ? 0.5 : -0.5) * actual_.trailer.wheelbase_m};
-      wheels_[i].radius_m = i == 0 ? actual_.trailer.wheel_radius_left_m : actual_.trailer.wheel_radius_right_m;
-      wheels_[i].encoder = Encoder(nominal_.trailer.counts_per_wheel_turn(), phases.uniform());
-    }
+    axle_.emplace(world_, towed_, actual.trailer, nominal.trailer.counts_per_wheel_turn(), kTrailerAxle, effects_,
+                  step_s_, phases);
   }
 
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
     tracks_.turn_motors(
         between(wheel_speeds(command.before, nominal_.tow), wheel_speeds(command.next, nominal_.tow), command.share));
     tracks_.before_step(ground, floor);
-    const Pose before = world_.pose(towed_);
+    axle_->before_step();
     pull_downhill(world_, body_, tow_mass_kg_, floor);
     pull_downhill(world_, towed_, masses_.mass_kg, floor);
     world_.step();
     tracks_.after_step();
-    roll_trailer(ground, before);
+    axle_->after_step(ground);
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
 
@@ -85,7 +81,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   }
   void pose_parts(VehiclePosture& posture) const override {
     posture.bodies = {world_.pose(body_), world_.pose(towed_)};
-    posture.wheels = {left(), right(), wheels_[0].state, wheels_[1].state};
+    posture.wheels = {left(), right(), axle_->left(), axle_->right()};
     posture.gauges = {{wrapped(world_.pose(body_).heading_rad - world_.pose(towed_).heading_rad), 0.0}};
   }
 
@@ -96,8 +92,8 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   void sample(double time_s, std::vector<double>& readings) override {
     const WheelPair noise = slip_ring_.false_counts(time_s);
     const double rad_per_count = 2.0 * kPi / nominal_.trailer.counts_per_wheel_turn();
-    const WheelPair now{wheels_[0].encoder.reading_rad(wheels_[0].state.rotation_rad) + noise.left * rad_per_count,
-                        wheels_[1].encoder.reading_rad(wheels_[1].state.rotation_rad) + noise.right * rad_per_count};
+    const WheelPair read = axle_->read(time_s);
+    const WheelPair now{read.left + noise.left * rad_per_count, read.right + noise.right * rad_per_count};
     const double hitch_rad = hitch_reading_rad();
     // Section 4.5: dead reckoning of the trailer, then "a simple coordinate transformation" by the hitch's angle.
     if (read_)
@@ -112,36 +108,6 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   Pose believed() const override { return believed_; }
 
  private:
-  struct TrailerWheel {
-    Side side = Side::left;
-    Vec2 place;
-    double radius_m = 0.05;
-    WheelState state{};
-    double travelled_m = 0.0;
-    Encoder encoder{1.0, 0.0};
-  };
-
-  // A free wheel turns by what it travels, and on a bump by more.
-  void roll_trailer(const Ground& ground, const Pose& before) {
-    const Pose& after = world_.pose(towed_);
-    const double turn_rad = after.heading_rad - before.heading_rad;
-    const double heading_rad = before.heading_rad + 0.5 * turn_rad;
-    const Vec2 moved = after.position() - before.position();
-    const double travel_m = dot(moved, {std::cos(heading_rad), std::sin(heading_rad)});
-    const Vec2 middle = before.position() + 0.5 * moved;
-    for (TrailerWheel& wheel : wheels_) {
-      const double rolled_m = travel_m - turn_rad * wheel.place.y_m;
-      const Contact contact = ground.under({wheel.side, middle + rotated(wheel.place, heading_rad), heading_rad,
-                                            wheel.radius_m, wheel.travelled_m, kTrailerAxle});
-      wheel.travelled_m += rolled_m;
-      const double turned_rad = rolled_m / (wheel.radius_m * contact.horizontal_share);
-      wheel.state.rotation_rad += turned_rad;
-      wheel.state.speed_radps = turned_rad / step_s_;
-      wheel.state.on_bump = contact.on_bump;
-      wheel.state.in_slip_zone = contact.in_slip_zone;
-    }
-  }
-
   // What the absolute encoder reads: within a turn, in whole steps.
   double hitch_reading_rad() {
     const double angle_rad = world_.pose(body_).heading_rad - world_.pose(towed_).heading_rad;
@@ -160,7 +126,8 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   PlanarWorld world_;
   int body_, towed_;
   PairOfTracks tracks_;
-  std::array<TrailerWheel, 2> wheels_;
+  planar::Effects effects_;  // of the trailer
+  std::optional<FreeAxle> axle_;
   SlipRing slip_ring_;
   Random hitch_noise_;
   Encoder left_encoder_{1.0, 0.0}, right_encoder_{1.0, 0.0};

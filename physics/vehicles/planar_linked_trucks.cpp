@@ -1,5 +1,6 @@
 #include "physics/vehicles/planar_linked_trucks.h"
 
+#include "core/scenario/effect_catalogue.h"
 #include "physics/sensors/absolute_encoder.h"
 #include "physics/vehicles/axle_commands.h"
 
@@ -11,13 +12,16 @@ PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTr
       lengths_(lengths),
       link_(setup.scenario.machine.link),
       step_s_(setup.scenario.step_s),
-      no_effects_({}, {}),
+      effects_a_(effects_of_part(setup.scenario.effects, "truck_a"),
+                 {with_wheels_of(lengths.truck_a, setup.scenario.actual), step_s_}),
+      effects_b_(effects_of_part(setup.scenario.effects, "truck_b"),
+                 {with_wheels_of(lengths.truck_b, setup.scenario.actual), step_s_}),
       world_(step_s_),
       phases_(setup.sensor_seed),
       a_(world_, setup.start, nominal.truck_a, with_wheels_of(lengths.truck_a, setup.scenario.actual), setup,
-         no_effects_, 0, phases_),
+         effects_a_, 0, phases_),
       b_(world_, setup.start * Pose{-lengths.link_length_m, 0.0, 0.0}, nominal.truck_b,
-         with_wheels_of(lengths.truck_b, setup.scenario.actual), setup, no_effects_, 1, phases_),
+         with_wheels_of(lengths.truck_b, setup.scenario.actual), setup, effects_b_, 1, phases_),
       control_(nominal.link_length_m, setup.scenario.sensors.encoder_period_s),
       belief_({nominal.truck_a, nominal.truck_b, nominal.link_angle_resolution_rad, nominal.link_angle_resolution_rad},
               setup.start, setup.scenario.driving.internal_correction) {
@@ -119,7 +123,7 @@ LinkReadings PlanarLinkedTrucks::read_link() const {
 }
 
 void PlanarLinkedTrucks::sample(double time_s, std::vector<double>& readings) {
-  const WheelPair a = a_.read(), b = b_.read();
+  const WheelPair a = a_.read(time_s), b = b_.read(time_s);
   const LinkReadings link = read_link();
   readings = {a.left, a.right, b.left, b.right, link.angle_a_rad, link.angle_b_rad, link.length_m};
   // The offsets that the vehicle file knows are taken off what the controller sees.

@@ -43,7 +43,7 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   LinkedTrucks nominal_, lengths_;
   ActualLink link_;
   double step_s_;
-  planar::Effects no_effects_;
+  planar::Effects effects_a_, effects_b_;
   PlanarWorld world_;
   Random phases_;
   Truck a_, b_;

@@ -5,6 +5,7 @@
 
 #include "core/base/random.h"
 #include "core/odometry/cast.h"
+#include "core/scenario/effect_catalogue.h"
 #include "physics/sensors/absolute_encoder.h"
 #include "physics/sensors/encoder.h"
 #include "physics/vehicles/axle_commands.h"
@@ -47,12 +48,12 @@ class PlanarMultiCastor final : public PlanarVehicle {
         weight_(setup.scenario.machine.castors),
         platform_kg_(setup.scenario.actual.mass_kg),
         step_s_(setup.scenario.step_s),
-        no_effects_({}, {}),
         world_(step_s_),
         platform_(world_.add_body({setup.start, platform_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         believed_(setup.start) {
     Random phases(setup.sensor_seed);
     const double n = static_cast<double>(lengths.castors.size());
+    effects_.reserve(lengths.castors.size());  // axles keep pointers to them
     for (std::size_t i = 0; i < lengths.castors.size(); ++i) {
       const Castor& castor = lengths.castors[i];
       const Pose pivot = setup.start * Pose{castor.pivot().x_m, castor.pivot().y_m, 0.0};
@@ -60,11 +61,14 @@ class PlanarMultiCastor final : public PlanarVehicle {
           world_.add_body({pivot * Pose{-castor.offset_m, 0.0, 0.0}, weight_.mass_kg, weight_.moment_of_inertia_kgm2});
       world_.add_pin({platform_, body, castor.pivot(), {castor.offset_m, 0.0}});
       const Vec2 axle_centre{0.0, 0.5 * (castor.wheel_offset_left_m - castor.wheel_offset_right_m)};
-      const ActualDrive axle = axle_of(castor, platform_kg_ / n + weight_.mass_kg, weight_);
+      const ActualDrive drawn = axle_of(castor, platform_kg_ / n + weight_.mass_kg, weight_);
+      effects_.emplace_back(effects_of_part(setup.scenario.effects, "castor" + std::to_string(i + 1)),
+                            planar::Machine{drawn, step_s_});
+      const ActualDrive axle = effects_.back().built_into(drawn);
       const double counts = counts_per_turn(nominal.wheel_encoder_resolution_rad);
       const double left_phase = phases.uniform(), right_phase = phases.uniform();
       castors_.push_back(
-          {body, DrivenAxle(world_, body, axle_centre, axle, servo(), step_s_, no_effects_, static_cast<int>(i)),
+          {body, DrivenAxle(world_, body, axle_centre, axle, servo(), step_s_, effects_[i], static_cast<int>(i)),
            Encoder(counts, left_phase), Encoder(counts, right_phase)});
     }
   }
@@ -142,8 +146,12 @@ class PlanarMultiCastor final : public PlanarVehicle {
     CastorSample now{time_s, {}};
     for (std::size_t i = 0; i < castors_.size(); ++i) {
       const DrivenCastor& castor = castors_[i];
-      const double left_rad = castor.left_encoder.reading_rad(castor.axle.left().counted_rad);
-      const double right_rad = castor.right_encoder.reading_rad(castor.axle.right().counted_rad);
+      double left_rad = castor.left_encoder.reading_rad(castor.axle.left().counted_rad);
+      double right_rad = castor.right_encoder.reading_rad(castor.axle.right().counted_rad);
+      for (const auto& effect : effects_[i]) {
+        effect->read_encoder(Side::left, time_s, left_rad);
+        effect->read_encoder(Side::right, time_s, right_rad);
+      }
       const double pivot_rad = wrapped(quantised(pivot_rad_of(i) + lengths_.castors[i].pivot_encoder_offset_rad,
                                                  nominal_.pivot_encoder_resolution_rad));
       readings.insert(readings.end(), {left_rad, right_rad, pivot_rad});
@@ -187,7 +195,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
   ActualCastors weight_;
   double platform_kg_;
   double step_s_;
-  planar::Effects no_effects_;
+  std::vector<planar::Effects> effects_;  // of each castor
   PlanarWorld world_;
   int platform_;
   std::vector<DrivenCastor> castors_;

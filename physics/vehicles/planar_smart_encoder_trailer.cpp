@@ -1,5 +1,6 @@
 // A differential drive that tows the Smart Encoder Trailer: a passive truck B, rigid up to its hitch, which sits at the
 // towing vehicle's centre (UMBmark report, section 4.6).
+#include "core/scenario/effect_catalogue.h"
 #include "physics/sensors/absolute_encoder.h"
 #include "physics/vehicles/axle_commands.h"
 #include "physics/vehicles/free_axle.h"
@@ -19,14 +20,14 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
         lengths_(lengths),
         trailer_(setup.scenario.machine.trailer),
         step_s_(setup.scenario.step_s),
-        no_effects_({}, {}),
+        effects_(effects_of_part(setup.scenario.effects, "trailer"), {setup.scenario.actual, step_s_}),
         world_(step_s_),
         phases_(setup.sensor_seed),
-        tow_(world_, setup.start, nominal.tow, with_wheels_of(lengths.tow, setup.scenario.actual), setup, no_effects_,
+        tow_(world_, setup.start, nominal.tow, with_wheels_of(lengths.tow, setup.scenario.actual), setup, setup.effects,
              0, phases_),
         towed_(world_.add_body({setup.start * Pose{-lengths.drawbar_length_m, 0.0, 0.0}, trailer_.mass_kg,
                                 trailer_.moment_of_inertia_kgm2})),
-        axle_(world_, towed_, lengths.trailer, nominal.trailer.counts_per_wheel_turn(), 1, phases_),
+        axle_(world_, towed_, lengths.trailer, nominal.trailer.counts_per_wheel_turn(), 1, effects_, step_s_, phases_),
         noise_(seed_of_stream(setup.sensor_seed, 1)),
         belief_({nominal.tow, nominal.trailer, nominal.hitch_angle_resolution_rad, 0.0}, setup.start,
                 setup.scenario.driving.internal_correction) {
@@ -42,7 +43,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
     pull_downhill(world_, towed_, trailer_.mass_kg, floor);
     world_.step();
     tow_.axle().after_step();
-    axle_.after_step(ground, step_s_);
+    axle_.after_step(ground);
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(tow_.body(), (1.0 / step_s_) * impulse_ns); }
 
@@ -74,7 +75,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
             "hitch_angle_rad"};
   }
   void sample(double time_s, std::vector<double>& readings) override {
-    const WheelPair tow = tow_.read(), trailer = axle_.read();
+    const WheelPair tow = tow_.read(time_s), trailer = axle_.read(time_s);
     const double hitch_rad = tow_.pose().heading_rad - world_.pose(towed_).heading_rad;
     const double noise_rad = trailer_.hitch_noise_rad > 0.0 ? trailer_.hitch_noise_rad * noise_.normal() : 0.0;
     const double reading_rad = wrapped(
@@ -93,7 +94,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
   SmartEncoderTrailer nominal_, lengths_;
   ActualTrailer trailer_;
   double step_s_;
-  planar::Effects no_effects_;
+  planar::Effects effects_;  // of the trailer
   PlanarWorld world_;
   Random phases_;
   Truck tow_;

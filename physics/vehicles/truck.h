@@ -19,7 +19,9 @@ class Truck {
         nominal_(nominal),
         mass_kg_(actual.mass_kg),
         body_(world.add_body({start, actual.mass_kg, actual.moment_of_inertia_kgm2})),
-        axle_(world, body_, {}, actual, setup.scenario.motor, setup.scenario.step_s, effects, number),
+        axle_(world, body_, {}, effects.built_into(actual), setup.scenario.motor, setup.scenario.step_s, effects,
+              number),
+        effects_(&effects),
         left_encoder_(nominal.counts_per_wheel_turn(), phases.uniform()),
         right_encoder_(nominal.counts_per_wheel_turn(), phases.uniform()) {}
 
@@ -30,8 +32,14 @@ class Truck {
   const DrivenAxle& axle() const { return axle_; }
   const Pose& pose() const { return world_->pose(body_); }
 
-  WheelPair read() const {
-    return {left_encoder_.reading_rad(axle_.left().counted_rad), right_encoder_.reading_rad(axle_.right().counted_rad)};
+  WheelPair read(double time_s) const {
+    WheelPair now{left_encoder_.reading_rad(axle_.left().counted_rad),
+                  right_encoder_.reading_rad(axle_.right().counted_rad)};
+    for (const auto& effect : *effects_) {
+      effect->read_encoder(Side::left, time_s, now.left);
+      effect->read_encoder(Side::right, time_s, now.right);
+    }
+    return now;
   }
 
  private:
@@ -40,6 +48,7 @@ class Truck {
   double mass_kg_;
   int body_;
   DrivenAxle axle_;
+  const planar::Effects* effects_;
   Encoder left_encoder_, right_encoder_;
 };
 

@@ -67,5 +67,54 @@ TEST(LinkedEffects, BiasedRotaryEncodersBendTheStraightWay) {
   EXPECT_NEAR(lost_rad, 2.0 * kBias_rad * 6.0 / trucks.link_length_m, 0.1 * 2.0 * kBias_rad * 6.0);
 }
 
+// A tenth of the counts is lost where it was said, and nowhere else.
+TEST(LinkedEffects, OneWheelOfOneTruckMissesItsCounts) {
+  for (const char* const truck : {"truck_a", "truck_b"}) {
+    Scenario scenario = standing(Clapper{}, {{"encoder_missed_counts",
+                                              truck + std::string(".left_wheel"),  //
+                                              {{"fraction", 0.1}}}});
+    scenario.sensors.encoder_period_s = 0.040;
+    ASSERT_TRUE(problems_in(scenario).empty()) << problems_in(scenario).front();
+    Simulation simulation(scenario, 1);
+    run_to_end(simulation, 60.0);
+    const WheelState left = simulation.state().left, right = simulation.state().right;  // of truck A
+    ASSERT_GT(std::abs(left.rotation_rad), 1.0);
+    const double share = std::string(truck) == "truck_a" ? 0.9 : 1.0;
+    EXPECT_NEAR(left.counted_rad, share * left.rotation_rad, 1e-9);
+    EXPECT_NEAR(right.counted_rad, right.rotation_rad, 1e-9);
+  }
+}
+
+// A trailer is drawn along, whatever its encoders say.
+TEST(LinkedEffects, ATrailersWheelMissesItsCountsAndTheTrailerKeepsItsWay) {
+  std::vector<TrailerSample> last;
+  for (const double fraction : {0.0, 0.1}) {
+    SmartEncoderTrailer train;
+    train.trailer.encoder_counts_per_revolution = 1e9;
+    Scenario scenario = standing(train, {{"encoder_missed_counts", "trailer.right_wheel", {{"fraction", fraction}}}});
+    scenario.driving.internal_correction = false;
+    ASSERT_TRUE(problems_in(scenario).empty());
+    Simulation simulation(scenario, 1);
+    run_to_end(simulation, 60.0);
+    last.push_back(trailer_samples(simulation.recording()).back());
+  }
+  const double rolled_rad = last[0].trailer.right_rad;
+  ASSERT_GT(rolled_rad, 1.0);
+  EXPECT_NEAR(last[1].trailer.right_rad, 0.9 * rolled_rad, 1e-6);
+  EXPECT_NEAR(last[1].trailer.left_rad, last[0].trailer.left_rad, 1e-6);
+}
+
+TEST(LinkedEffects, AreOfPartsThatTheVehicleHas) {
+  const auto problems = [](const VehicleKind& kind, const std::string& effect, const std::string& component) {
+    return problems_in(standing(kind, {{effect, component, {{"amplitude", 0.01}}}})).size();
+  };
+  EXPECT_EQ(problems(Clapper{}, "wheel_eccentricity", "truck_b.left_wheel"), 0u);
+  EXPECT_EQ(problems(three_castor_vehicle(), "wheel_eccentricity", "castor3.right_wheel"), 0u);
+  EXPECT_EQ(problems(three_castor_vehicle(), "wheel_eccentricity", "castor4.right_wheel"), 1u);
+  EXPECT_EQ(problems(Clapper{}, "wheel_eccentricity", "left_wheel"), 1u);
+  EXPECT_EQ(problems(DifferentialDrive{}, "wheel_eccentricity", "truck_a.left_wheel"), 1u);
+  EXPECT_EQ(problems(EncoderTrailer{}, "wheel_eccentricity", "left_wheel"), 1u);  // it has tracks
+}
+
 }  // namespace
 }  // namespace odolab

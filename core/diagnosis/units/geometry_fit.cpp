@@ -1,0 +1,306 @@
+#include "core/diagnosis/units/geometry_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/parallel.h"
+#include "core/odometry/differential_drive.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kStretch_m = 0.5, kStretch_rad = 1.0;  // Eq. 1: so short that the wheels hardly err, beside the truth
+constexpr std::size_t kFewest = 4;                      // samples of a stretch
+constexpr double kShortestStep_s = 0.03;                // truth samples closer together are thinned out
+constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2;
+constexpr double kDeterminedShare = 0.2;
+constexpr double kHuber = 3.0;
+constexpr int kIterations = 8;
+constexpr double kStep = 1e-5;
+
+// Truth samples of one run that a unit passes in one stretch.
+struct Stretch {
+  std::size_t first = 0, last = 0;  // of the thinned truth; the last belongs to it
+};
+
+// All unknowns as departures from the file: joints, then left wheel, right wheel and wheelbase of each unit as shares,
+// then the clock of each run.
+struct Unknowns {
+  std::vector<JointParameter> joints;
+  int units = 0, runs = 0;
+
+  int joint_count() const { return static_cast<int>(joints.size()); }
+  int wheel(int unit, int k) const { return joint_count() + 3 * unit + k; }
+  int clock(int run) const { return joint_count() + 3 * units + run; }
+  int count() const { return joint_count() + 3 * units + runs; }
+  double prior(int k) const {
+    if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
+    return k < clock(0) ? kWheelPrior : kClockPrior_s;
+  }
+};
+
+struct Normal {
+  MatrixXd information, spread;
+  VectorXd gradient;
+};
+
+Normal zero(int n) { return {MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), VectorXd::Zero(n)}; }
+
+// One unit in one run.
+class Passage {
+ public:
+  Passage(const JoinedRun& run, const Vehicle& nominal, const Unknowns& unknowns, int run_number, int unit)
+      : run_(&run), nominal_(nominal), unknowns_(&unknowns), number_(run_number), unit_(unit) {
+    drive_ = units_of(nominal)[static_cast<std::size_t>(unit)].drive;
+    for (const TimedPose& t : run.tracked)
+      if (tracked_.empty() || t.time_s > tracked_.back().time_s + kShortestStep_s) tracked_.push_back(t);
+    cut_into_stretches();
+  }
+
+  // The linearised problem about x. `with_spread`: also the covariance of the gradient.
+  Normal normal_at(const VectorXd& x, bool with_spread) const {
+    const int n = unknowns_->count();
+    Normal normal = zero(n);
+    if (stretches_.empty()) return normal;
+    const std::vector<Vector3d> residuals = residuals_at(x);
+    std::vector<MatrixXd> jacobian(residuals.size(), MatrixXd::Zero(3, n));
+    for (int k : own_unknowns()) {
+      VectorXd more = x, less = x;
+      const double step = k >= unknowns_->clock(0) ? clock_step_s() : kStep;
+      more[k] += step;
+      less[k] -= step;
+      const std::vector<Vector3d> up = residuals_at(more), down = residuals_at(less);
+      for (std::size_t i = 0; i < residuals.size(); ++i) jacobian[i].col(k) = (up[i] - down[i]) / (2.0 * step);
+    }
+    const Vector3d sigma = deviations(residuals);
+    std::vector<Vector3d> weights;
+    std::size_t i = 0;
+    for (const Stretch& s : stretches_) {
+      VectorXd score = VectorXd::Zero(n);
+      for (std::size_t k = s.first; k <= s.last; ++k, ++i) {
+        Vector3d weight;
+        for (int row = 0; row < 3; ++row) {
+          const double z = std::abs(residuals[i][row]) / sigma[row];
+          weight[row] = (z <= kHuber ? 1.0 : kHuber / z) / (sigma[row] * sigma[row]);
+        }
+        const MatrixXd weighted = jacobian[i].transpose() * weight.asDiagonal();
+        normal.information += weighted * jacobian[i];
+        score -= weighted * residuals[i];
+        weights.push_back(weight);
+      }
+      normal.gradient += score;
+      if (with_spread) normal.spread += score * score.transpose();
+    }
+    if (with_spread) add_rounding(x, jacobian, weights, normal.spread);
+    return normal;
+  }
+
+ private:
+  std::vector<int> own_unknowns() const {
+    std::vector<int> own;
+    for (int k = 0; k < unknowns_->joint_count(); ++k) own.push_back(k);
+    for (int k = 0; k < 3; ++k) own.push_back(unknowns_->wheel(unit_, k));
+    own.push_back(unknowns_->clock(number_));
+    return own;
+  }
+
+  // Velocities are taken over a few samples to both sides: those next to a sample share its rounding, and would pull
+  // the clock to between the samples, where interpolation smooths the rounding away.
+  double clock_step_s() const {
+    const std::vector<UnitSample>& samples = run_->samples;
+    return 2.5 * (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  }
+
+  Track wheel_track(const DifferentialDrive& drive) const {
+    std::vector<WheelSample> wheels;
+    for (const UnitSample& s : run_->samples) {
+      const WheelRotation& w = s.wheels[static_cast<std::size_t>(unit_)];
+      wheels.push_back({s.time_s, w.left_rad, w.right_rad});
+    }
+    return dead_reckoned(wheels, drive, Pose{});
+  }
+
+  void cut_into_stretches() {
+    const Track wheels = wheel_track(drive_);
+    std::size_t first = 0, k = 0;
+    double travel_m = 0.0, turn_rad = 0.0;
+    for (std::size_t i = 1; i < tracked_.size(); ++i) {
+      for (; k + 1 < wheels.size() && wheels[k + 1].time_s <= tracked_[i].time_s; ++k) {
+        const Pose step = between(wheels[k].pose, wheels[k + 1].pose);
+        travel_m += length(step.position());
+        turn_rad += std::abs(step.heading_rad);
+      }
+      if (travel_m < kStretch_m && turn_rad < kStretch_rad) continue;
+      if (i - first + 1 >= kFewest) stretches_.push_back({first, i});
+      first = i + 1;
+      travel_m = turn_rad = 0.0;
+    }
+  }
+
+  struct At {
+    Vehicle vehicle;
+    Track wheels;
+    double offset_s = 0.0;
+  };
+  At at(const VectorXd& x) const {
+    At result{nominal_, {}, 0.0};
+    for (int k = 0; k < unknowns_->joint_count(); ++k)
+      unknowns_->joints[static_cast<std::size_t>(k)].of(result.vehicle) += x[k];
+    DifferentialDrive drive = drive_;
+    drive.wheel_radius_left_m *= 1.0 + x[unknowns_->wheel(unit_, 0)];
+    drive.wheel_radius_right_m *= 1.0 + x[unknowns_->wheel(unit_, 1)];
+    drive.wheelbase_m *= 1.0 + x[unknowns_->wheel(unit_, 2)];
+    result.wheels = wheel_track(drive);
+    result.offset_s = nominal_.truth.time_offset_s + x[unknowns_->clock(number_)];
+    return result;
+  }
+
+  // Eq. 1: where the joints say the axle is, less where the wheels do once their stretch is laid on the other; in the
+  // wheels' frame.
+  std::vector<Vector3d> residuals_at(const VectorXd& x) const {
+    const At now = at(x);
+    std::vector<Vector3d> all;
+    for (const Stretch& s : stretches_) {
+      std::vector<Pose> by_joints, by_wheels;
+      for (std::size_t k = s.first; k <= s.last; ++k) {
+        const double at_s =
+            std::clamp(tracked_[k].time_s - now.offset_s, now.wheels.front().time_s, now.wheels.back().time_s);
+        by_joints.push_back(tracked_[k].pose * tracked_T_axle(now.vehicle, static_cast<std::size_t>(unit_),
+                                                              joints_at(run_->samples, at_s)));
+        by_wheels.push_back(*pose_at(now.wheels, at_s));
+      }
+      const double n = static_cast<double>(by_joints.size());
+      const double first_rad = by_joints[0].heading_rad - by_wheels[0].heading_rad;
+      double turned_rad = 0.0;
+      for (std::size_t k = 0; k < by_joints.size(); ++k)
+        turned_rad += wrapped(by_joints[k].heading_rad - by_wheels[k].heading_rad - first_rad) / n;
+      turned_rad += first_rad;
+      std::vector<Vec2> off;
+      Vec2 mean;
+      for (std::size_t k = 0; k < by_joints.size(); ++k) {
+        off.push_back(rotated(by_joints[k].position(), -turned_rad) - by_wheels[k].position());
+        mean = mean + (1.0 / n) * off.back();
+      }
+      for (std::size_t k = 0; k < by_joints.size(); ++k) {
+        const Vec2 rest = rotated(off[k] - mean, -by_wheels[k].heading_rad);  // along and across the unit
+        all.push_back({rest.x_m, rest.y_m, wrapped(by_joints[k].heading_rad - by_wheels[k].heading_rad - turned_rad)});
+      }
+    }
+    return all;
+  }
+
+  static Vector3d deviations(const std::vector<Vector3d>& residuals) {
+    Vector3d result;
+    for (int k = 0; k < 3; ++k) {
+      std::vector<double> sizes;
+      for (const Vector3d& r : residuals) sizes.push_back(std::abs(r[k]));
+      const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+      std::nth_element(sizes.begin(), middle, sizes.end());
+      result[k] = std::max(1.4826 * *middle, 1e-6);
+    }
+    return result;
+  }
+
+  // Units that hold an angle hold its rounding: all readings within one step of an encoder may err alike.
+  void add_rounding(const VectorXd& x, const std::vector<MatrixXd>& jacobian, const std::vector<Vector3d>& weights,
+                    MatrixXd& spread) const {
+    const At now = at(x);
+    const std::vector<double> steps = joint_steps(nominal_);
+    for (std::size_t j = 0; j < steps.size(); ++j) {
+      if (steps[j] <= 0.0) continue;
+      std::map<long long, VectorXd> by_step;
+      std::size_t i = 0;
+      for (const Stretch& s : stretches_)
+        for (std::size_t k = s.first; k <= s.last; ++k, ++i) {
+          std::vector<double> joints = joints_at(run_->samples, tracked_[k].time_s - now.offset_s);
+          const long long step = std::llround(joints[j] / steps[j]);
+          const Pose here = tracked_T_axle(now.vehicle, static_cast<std::size_t>(unit_), joints);
+          joints[j] += kStep;
+          const Pose moved = between(here, tracked_T_axle(now.vehicle, static_cast<std::size_t>(unit_), joints));
+          const Vector3d by = Vector3d{moved.x_m, moved.y_m, moved.heading_rad} / kStep;
+          const VectorXd effect = jacobian[i].transpose() * weights[i].cwiseProduct(by);
+          const auto [entry, is_new] = by_step.emplace(step, effect);
+          if (!is_new) entry->second += effect;
+        }
+      for (const auto& [number, effect] : by_step) spread += steps[j] * steps[j] / 12.0 * effect * effect.transpose();
+    }
+  }
+
+  const JoinedRun* run_;
+  Vehicle nominal_;
+  const Unknowns* unknowns_;
+  int number_, unit_;
+  DifferentialDrive drive_;
+  Track tracked_;
+  std::vector<Stretch> stretches_;
+};
+
+Normal sum_of(const std::vector<Passage>& passages, const VectorXd& x, bool with_spread) {
+  std::vector<Normal> parts(passages.size());
+  parallel_for(static_cast<int>(passages.size()), [&](int i) {
+    parts[static_cast<std::size_t>(i)] = passages[static_cast<std::size_t>(i)].normal_at(x, with_spread);
+  });
+  Normal sum = zero(static_cast<int>(x.size()));
+  for (const Normal& one : parts) {
+    sum.information += one.information;
+    sum.spread += one.spread;
+    sum.gradient += one.gradient;
+  }
+  return sum;
+}
+
+}  // namespace
+
+GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
+                            const std::vector<std::string>& held) {
+  Unknowns unknowns;
+  for (JointParameter& p : joint_parameters(nominal))
+    if (std::find(held.begin(), held.end(), p.name) == held.end()) unknowns.joints.push_back(std::move(p));
+  unknowns.units = static_cast<int>(units_of(nominal).size());
+  unknowns.runs = static_cast<int>(runs.size());
+  std::vector<Passage> passages;
+  for (int r = 0; r < unknowns.runs; ++r)
+    for (int u = 0; u < unknowns.units; ++u)
+      passages.emplace_back(runs[static_cast<std::size_t>(r)], nominal, unknowns, r, u);
+
+  const int n = unknowns.count();
+  VectorXd x = VectorXd::Zero(n), prior(n);
+  for (int k = 0; k < n; ++k) prior[k] = 1.0 / (unknowns.prior(k) * unknowns.prior(k));
+  const MatrixXd of_prior = prior.asDiagonal();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Normal normal = sum_of(passages, x, false);
+    const VectorXd step = (normal.information + of_prior).ldlt().solve(normal.gradient - of_prior * x);
+    x += step;
+    if (step.cwiseAbs().maxCoeff() < 1e-6) break;
+  }
+  const Normal normal = sum_of(passages, x, true);
+  const MatrixXd inverse = (normal.information + of_prior).inverse();
+  const MatrixXd covariance = inverse * (normal.spread + of_prior) * inverse;
+
+  GeometryFit fit;
+  fit.vehicle = nominal;
+  for (int k = 0; k < unknowns.joint_count(); ++k) {
+    JointEstimate e{unknowns.joints[static_cast<std::size_t>(k)]};
+    Vehicle copy = nominal;
+    e.nominal = e.parameter.of(copy);
+    e.stderr_value = std::sqrt(covariance(k, k));
+    e.determined = e.stderr_value < kDeterminedShare * e.parameter.prior;
+    e.value = e.determined ? e.nominal + x[k] : e.nominal;
+    if (e.determined) e.parameter.of(fit.vehicle) = e.value;
+    fit.joints.push_back(std::move(e));
+  }
+  for (int r = 0; r < unknowns.runs; ++r) {
+    fit.clock_s.push_back(x[unknowns.clock(r)]);
+    fit.clock_stderr_s.push_back(std::sqrt(covariance(unknowns.clock(r), unknowns.clock(r))));
+  }
+  return fit;
+}
+
+}  // namespace odolab

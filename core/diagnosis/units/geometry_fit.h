@@ -1,0 +1,36 @@
+// What joins the units of a vehicle, by how they move: where the truth sits and how late it is, and the offsets of the
+// encoders on links, hitches and pivots. README.md, Eqs. 1 to 4.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/units/vehicle_units.h"
+
+namespace odolab {
+
+struct JointEstimate {
+  JointParameter parameter;
+  double nominal = 0.0, value = 0.0, stderr_value = 0.0;
+  bool determined = false;  // else the value is the nominal one
+};
+
+// One recording's samples, and the outside truth or what stands in its place; with headings, on the truth's clock.
+struct JoinedRun {
+  std::vector<UnitSample> samples;
+  Track tracked;
+};
+
+struct GeometryFit {
+  Vehicle vehicle;  // with what is determined of the joints put in; wheels as they were
+  std::vector<JointEstimate> joints;
+  std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
+  std::vector<double> clock_stderr_s;
+};
+
+// Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
+// own, robust against what slips here and there. `held`: joints that keep their nominal value.
+GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
+                            const std::vector<std::string>& held = {});
+
+}  // namespace odolab

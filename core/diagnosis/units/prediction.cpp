@@ -1,0 +1,179 @@
+#include "core/diagnosis/units/prediction.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/effect_motions.h"
+#include "core/diagnosis/units/unit_models.h"
+#include "core/odometry/cast.h"
+#include "core/odometry/encoder_trailer.h"
+#include "core/odometry/ipec.h"
+#include "core/odometry/prediction.h"
+
+namespace odolab {
+
+namespace {
+
+// What the units really did, as far as the effects are known: wheels as if they had rolled truly, and how far each unit
+// moved to its left in the interval that ends at each sample.
+struct TrueUnits {
+  std::vector<UnitSample> samples;
+  std::vector<std::vector<double>> sideways_m;  // [sample][unit]
+};
+
+TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,
+                          const std::vector<Motions>& motions) {
+  TrueUnits result{samples, std::vector<std::vector<double>>(samples.size(), std::vector<double>(units.size(), 0.0))};
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const DifferentialDrive& drive = units[u].drive;
+    WheelRotation more;
+    for (std::size_t i = 1; i < samples.size() && i - 1 < motions[u].size(); ++i) {
+      const BodyMotion& m = motions[u][i - 1];
+      more.left_rad += (m.forward_m - 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_left_m;
+      more.right_rad += (m.forward_m + 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_right_m;
+      result.samples[i].wheels[u].left_rad += more.left_rad;
+      result.samples[i].wheels[u].right_rad += more.right_rad;
+      result.sideways_m[i][u] = m.sideways_m;
+    }
+  }
+  return result;
+}
+
+void move_left(Pose& pose, double by_m) {
+  const Vec2 way = rotated({0.0, by_m}, pose.heading_rad);
+  pose.x_m += way.x_m;
+  pose.y_m += way.y_m;
+}
+
+// The vehicle's own odometry from the origin, with units that also move sideways.
+struct Reckoned {
+  const TrueUnits& units;
+
+  Track operator()(const DifferentialDrive& drive) const {
+    Track track;
+    Pose pose;
+    for (std::size_t i = 0; i < units.samples.size(); ++i) {
+      const UnitSample& now = units.samples[i];
+      if (i > 0) {
+        const WheelRotation &a = units.samples[i - 1].wheels[0], &b = now.wheels[0];
+        move_left(pose, units.sideways_m[i][0]);
+        pose = dead_reckoned(pose, b.left_rad - a.left_rad, b.right_rad - a.right_rad, drive);
+      }
+      track.push_back({now.time_s, pose});
+    }
+    return track;
+  }
+  Track operator()(const Tracked& vehicle) const { return (*this)(as_differential_drive(vehicle)); }
+  Track operator()(const SynchroDrive&) const { return {}; }
+  Track ipec_by(const std::vector<LinkedSample>& readings, const IpecTrucks& trucks) const {
+    Track track;
+    IpecState state;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      if (i == 0) {
+        state = ipec_start(readings[0], Pose{});
+      } else {
+        move_left(state.a, units.sideways_m[i][0]);
+        move_left(state.b, units.sideways_m[i][1]);
+        state = ipec_step(state, readings[i - 1], readings[i], trucks);
+      }
+      track.push_back({readings[i].time_s, state.a});
+    }
+    return track;
+  }
+  Track operator()(const LinkedTrucks& v) const {
+    std::vector<LinkedSample> readings;
+    for (const UnitSample& s : units.samples)
+      readings.push_back({s.time_s, s.wheels[0], s.wheels[1], s.joints[0] - v.link_angle_a_offset_rad,
+                          s.joints[1] - v.link_angle_b_offset_rad, s.joints[2] - v.link_length_offset_m});
+    return ipec_by(readings, {v.truck_a, v.truck_b, v.link_angle_resolution_rad, v.link_angle_resolution_rad});
+  }
+  Track operator()(const SmartEncoderTrailer& v) const {
+    std::vector<LinkedSample> readings;
+    for (const UnitSample& s : units.samples)
+      readings.push_back(
+          {s.time_s, s.wheels[0], s.wheels[1], s.joints[0] - v.hitch_angle_offset_rad, 0.0, v.drawbar_length_m});
+    return ipec_by(readings, {v.tow, v.trailer, v.hitch_angle_resolution_rad, 0.0});
+  }
+  Track operator()(const EncoderTrailer& v) const {
+    Track track = (*this)(v.trailer);
+    for (std::size_t i = 0; i < track.size(); ++i)
+      track[i].pose = track[i].pose * trailer_T_tow(v, units.samples[i].joints[0]);
+    return track;
+  }
+  Track operator()(const MultiCastor& v) const {
+    const auto reading = [&](const UnitSample& s) {
+      CastorSample sample{s.time_s, {}};
+      for (std::size_t k = 0; k < v.castors.size(); ++k) sample.castors.push_back({s.wheels[k], s.joints[k]});
+      return sample;
+    };
+    Track track;
+    Pose body;
+    CastorSample before;
+    for (std::size_t i = 0; i < units.samples.size(); ++i) {
+      const CastorSample now = reading(units.samples[i]);
+      if (i > 0) {
+        std::vector<PivotWay> ways = pivot_ways(v, before, now, body, HeadingRule::middle, {});
+        for (std::size_t k = 0; k < ways.size(); ++k) {
+          const double heading_rad =
+              body.heading_rad + before.castors[k].pivot_rad - v.castors[k].pivot_encoder_offset_rad;
+          ways[k].way = ways[k].way + rotated({0.0, units.sideways_m[i][k]}, heading_rad);
+        }
+        body = moved_by_pivots(body, ways, {});
+      }
+      track.push_back({now.time_s, body});
+      before = now;
+    }
+    return track;
+  }
+};
+
+}  // namespace
+
+Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle& vehicle,
+                                       const std::vector<ActiveEffect>& effects) {
+  std::vector<UnitSample> samples = unit_samples(recording, vehicle);
+  if (samples.size() < 2) return predicted_track(recording, vehicle);
+  Vehicle with = vehicle;
+  double rate = 0.0;
+  for (const ActiveEffect& a : effects) {
+    if (a.effect == "clock_rate") rate += a.parameter("rate");
+    if (a.effect == "truth_time_offset") with.truth.time_offset_s = a.parameter("offset_s");
+    if (a.effect == "truth_mounting_offset")
+      with.truth.axle_T_tracked = {a.parameter("x_m"), a.parameter("y_m"), a.parameter("heading_rad")};
+  }
+  const double begin_s = samples.front().time_s;
+  for (UnitSample& s : samples) s.time_s = begin_s + (s.time_s - begin_s) / (1.0 + rate);
+  const Pose mounting = with.truth.axle_T_tracked;
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  Pose start = mounting;  // of the tracked point
+  double start_s = begin_s;
+  if (!truth.empty()) {
+    start = {truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)};
+    start_s = std::clamp(truth[0].time_s - with.truth.time_offset_s, begin_s, samples.back().time_s);
+  }
+
+  const std::vector<VehicleUnit> units = units_of(with);
+  std::vector<Motions> motions(units.size());
+  Track track;
+  // Effects of a place act where the units are, and the units are where they put them: twice is enough.
+  for (int pass = 0; pass < 3; ++pass) {
+    track = std::visit(Reckoned{without_effects(samples, units, motions)}, with.kind);
+    const Pose there = *pose_at(track, start_s) * mounting;
+    for (TimedPose& p : track) p.pose = start * between(there, p.pose * mounting);
+    for (std::size_t u = 0; u < units.size() && pass < 2; ++u) {
+      InnovationRun run;
+      Track axle;
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const WheelRotation& w = samples[i].wheels[u];
+        run.wheels.push_back({samples[i].time_s, w.left_rad, w.right_rad});
+        axle.push_back({samples[i].time_s, track[i].pose * tracked_T_axle(with, u, samples[i].joints)});
+      }
+      run.truth = {TruthSample{axle[0].time_s, axle[0].pose.position(), axle[0].pose.heading_rad}};
+      motions[u] =
+          motions_of(drive_view(0, run, units[u].drive, false, axle), effects_of_unit(effects, units[u], units));
+    }
+  }
+  for (TimedPose& p : track) p.time_s += with.truth.time_offset_s;
+  return track;
+}
+
+}  // namespace odolab

@@ -1,0 +1,52 @@
+#include "core/diagnosis/units/unit_models.h"
+
+#include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/unit_recordings.h"
+
+namespace odolab {
+
+namespace {
+
+bool is_of_a_joint(const std::string& effect) {
+  return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
+}
+
+}  // namespace
+
+std::vector<ActiveEffect> effects_of_unit(const std::vector<ActiveEffect>& effects, const VehicleUnit& unit,
+                                          const std::vector<VehicleUnit>& all) {
+  std::vector<ActiveEffect> own;
+  for (ActiveEffect active : effects) {
+    if (is_of_a_joint(active.effect) || (active.component == "truth" && !unit.carries_truth)) continue;
+    const std::optional<std::string> component = component_in_unit(unit.name, active.component, all);
+    if (!component) continue;
+    active.component = *component;
+    own.push_back(std::move(active));
+  }
+  return own;
+}
+
+FittedModel model_of_unit(const FittedModel& model, std::size_t unit) {
+  const std::vector<VehicleUnit> units = units_of(model.vehicle);
+  FittedModel own{vehicle_of_unit(units[unit], model.vehicle), {}, {}};
+  if (units[unit].carries_truth) own.truth_clock_s = model.truth_clock_s;
+  for (const FittedEffect& effect : model.effects)
+    for (ActiveEffect& active : effects_of_unit({effect.active}, units[unit], units))
+      own.effects.push_back({std::move(active), effect.stderr_values, effect.recording});
+  return own;
+}
+
+std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordings, const FittedModel& model,
+                                          std::size_t unit) {
+  std::vector<Recording> own;
+  for (const Recording& recording : recordings) {
+    const Vehicle vehicle = model.vehicle_in(recording.name);
+    const std::vector<UnitSample> samples = between_steps(unit_samples(recording, vehicle), vehicle);
+    const Track tracked = tracked_poses(recording);
+    if (samples.size() < 2 || tracked.size() < 2) continue;
+    own.push_back(recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0));
+  }
+  return own;
+}
+
+}  // namespace odolab

@@ -1,0 +1,23 @@
+// A fitted model of a linked or castor vehicle as models of its units, with recordings to drive them by.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/units/vehicle_units.h"
+#include "core/recording/recording.h"
+
+namespace odolab {
+
+// The effects that act on this unit, in its own words; biased joints act on none, since they are in the vehicle.
+std::vector<ActiveEffect> effects_of_unit(const std::vector<ActiveEffect>& effects, const VehicleUnit& unit,
+                                          const std::vector<VehicleUnit>& all);
+
+FittedModel model_of_unit(const FittedModel& model, std::size_t unit);
+
+// Each recording as that unit saw it, where the model's vehicle is right about the joints. Recordings without a truth
+// that has headings are left out.
+std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordings, const FittedModel& model,
+                                          std::size_t unit);
+
+}  // namespace odolab

@@ -1,0 +1,97 @@
+#include "core/diagnosis/units/unit_recordings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace odolab {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kSameRate = 0.8;  // truth samples for each encoder sample: fewer, and the truth's times are taken
+
+struct Row {
+  double time_s = 0.0;
+  double left_rad = kNone, right_rad = kNone;
+  double x_m = kNone, y_m = kNone, heading_rad = kNone;
+};
+
+Recording recording_by(std::vector<Row> rows, const Recording& from) {
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time_s < b.time_s; });
+  Recording recording;
+  recording.name = from.name;
+  recording.provenance = from.provenance;
+  for (const Row& row : rows) recording.time_s.push_back(row.time_s);
+  const auto add = [&](const char* name, double Row::*value) {
+    Channel& channel = recording.add_channel(name);
+    for (std::size_t i = 0; i < rows.size(); ++i) channel.values[i] = rows[i].*value;
+  };
+  add("left_wheel_rad", &Row::left_rad);
+  add("right_wheel_rad", &Row::right_rad);
+  add("truth_x_m", &Row::x_m);
+  add("truth_y_m", &Row::y_m);
+  if (std::any_of(rows.begin(), rows.end(), [](const Row& row) { return std::isfinite(row.heading_rad); }))
+    add("truth_heading_rad", &Row::heading_rad);
+  return recording;
+}
+
+Row pose_row(double time_s, const Pose& pose) { return {time_s, kNone, kNone, pose.x_m, pose.y_m, pose.heading_rad}; }
+
+}  // namespace
+
+Track tracked_poses(const Recording& recording) {
+  Track track;
+  for (const TruthSample& t : truth_samples(recording)) {
+    if (!t.heading_rad) continue;
+    const Pose pose{t.position.x_m, t.position.y_m, *t.heading_rad};
+    const bool repeats = !track.empty() && pose.x_m == track.back().pose.x_m && pose.y_m == track.back().pose.y_m &&
+                         pose.heading_rad == track.back().pose.heading_rad;
+    const bool later = track.empty() || t.time_s > track.back().time_s;
+    if (later && !repeats) track.push_back({t.time_s, pose});
+  }
+  return track;
+}
+
+Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle) {
+  Vehicle one;
+  one.name = unit.name.empty() ? vehicle.name : unit.name;
+  one.kind = unit.drive;
+  if (unit.carries_truth) one.truth = vehicle.truth;
+  return one;
+}
+
+Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
+                            const Vehicle& vehicle, std::size_t unit, double clock_s) {
+  std::vector<Row> rows;
+  for (const UnitSample& s : samples) rows.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+  if (units_of(vehicle)[unit].carries_truth) {
+    for (const TruthSample& t : truth_samples(recording))
+      rows.push_back({t.time_s, kNone, kNone, t.position.x_m, t.position.y_m, t.heading_rad.value_or(kNone)});
+    return recording_by(std::move(rows), recording);
+  }
+  const double offset_s = vehicle.truth.time_offset_s + clock_s;
+  const bool at_truth = static_cast<double>(tracked.size()) < kSameRate * static_cast<double>(samples.size());
+  if (at_truth) {
+    for (const TimedPose& t : tracked) {
+      const double at_s = t.time_s - offset_s;
+      if (samples.empty() || at_s < samples.front().time_s || at_s > samples.back().time_s) continue;
+      rows.push_back(pose_row(at_s, t.pose * tracked_T_axle(vehicle, unit, joints_at(samples, at_s))));
+    }
+  } else {
+    // Not across gaps: a pose between two truth samples is one of them, nearly.
+    const double period_s = (tracked.back().time_s - tracked.front().time_s) / static_cast<double>(tracked.size() - 1);
+    std::size_t k = 0;
+    for (const UnitSample& s : samples) {
+      const double at_s = s.time_s + offset_s;
+      while (k + 1 < tracked.size() && tracked[k + 1].time_s < at_s) ++k;
+      if (k + 1 >= tracked.size() || at_s < tracked[k].time_s) continue;
+      if (tracked[k + 1].time_s - tracked[k].time_s > 2.5 * period_s) continue;
+      const Pose pose = *pose_at({tracked[k], tracked[k + 1]}, at_s);
+      rows.push_back(pose_row(s.time_s, pose * tracked_T_axle(vehicle, unit, s.joints)));
+    }
+  }
+  return recording_by(std::move(rows), recording);
+}
+
+}  // namespace odolab

@@ -1,0 +1,22 @@
+// Each unit's own recording, as if it were a differential drive that the outside truth had followed.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/units/vehicle_units.h"
+
+namespace odolab {
+
+// The recorded truth as poses of the tracked point, headings unwrapped; without samples that repeat the one before to
+// the bit. Empty where it has no headings.
+Track tracked_poses(const Recording& recording);
+
+// The vehicle that a unit's recording is of: its drive, and the truth's mounting where the tracked point sits on it.
+Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);
+
+// A unit that carries the truth keeps it as it was recorded. For the others the joints say where the axle's middle was,
+// on the encoders' clock; `clock_s` is the truth's offset in this recording. `tracked`: see tracked_poses.
+Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
+                            const Vehicle& vehicle, std::size_t unit, double clock_s);
+
+}  // namespace odolab

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/units/geometry_fit.h"
+#include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/unit_recordings.h"
+#include "core/odometry/prediction.h"
+#include "test/support/linked_runs.h"
+
+namespace odolab::test {
+namespace {
+
+Vehicle vehicle_of(const VehicleKind& kind) {
+  Vehicle v;
+  v.kind = kind;
+  return v;
+}
+
+Clapper crooked_clapper() {
+  Clapper actual;
+  actual.truck_a.wheel_radius_left_m *= 1.003;
+  actual.truck_b.wheel_radius_right_m *= 0.996;
+  actual.truck_b.wheelbase_m *= 1.008;
+  return actual;
+}
+
+EncoderTrailer crooked_trailer() {
+  EncoderTrailer actual;
+  actual.trailer.wheel_radius_left_m *= 1.004;
+  actual.trailer.wheelbase_m *= 0.99;
+  return actual;
+}
+
+MultiCastor crooked_castors() {
+  MultiCastor actual = three_castor_vehicle();
+  actual.castors[1].wheel_radius_left_m *= 1.002;
+  actual.castors[2].offset_m *= 0.997;
+  return actual;
+}
+
+std::vector<Recording> clapper_runs(const Clapper& actual, const LinkedRunSettings& s, std::uint64_t seed) {
+  return {linked_run(actual, s, seed), linked_run(actual, s, seed + 1), linked_run(actual, s, seed + 2)};
+}
+
+Diagnosis diagnosed(const std::vector<Recording>& runs, const VehicleKind& nominal) {
+  Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(nominal));
+  EXPECT_TRUE(d) << (d ? "" : d.error().message());
+  return d ? std::move(*d) : Diagnosis{};
+}
+
+std::string said(const Diagnosis& d) {
+  std::string s = std::to_string(static_cast<int>(d.verdict)) + ": ";
+  for (const Finding& f : d.findings) s += f.effect + ":" + f.component + " ";
+  return s;
+}
+
+TEST(VehicleUnits, StandWhereTheKinematicsPutThem) {
+  const Clapper trucks = crooked_clapper();
+  LinkedKinematics linked(trucks, {1.0, 2.0, 0.3}, 0.4, -0.2, 1.02);
+  linked.move({0.3, 0.5}, {0.25, -0.2}, 2.0);
+  const LinkedSample read = linked.reading();
+  const Pose b = linked.a() * tracked_T_axle(vehicle_of(trucks), 1,
+                                             {read.link_angle_a_rad, read.link_angle_b_rad, read.link_length_m});
+  EXPECT_NEAR(length(b.position() - linked.b().position()), 0.0, 1e-12);
+  EXPECT_NEAR(wrapped(b.heading_rad - linked.b().heading_rad), 0.0, 1e-12);
+
+  // A castor's axle: its pivot goes with the body, and the axle rolls along itself.
+  const MultiCastor platform = crooked_castors();
+  CastorKinematics body(platform, {}, {0.1, 0.2, 0.3});
+  const auto axle = [&] {
+    std::vector<double> pivots;
+    for (const CastorReading& c : body.reading().castors) pivots.push_back(c.pivot_rad);
+    return body.body() * tracked_T_axle(vehicle_of(platform), 2, pivots);
+  };
+  const Pose before = axle();
+  body.move({0.2, 0.1, 0.3, 0.001});
+  const Pose moved = between(before, axle());
+  EXPECT_GT(moved.x_m, 1e-5);
+  EXPECT_NEAR(moved.y_m, 0.5 * moved.x_m * moved.heading_rad, 1e-9);  // the chord of an arc, and nothing sideways
+}
+
+TEST(UnitRecordings, FollowTheUnitWithTheTruthsNoiseAndTheRoundingOfTheJoints) {
+  LinkedRunSettings s;
+  s.truth_m = s.truth_rad = s.wheel_noise = 0.0;
+  Clapper actual;
+  actual.link_angle_resolution_rad = actual.link_length_resolution_m = 0.0;
+  const Recording run = linked_run(actual, s, 1);
+  const Vehicle vehicle = vehicle_of(actual);
+  const Recording of_b = recording_of_unit(run, unit_samples(run, vehicle), tracked_poses(run), vehicle, 1, 0.0);
+  const Result<Track> reckoned = predicted_track(of_b, vehicle_of_unit(units_of(vehicle)[1], vehicle));
+  ASSERT_TRUE(reckoned);
+  const auto error = track_error(*reckoned, truth_track(of_b));
+  ASSERT_TRUE(error);
+  EXPECT_LT(error->position_rms_m, 3e-4);  // wheels of 2000 counts: 0.24 mm each, and no more
+}
+
+TEST(GeometryFit, FindsTheOffsetsOfTheLinkAndTheClockOfTheTruth) {
+  Clapper actual = crooked_clapper();
+  actual.link_angle_a_offset_rad = 0.008;
+  actual.link_angle_b_offset_rad = -0.012;
+  actual.link_length_offset_m = 0.006;
+  std::vector<JoinedRun> runs;
+  for (const Recording& r : clapper_runs(actual, {}, 11)) {
+    runs.push_back({unit_samples(r, vehicle_of(Clapper{})), tracked_poses(r)});
+    for (TimedPose& p : runs.back().tracked) p.time_s += 0.03;
+  }
+  const GeometryFit fit = fitted_geometry(runs, vehicle_of(Clapper{}));
+  for (const JointEstimate& e : fit.joints) {
+    Vehicle truth = vehicle_of(actual);
+    EXPECT_TRUE(e.determined) << e.parameter.name;
+    EXPECT_NEAR(e.value, e.parameter.of(truth), 4.0 * e.stderr_value) << e.parameter.name;
+    EXPECT_LT(e.stderr_value, 0.002) << e.parameter.name;
+  }
+  for (std::size_t r = 0; r < runs.size(); ++r) EXPECT_NEAR(fit.clock_s[r], 0.03, 4.0 * fit.clock_stderr_s[r]);
+}
+
+TEST(DiagnoseUnits, FindNothingWhereOnlyTheLengthsAreWrong) {
+  EXPECT_EQ(diagnosed(clapper_runs(crooked_clapper(), {}, 21), Clapper{}).verdict, Verdict::nothing_missing);
+  std::vector<Recording> towed, castors;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    towed.push_back(trailer_run(crooked_trailer(), {}, 31 + k));
+    castors.push_back(castor_run(crooked_castors(), {}, 41 + k));
+  }
+  const Diagnosis of_trailer = diagnosed(towed, EncoderTrailer{}),
+                  of_castors = diagnosed(castors, three_castor_vehicle());
+  EXPECT_EQ(of_trailer.verdict, Verdict::nothing_missing) << said(of_trailer);
+  EXPECT_EQ(of_castors.verdict, Verdict::nothing_missing) << said(of_castors);
+}
+
+TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
+  LinkedRunSettings s;
+  s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
+  const std::vector<Recording> runs = clapper_runs(crooked_clapper(), s, 51);
+  const Diagnosis d = diagnosed(runs, Clapper{});
+  ASSERT_FALSE(d.findings.empty()) << said(d);
+  EXPECT_EQ(d.findings.front().effect, "encoder_missed_counts") << said(d);
+  EXPECT_EQ(d.findings.front().component, "truck_b.left_wheel");
+  EXPECT_NEAR(d.findings.front().parameters[0].value, 0.04, 0.006);
+  const FittedModel model = model_of(d);
+  const Recording unseen = linked_run(crooked_clapper(), s, 61);
+  const Result<Track> with = predicted_track(unseen, model.vehicle, model.effects_in("")),
+                      without = predicted_track(unseen, calibrated_model_of(d).vehicle);
+  ASSERT_TRUE(with && without);
+  EXPECT_LT(track_error(*with, truth_track(unseen))->end_position_m,
+            track_error(*without, truth_track(unseen))->end_position_m);
+}
+
+TEST(DiagnoseUnits, TellABiasedLinkEncoderFromTheTrucks) {
+  Clapper actual = crooked_clapper();
+  actual.link_angle_a_offset_rad = 0.012;
+  const Diagnosis d = diagnosed(clapper_runs(actual, {}, 71), Clapper{});
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "link_angle_bias");
+  EXPECT_EQ(d.findings[0].component, "truck_a");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, 0.012, 4.0 * d.findings[0].parameters[0].stderr_value);
+}
+
+TEST(DiagnoseUnits, FindABiasedPivotAndSayThatToeWouldLookTheSame) {
+  MultiCastor actual = crooked_castors();
+  actual.castors[1].pivot_encoder_offset_rad = 0.015;
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 3; ++k) runs.push_back(castor_run(actual, {}, 81 + k));
+  const Diagnosis d = diagnosed(runs, three_castor_vehicle());
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "pivot_angle_bias");
+  EXPECT_EQ(d.findings[0].component, "castor2");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, 0.015, 4.0 * d.findings[0].parameters[0].stderr_value);
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  EXPECT_EQ(d.findings[0].alternatives.at(0).effect, "wheel_toe");
+}
+
+TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {
+  Recording run = linked_run(Clapper{}, {}, 91);
+  run.channels.erase(run.channels.begin() + 4);
+  const Result<Diagnosis> without = diagnose({run}, {}, vehicle_of(Clapper{}));
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().message().find("link_angle_a_rad"), std::string::npos) << without.error().message();
+  const Result<Diagnosis> synchro = diagnose({run}, {}, vehicle_of(SynchroDrive{}));
+  ASSERT_FALSE(synchro);
+  EXPECT_NE(synchro.error().message().find("synchro_drive"), std::string::npos);
+}
+
+TEST(Components, AreOfOneUnitOrOfAll) {
+  EXPECT_EQ(component_of_unit("truck_b", "left_wheel"), "truck_b.left_wheel");
+  EXPECT_EQ(component_of_unit("castor1", "vehicle"), "castor1");
+  EXPECT_EQ(component_of_unit("truck_b", "floor"), "floor");
+  EXPECT_EQ(component_of_unit("", "left_wheel"), "left_wheel");
+  const std::vector<VehicleUnit> trucks = units_of(vehicle_of(Clapper{}));
+  EXPECT_EQ(component_in_unit("truck_b", "truck_b.left_wheel", trucks), "left_wheel");
+  EXPECT_EQ(component_in_unit("truck_b", "truck_b", trucks), "vehicle");
+  EXPECT_EQ(component_in_unit("truck_b", "truck_a.left_wheel", trucks), std::nullopt);
+  EXPECT_EQ(component_in_unit("truck_a", "floor", trucks), "floor");
+}
+
+}  // namespace
+}  // namespace odolab::test
