@@ -88,7 +88,7 @@ void leave_out_traces(Diagnosis& d, bool castor) {
 }
 
 JoinedRun joined_run(const Recording& r, const Vehicle& nominal) {
-  return {between_steps(unit_samples(r, nominal), nominal), tracked_poses(r)};
+  return {unit_samples(r, nominal), tracked_poses(r)};
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordin
   std::vector<Recording> own;
   for (const Recording& recording : recordings) {
     const Vehicle vehicle = model.vehicle_in(recording.name);
-    const std::vector<UnitSample> samples = between_steps(unit_samples(recording, vehicle), vehicle);
+    const std::vector<UnitSample> samples = unit_samples(recording, vehicle);
     const Track tracked = tracked_poses(recording);
     if (samples.size() < 2 || tracked.size() < 2) continue;
     own.push_back(recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0));

@@ -161,35 +161,6 @@ std::vector<double> joint_steps(const Vehicle& v) {
   return {};
 }
 
-std::vector<UnitSample> between_steps(std::vector<UnitSample> samples, const Vehicle& vehicle) {
-  const std::vector<double> steps = joint_steps(vehicle);
-  const std::size_t n = samples.size();
-  for (std::size_t j = 0; j < steps.size() && n > 1; ++j) {
-    if (steps[j] <= 0.0) continue;
-    std::vector<std::pair<double, double>> edges = {{samples[0].time_s, samples[0].joints[j]}};  // time, value
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-      const double a = samples[i].joints[j], b = samples[i + 1].joints[j];
-      if (std::abs(a - b) < 0.5 * steps[j]) continue;
-      if (std::abs(a - b) < 1.5 * steps[j]) {
-        edges.emplace_back(0.5 * (samples[i].time_s + samples[i + 1].time_s), 0.5 * (a + b));
-      } else {  // it moves too fast to have been between two steps at a known time
-        if (edges.back().first < samples[i].time_s) edges.emplace_back(samples[i].time_s, a);
-        edges.emplace_back(samples[i + 1].time_s, b);
-      }
-    }
-    edges.emplace_back(samples[n - 1].time_s, samples[n - 1].joints[j]);
-    std::size_t k = 0;
-    for (UnitSample& s : samples) {
-      while (k + 2 < edges.size() && edges[k + 1].first < s.time_s) ++k;
-      const auto& [from_s, from] = edges[k];
-      const auto& [to_s, to] = edges[k + 1];
-      const double u = to_s > from_s ? std::clamp((s.time_s - from_s) / (to_s - from_s), 0.0, 1.0) : 0.0;
-      s.joints[j] = from + u * (to - from);
-    }
-  }
-  return samples;
-}
-
 std::vector<double> joints_at(const std::vector<UnitSample>& samples, double time_s) {
   assert(!samples.empty());
   const auto after = std::lower_bound(samples.begin(), samples.end(), time_s,

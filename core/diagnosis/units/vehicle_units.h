@@ -37,10 +37,6 @@ std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& 
 // The step of each joint's encoder in the order of UnitSample::joints; 0: continuous.
 std::vector<double> joint_steps(const Vehicle& vehicle);
 
-// Joints between the steps of their encoders: where a reading goes on by one, the joint stands on the edge between
-// both, and from edge to edge it is taken to move evenly. A reading that holds and then jumps would look like a push.
-std::vector<UnitSample> between_steps(std::vector<UnitSample> samples, const Vehicle& vehicle);
-
 // Linear between neighbours; the ends hold beyond them.
 std::vector<double> joints_at(const std::vector<UnitSample>& samples, double time_s);
 
