@@ -11,7 +11,9 @@ namespace {
 
 struct ImportOptions {
   std::vector<std::string> sources;
-  std::string out, joints, axes;
+  std::string out, joints, axes, mapping, delimiter;
+  std::vector<std::string> columns;
+  double period_s = 0.0;
   bool list = false;
   ImportWishes wishes;
 };
@@ -59,8 +61,25 @@ std::optional<Error> read_words(ImportOptions& options) {
     options.wishes.axes = SpaceAxes::y_up;
   else if (options.axes == "camera")
     options.wishes.axes = SpaceAxes::camera;
-  else if (!options.axes.empty() && options.axes != "z_up")
+  else if (options.axes == "z_up")
+    options.wishes.axes = SpaceAxes::z_up;
+  else if (!options.axes.empty())
     return Error{"--axes", "'" + options.axes + "'", "z_up, y_up or camera"};
+  TextMapping& mapping = options.wishes.mapping;
+  if (!options.mapping.empty()) {
+    Result<TextMapping> read = read_text_mapping(options.mapping);
+    if (!read) return read.error();
+    mapping = std::move(*read);
+  }
+  for (const std::string& words : options.columns)
+    if (auto error = add_column(mapping, words)) return error;
+  if (!options.delimiter.empty()) {
+    const std::optional<char> delimiter = delimiter_of(options.delimiter);
+    if (!delimiter) return Error{"--delimiter", "'" + options.delimiter + "'", "comma, semicolon, tab or blank"};
+    mapping.shape.delimiter = *delimiter;
+  }
+  if (options.period_s > 0.0) mapping.period_s = options.period_s;
+  if (options.period_s < 0.0) return Error{"--period", text_of("%g", options.period_s), "seconds above 0"};
   return std::nullopt;
 }
 
@@ -86,6 +105,8 @@ Command import_command() {
   command.example =
       "odolab import --list my_bag\n"
       "  odolab import my_bag --truth /mocap/robot/pose --joints left_wheel_joint,right_wheel_joint --out run.csv\n"
+      "  odolab import log.csv truth.tum --map time_s=t,ms left_wheel_rad=enc_l,deg right_wheel_rad=-enc_r,deg --out "
+      "run.csv\n"
       "  odolab import run-01_odo.csv run-01_opti.csv --out run-01.csv";
   command.declare = [options](Arguments& arguments) {
     arguments.files("SOURCE", options->sources, "one run: a file, a bag's folder, or the files that belong together",
@@ -97,6 +118,14 @@ Command import_command() {
     arguments.option("--commands", options->wishes.commands, "bags: the topic of commanded twists, or none");
     arguments.option("--truth", options->wishes.truth,
                      "bags: the topic of the outside truth, for transforms TOPIC:PARENT:CHILD, or none");
+    arguments.files("--map", options->columns,
+                    "text: what columns become, CHANNEL=COLUMN[,UNIT][,rate or increment][,FACTOR]; a minus before the "
+                    "column turns its sign",
+                    false);
+    arguments.option("--mapping", options->mapping, "text: the same in a file (TOML), with delimiter and comment");
+    arguments.option("--delimiter", options->delimiter, "text: comma, semicolon, tab or blank, where it is not plain");
+    arguments.option("--period", options->period_s, "text: seconds between rows, where no column has the time");
+    arguments.option("--times", options->wishes.times, "KITTI poses: the file with their times");
     arguments.option("--axes", options->axes, "how poses in space lie: z_up (the default), y_up, camera");
   };
   command.execute = [options] { return execute(*options); };

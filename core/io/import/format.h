@@ -28,5 +28,8 @@ ForeignFormat optiodom_synchronised_format();
 ForeignFormat optiodom_raw_format();
 ForeignFormat mrclam_format();
 ForeignFormat ros2_bag_format();
+ForeignFormat tum_format();
+ForeignFormat kitti_format();
+ForeignFormat mapped_text_format();
 
 }  // namespace odolab

@@ -1,7 +1,10 @@
 // What a person says about a source where it does not say it by itself.
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "core/io/import/text_mapping.h"
 
 namespace odolab {
 
@@ -18,7 +21,9 @@ struct ImportWishes {
   std::string left_joint, right_joint;  // names of the drive wheels' joints
   std::string commands;                 // topic of twists; "none": leave them out
   std::string truth;                    // topic of poses, or TOPIC:PARENT:CHILD of transforms; "none"
-  SpaceAxes axes = SpaceAxes::z_up;
+  std::optional<SpaceAxes> axes;        // z up where nobody says so and the format has no habit of its own
+  TextMapping mapping;                  // of text in which the columns have no meaning that is known
+  std::string times;                    // the file of the times of KITTI poses
 };
 
 }  // namespace odolab

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/io/bag/bag.h"
 #include "core/io/import/format.h"
 #include "core/io/number_text.h"
 #include "core/io/recording_csv.h"
@@ -11,11 +12,15 @@
 namespace odolab {
 
 const std::vector<ForeignFormat>& foreign_formats() {
+  // mapped text is what is left: it stands last
   static const std::vector<ForeignFormat> formats = {
       optiodom_synchronised_format(),
       optiodom_raw_format(),
       mrclam_format(),
       ros2_bag_format(),
+      tum_format(),
+      kitti_format(),
+      mapped_text_format(),
   };
   return formats;
 }
@@ -66,18 +71,29 @@ bool is_foreign_recording(const std::string& path) { return format_of(path) != n
 
 namespace {
 
-bool is_own_recording(const std::vector<std::string>& sources) {
-  return sources.size() == 1 && !format_of(sources.front()) && has_recording_header(sources.front());
+bool is_own_recording(const std::vector<std::string>& sources, const ImportWishes& wishes) {
+  return sources.size() == 1 && wishes.mapping.empty() && !format_of(sources.front()) &&
+         has_recording_header(sources.front());
+}
+
+// A mapping is for what says nothing by itself: neither for bags nor for a trajectory that is given beside it.
+const ForeignFormat* format_of(const std::string& path, const ImportWishes& wishes, bool alone) {
+  const ForeignFormat* known = format_of(path);
+  if (wishes.mapping.empty()) return known;
+  std::error_code failure;
+  if (known && (fs::is_directory(path, failure) || is_bag(path) || (known->stream && !alone))) return known;
+  return &foreign_formats().back();
 }
 
 // The format of each source, or what is wrong with one.
-Result<std::vector<const ForeignFormat*>> formats_of(const std::vector<std::string>& sources) {
+Result<std::vector<const ForeignFormat*>> formats_of(const std::vector<std::string>& sources,
+                                                     const ImportWishes& wishes) {
   if (sources.empty()) return Error{"import", "no source", known_formats()};
   std::vector<const ForeignFormat*> formats;
   for (const std::string& source : sources) {
     std::error_code failure;
     if (!fs::exists(source, failure)) return Error{source, "no such file", "a file that can be read"};
-    const ForeignFormat* of_this = format_of(source);
+    const ForeignFormat* of_this = format_of(source, wishes, sources.size() == 1);
     if (!of_this && fs::is_directory(source, failure)) return folder_given(source);
     if (!of_this) return Error{source, "a file of no known format", known_formats()};
     const ForeignFormat* first = formats.empty() ? of_this : formats.front();
@@ -105,8 +121,8 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
 }  // namespace
 
 Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes) {
-  if (is_own_recording(sources)) return load_recording(sources.front());
-  const auto formats = formats_of(sources);
+  if (is_own_recording(sources, wishes)) return load_recording(sources.front());
+  const auto formats = formats_of(sources, wishes);
   if (!formats) return formats.error();
   if (!formats->front()->stream) return formats->front()->read(sources);
   Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "");
@@ -118,8 +134,8 @@ Result<ImportedRecording> import_recording(const std::vector<std::string>& sourc
 
 Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, const ImportWishes& wishes,
                                      const std::string& out) {
-  if (!is_own_recording(sources)) {
-    const auto formats = formats_of(sources);
+  if (!is_own_recording(sources, wishes)) {
+    const auto formats = formats_of(sources, wishes);
     if (!formats) return formats.error();
     if (formats->front()->stream) {
       std::error_code failure;

@@ -65,7 +65,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     wheels->unwrap(1);
   }
   if (!choice->commands.empty()) commands = &streams.add_stream({"command_speed_mps", "command_yaw_rate_radps"});
-  if (!choice->truth.empty()) truth.emplace(streams, wishes.axes);
+  if (!choice->truth.empty()) truth.emplace(streams, wishes.axes.value_or(SpaceAxes::z_up));
 
   Stamps wheel_stamps, command_stamps, truth_stamps;
   bool commands_have_header = false;

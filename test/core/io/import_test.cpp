@@ -56,8 +56,9 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
       complaint({folder.write("letter.txt", "Dear reader,\n")}),
       "letter.txt: found a file of no known format, expected a recording CSV, a synchronised OptiOdom file (six "
       "columns), "
-      "a raw OptiOdom pair (_odo.csv and _opti.csv), a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat or a "
-      "ROS 2 bag (a folder, or its .mcap or .db3 file)");
+      "a raw OptiOdom pair (_odo.csv and _opti.csv), a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat, a "
+      "ROS 2 bag (a folder, or its .mcap or .db3 file), a TUM trajectory (t x y z qx qy qz qw), KITTI poses (twelve "
+      "numbers a row) with their times or any text of columns with --map or --mapping");
   const std::string synchronised = folder.write("run-01.csv", "0,0,0,0,0,0\n0.05,0.1,0.2\n");
   EXPECT_EQ(complaint({synchronised}), "run-01.csv:2: found 3 cells, expected 6");
   EXPECT_EQ(complaint({synchronised, synchronised}),

@@ -1,0 +1,191 @@
+// Any text of rows and columns, through a mapping that a person gives.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "core/io/import/format.h"
+#include "core/io/import/planar_pose.h"
+#include "core/io/import/text_rows.h"
+#include "core/io/number_text.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+
+struct Source {
+  const MappedColumn* mapped = nullptr;
+  std::size_t cell = kNowhere;
+  double factor = 1.0;
+  // of what is added up
+  double sum = 0.0, previous_rate = kEmpty;
+  std::int64_t previous_ns = 0;
+};
+
+std::optional<std::size_t> column_index(const std::string& column, const std::vector<std::string>& header,
+                                        std::size_t cells) {
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (header[i] == column) return i;
+  const std::optional<double> number = number_from(column);
+  if (number && *number >= 1.0 && *number <= static_cast<double>(cells) && *number == std::floor(*number))
+    return static_cast<std::size_t>(*number) - 1;
+  return std::nullopt;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < 12; ++i) text += (i ? ", " : "") + in_quotes(names[i]);
+  return names.size() > 12 ? text + ", ..." : text;
+}
+
+bool all_numbers(const std::vector<std::string_view>& cells) {
+  for (std::string_view cell : cells)
+    if (!cell.empty() && !number_from(cell)) return false;
+  return true;
+}
+
+bool says_nothing(std::string_view cell) { return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN"; }
+
+double added_up(Source& source, double value, std::int64_t time_ns) {
+  if (source.mapped->kind == ColumnKind::increment) return source.sum += value;
+  if (!std::isnan(source.previous_rate))
+    source.sum += 0.5 * (source.previous_rate + value) * static_cast<double>(time_ns - source.previous_ns) * 1e-9;
+  source.previous_rate = value;
+  source.previous_ns = time_ns;
+  return source.sum;
+}
+
+// The columns of the mapping found in a file.
+struct Layout {
+  std::vector<Source> sources;  // one for each channel of the stream, in its order
+  Source time, quaternion[4];
+  std::vector<std::string> channels;
+};
+
+std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::string>& header, std::size_t cells,
+                             const std::string& path, std::uint64_t line, Layout& layout) {
+  for (const MappedColumn& column : mapping.columns) {
+    const std::optional<std::size_t> at = column_index(column.column, header, cells);
+    if (!at)
+      return Error{path + ":" + std::to_string(line),
+                   header.empty() ? std::to_string(cells) + " columns without names" : "the columns " + listed(header),
+                   "a column " + in_quotes(column.column) + " for " + column.becomes};
+    const Source source{&column, *at,
+                        unit_factor(column.becomes, column.kind, column.unit).value_or(1.0) * column.factor};
+    if (column.becomes == "time_s") {
+      layout.time = source;
+    } else if (column.becomes.substr(0, 7) == "truth_q") {
+      layout.quaternion[std::string("xyzw").find(column.becomes.back())] = source;
+    } else {
+      layout.channels.push_back(column.becomes);
+      layout.sources.push_back(source);
+    }
+  }
+  if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0))
+    return Error{path, "a mapping without time_s", "time_s=COLUMN, or a period between rows"};
+  return std::nullopt;
+}
+
+std::int64_t unit_ns(const std::string& unit) {
+  return unit == "ns" ? 1 : unit == "us" ? 1000 : unit == "ms" ? 1'000'000 : 1'000'000'000;
+}
+
+bool recognises(const std::string&, std::string_view) { return false; }  // only where a mapping is given
+
+Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
+  const TextMapping& mapping = wishes.mapping;
+  Result<TextRows> rows = TextRows::open(path, mapping.shape);
+  if (!rows) return rows.error();
+  std::vector<std::string_view> cells;
+  if (!rows->next(cells)) return Error{path, "no rows", "a header or numbers"};
+
+  // names stand in a first row that is not all numbers, or in the comment above the first row
+  std::vector<std::string> header;
+  const bool named = !all_numbers(cells);
+  if (named) {
+    header.assign(cells.begin(), cells.end());
+  } else if (!rows->last_comment().empty()) {
+    std::vector<std::string_view> names;
+    split_cells(rows->last_comment(), rows->delimiter(), names);
+    if (names.size() == cells.size()) header.assign(names.begin(), names.end());
+  }
+  Layout layout;
+  if (auto error = lay_out(mapping, header, cells.size(), path, rows->line(), layout)) return *error;
+  const bool has_quaternion = layout.quaternion[3].cell != kNowhere || layout.quaternion[2].cell != kNowhere;
+  if (has_quaternion) layout.channels.push_back("truth_heading_rad");
+  SampleSpool& spool = streams.add_stream(layout.channels);
+
+  RowsLeftOut left_out;
+  std::vector<double> values(layout.channels.size());
+  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
+  std::uint64_t kept = 0;
+  bool more = !named || rows->next(cells);
+  for (; more; more = rows->next(cells)) {
+    const auto cell_of = [&](const Source& source) {
+      return source.cell < cells.size() ? cells[source.cell] : std::string_view();
+    };
+    std::optional<std::int64_t> time_ns;
+    if (layout.time.cell != kNowhere) {
+      time_ns = stamp_ns(cell_of(layout.time), unit_ns(layout.time.mapped->unit));
+      if (time_ns && layout.time.mapped->factor != 1.0)
+        time_ns = std::llround(static_cast<double>(*time_ns) * layout.time.mapped->factor);
+    } else {
+      time_ns = std::llround(static_cast<double>(row_number++) * mapping.period_s * 1e9);
+    }
+    if (!time_ns) {
+      left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " is no time");
+      continue;
+    }
+    if (*time_ns < last_ns) {
+      left_out.add(rows->line(), "time goes back");
+      continue;
+    }
+    std::string problem;
+    const auto number = [&](const Source& source) {
+      const std::string_view cell = cell_of(source);
+      if (source.cell >= cells.size())
+        problem = rows->cut() ? "the last line is cut off" : std::to_string(cells.size()) + " cells, too few";
+      if (says_nothing(cell)) return kEmpty;
+      const std::optional<double> value = number_from(cell);
+      if (!value) problem = in_quotes(cell) + " is no number";
+      return value ? *value * source.factor : kEmpty;
+    };
+    bool any = false;
+    for (std::size_t i = 0; i < layout.sources.size(); ++i) values[i] = number(layout.sources[i]);
+    if (has_quaternion) {
+      double q[4];
+      for (int i = 0; i < 4; ++i) q[i] = layout.quaternion[i].cell == kNowhere ? 0.0 : number(layout.quaternion[i]);
+      const SpacePose pose{{}, rotation_of(q[0], q[1], q[2], q[3])};
+      values.back() = planar_pose(pose, wishes.axes.value_or(SpaceAxes::z_up)).floor_T_body.heading_rad;
+    }
+    if (!problem.empty()) {
+      left_out.add(rows->line(), problem);
+      continue;
+    }
+    last_ns = *time_ns;
+    for (std::size_t i = 0; i < layout.sources.size(); ++i)
+      if (layout.sources[i].mapped->kind != ColumnKind::total && !std::isnan(values[i]))
+        values[i] = added_up(layout.sources[i], values[i], *time_ns);
+    for (double& value : values) {
+      if (!std::isfinite(value)) value = kEmpty;
+      any = any || !std::isnan(value);
+    }
+    if (!any) continue;  // a row of other columns
+    ++kept;
+    spool.add(*time_ns, values.data());
+  }
+  if (kept == 0) return left_out.error(path, "rows of numbers in the mapped columns");
+  left_out.warn(std::filesystem::path(path).filename().string(), streams.warnings);
+  if (streams.provenance.empty()) streams.provenance = "text, by a mapping";
+  return Done{};
+}
+
+}  // namespace
+
+ForeignFormat mapped_text_format() {
+  return {"mapped text", "any text of columns with --map or --mapping", recognises, nullptr, stream};
+}
+
+}  // namespace odolab

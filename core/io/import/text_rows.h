@@ -1,0 +1,63 @@
+// Rows of cells out of a text file, one at a time, in memory that does not grow with the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/bag/file_window.h"
+#include "core/io/import/text_mapping.h"
+
+namespace odolab {
+
+class TextRows {
+ public:
+  static Result<TextRows> open(const std::string& path, const TextShape& shape);
+
+  // The next row that holds anything; false at the end. The cells are valid until the next call; quotes around a cell
+  // are taken off. A byte-order mark, CRLF and empty lines are tolerated; of a line beyond a megabyte the first one is
+  // given.
+  bool next(std::vector<std::string_view>& cells);
+
+  std::uint64_t line() const { return line_; }  // of the last row, counted from 1
+  bool cut() const { return cut_; }             // whether the last row ended with the file, without a line's end
+  char delimiter() const { return shape_.delimiter; }
+  const std::string& last_comment() const { return last_comment_; }  // before the last row, without its mark
+
+ private:
+  TextRows(FileWindow file, TextShape shape) : file_(std::move(file)), shape_(std::move(shape)) {}
+  bool next_line(std::string_view& line);
+
+  FileWindow file_;
+  TextShape shape_;
+  std::uint64_t line_ = 0;
+  bool cut_ = false;
+  std::string last_comment_;
+};
+
+// Cells of one line at a delimiter, blanks and quotes around each taken off.
+void split_cells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+
+// What a first row is most likely divided by: tab, semicolon, comma, else blanks.
+char likely_delimiter(std::string_view line);
+
+// Counts rows that had to be left out, and says so with the first one's place.
+class RowsLeftOut {
+ public:
+  void add(std::uint64_t line, const std::string& why);
+  std::uint64_t count() const { return count_; }
+  void warn(const std::string& file, std::vector<std::string>& warnings) const;
+  Error error(const std::string& path, const std::string& expected) const;  // where nothing else was there
+
+ private:
+  std::uint64_t count_ = 0, first_line_ = 0;
+  std::string first_why_;
+};
+
+// A stamp in decimal digits as whole nanoseconds, exact for as many digits as a file may have; `unit_ns` is 1, 1000,
+// ... of its unit. Nothing where it is no number, or beyond the year 2200.
+std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns);
+
+}  // namespace odolab

@@ -1,0 +1,191 @@
+#include <cmath>
+
+#include "core/geometry/angles.h"
+#include "core/io/import/imported_recording.h"
+#include "core/io/import/text_rows.h"
+#include "test/core/io/files.h"
+
+namespace odolab {
+namespace {
+
+ImportWishes mapped(const std::vector<std::string>& columns) {
+  ImportWishes wishes;
+  for (const std::string& words : columns) {
+    const std::optional<Error> error = add_column(wishes.mapping, words);
+    EXPECT_FALSE(error) << error->message();
+  }
+  return wishes;
+}
+
+TEST(TextStamp, KeepsEveryNanosecond) {
+  EXPECT_EQ(stamp_ns("1700000000.123456789", 1'000'000'000), 1700000000123456789);
+  EXPECT_EQ(stamp_ns("1700000000123456789", 1), 1700000000123456789);
+  EXPECT_EQ(stamp_ns("-0.5", 1'000'000'000), -500000000);
+  EXPECT_EQ(stamp_ns("12.3456785", 1'000'000), 12345679);  // half a nanosecond rounds up
+  EXPECT_EQ(stamp_ns("1.7e3", 1'000'000), 1700000000);
+  EXPECT_EQ(stamp_ns("0.0000000000000000001", 1'000'000'000), 0);
+  for (const char* none : {"", "-", ".", "12a", "1e400", "99999999999999999999", "nan"})
+    EXPECT_FALSE(stamp_ns(none, 1'000'000'000)) << none;
+}
+
+TEST(MappedText, TakesColumnsByNameUnitAndSign) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.csv",
+                                        "\xEF\xBB\xBFstamp_ms;note;enc_l;enc_r;x_mm\r\n"
+                                        "1000;start;0;0;0\r\n"
+                                        "1500;;90;-180;\r\n"
+                                        "2000;\"a;b\";180;-360;2500\r\n");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=stamp_ms,ms", "left_wheel_rad=enc_l,deg", "right_wheel_rad=-enc_r,deg",
+                                       "truth_x_m=x_mm,mm", "truth_y_m=5,mm,0"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  const Recording& r = imported->recording;
+  EXPECT_TRUE(imported->warnings.empty());
+  EXPECT_EQ(r.time_s, (std::vector<double>{0.0, 0.5, 1.0}));
+  EXPECT_DOUBLE_EQ(r.channel("left_wheel_rad")->values[2], kPi);
+  EXPECT_DOUBLE_EQ(r.channel("right_wheel_rad")->values[2], 2.0 * kPi);
+  EXPECT_TRUE(std::isnan(r.channel("truth_x_m")->values[1]));
+  EXPECT_EQ(r.channel("truth_x_m")->values[2], 2.5);
+}
+
+// A wheel that speeds up evenly: the integral between samples is exact by the trapezium rule.
+TEST(MappedText, AddsUpRatesOverIrregularTimesAndIncrementsOverRows) {
+  ScratchFolder folder;
+  const std::vector<double> times = {0.0, 0.5, 0.75, 2.0, 2.25};
+  std::string text = "# t rate step\n";
+  for (double t : times) text += std::to_string(t) + " " + std::to_string(3.0 * t) + " 7\n";
+  const std::string path = folder.write("log.txt", text);
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "left_wheel_rad=rate,rad/s,rate", "right_wheel_rad=step,increment",
+                                       "left_ticks=rate,counts/s,rate", "right_ticks=3,increment,-2"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  const Recording& r = imported->recording;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(r.channel("left_wheel_rad")->values[i], 1.5 * times[i] * times[i], 1e-12);
+    EXPECT_EQ(r.channel("right_wheel_rad")->values[i], 7.0 * static_cast<double>(i + 1));
+    EXPECT_EQ(r.channel("right_ticks")->values[i], -14.0 * static_cast<double>(i + 1));
+  }
+}
+
+TEST(MappedText, MakesAHeadingOfAQuaternion) {
+  ScratchFolder folder;
+  const std::string path =
+      folder.write("pose.csv", "t,x,y,qz,qw\n0,1,2,0,1\n1,1,2,0.7071067811865476,0.7071067811865476\n");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "truth_x_m=x", "truth_y_m=y", "truth_qz=qz", "truth_qw=qw"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_NEAR(imported->recording.channel("truth_heading_rad")->values[1], kPi / 2.0, 1e-15);
+}
+
+TEST(MappedText, LeavesOutRowsThatAreNoneAndSaysSo) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.csv", "t,l\n0,1\n1,x\n2\n1.5,3\n0.5,4\n3,5\n4");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "left_ticks=l", "right_ticks=l"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 1.5, 3.0}));
+  EXPECT_EQ(imported->warnings,
+            std::vector<std::string>{"log.csv: 4 rows left out, the first in line 3: 'x' is no number"});
+}
+
+TEST(MappedText, SaysWhatAMappingLacks) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.csv", "t,l\n0,1\n");
+  const auto complaint = [&](const ImportWishes& wishes) { return message_of(import_recording({path}, wishes), path); };
+  EXPECT_EQ(complaint(mapped({"time_s=stamp"})),
+            "log.csv:1: found the columns 't', 'l', expected a column 'stamp' for time_s");
+  EXPECT_EQ(complaint(mapped({"left_ticks=l"})),
+            "log.csv: found a mapping without time_s, expected time_s=COLUMN, or a period between rows");
+  TextMapping mapping;
+  EXPECT_EQ(add_column(mapping, "left_wheel_rad")->message(),
+            "--map: found 'left_wheel_rad', expected CHANNEL=COLUMN, then what is known of it: "
+            "left_wheel_rad=-enc_l,deg,rate");
+  EXPECT_EQ(add_column(mapping, "left_wheel_rad=a,furlongs")->message(),
+            "--map: left_wheel_rad: found 'furlongs', expected rad, deg, mrad or turns");
+  EXPECT_EQ(add_column(mapping, "truth_x_m=a,rate")->message(),
+            "--map: truth_x_m: found rate, expected total: only wheels are added up from rates and increments");
+}
+
+TEST(MappedText, ReadsTheMappingFromAFile) {
+  ScratchFolder folder;
+  const std::string toml =
+      folder.write("map.toml",
+                   "delimiter = \"tab\"\ncomment = \"%\"\nskip_lines = 1\n\n[[column]]\n"
+                   "becomes = \"time_s\"\ncolumn = \"1\"\nunit = \"us\"\n\n[[column]]\n"
+                   "becomes = \"left_wheel_rad\"\ncolumn = \"2\"\nunit = \"rpm\"\nkind = \"rate\"\n"
+                   "factor = -1\n\n[[column]]\nbecomes = \"right_wheel_rad\"\ncolumn = \"3\"\n");
+  const std::string log = folder.write("log.txt", "Logger 2.0\n% begins\n0\t60\t5\n500000\t60\t6\n");
+  ImportWishes wishes;
+  Result<TextMapping> mapping = read_text_mapping(toml);
+  ASSERT_TRUE(mapping.ok()) << mapping.error().message();
+  wishes.mapping = *mapping;
+  const Result<ImportedRecording> imported = import_recording({log}, wishes);
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_DOUBLE_EQ(imported->recording.channel("left_wheel_rad")->values[1], -kPi);
+  EXPECT_EQ(imported->recording.channel("right_wheel_rad")->values[1], 6.0);
+  EXPECT_EQ(
+      message_of(read_text_mapping(folder.write("bad.toml", "[[column]]\nbecomes = \"time_s\"\n")), folder.path("x")),
+      "bad.toml:1: found no key 'column', expected it to be given");
+}
+
+TEST(Trajectory, TumGoesWithWheelsOnTheSameClock) {
+  ScratchFolder folder;
+  const std::string wheels = folder.write("log.csv", "t,l,r\n1700000000.00,0,0\n1700000000.02,1,2\n");
+  const std::string truth = folder.write("truth.txt",
+                                         "# timestamp tx ty tz qx qy qz qw\n1700000000.01 1 2 0 0 0 0.6 0.8\n"
+                                         "1700000000.02 1.5 2 0 0 0 0 1\n");
+  const Result<ImportedRecording> imported =
+      import_recording({wheels, truth}, mapped({"time_s=t", "left_wheel_rad=l", "right_wheel_rad=r"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  const Recording& r = imported->recording;
+  EXPECT_EQ(r.time_s, (std::vector<double>{0.0, 0.01, 0.02}));
+  EXPECT_NEAR(r.channel("truth_heading_rad")->values[1], 2.0 * std::atan2(0.6, 0.8), 1e-15);
+  EXPECT_EQ(r.channel("truth_x_m")->values[2], 1.5);
+  EXPECT_EQ(r.channel("right_wheel_rad")->values[2], 2.0);
+}
+
+// A left curve of radius 2 m, as a camera's poses (x right, y down, z ahead) and with z up.
+TEST(Trajectory, KittiFindsItsAxesAndItsTimes) {
+  for (const bool camera : {true, false}) {
+    ScratchFolder folder;
+    std::string poses, times;
+    for (int i = 0; i < 50; ++i) {
+      const double a = 0.05 * i, x = 2.0 * std::sin(a), y = 2.0 - 2.0 * std::cos(a), c = std::cos(a), s = std::sin(a);
+      const std::vector<double> m = camera ? std::vector<double>{c, 0, -s, -y, 0, 1, 0, 0, s, 0, c, x}
+                                           : std::vector<double>{c, -s, 0, x, s, c, 0, y, 0, 0, 1, 0};
+      char cell[40];
+      for (double v : m) std::snprintf(cell, sizeof cell, "%.17g ", v), poses += cell;
+      poses += "\n";
+      times += std::to_string(0.1 * i) + "\n";
+    }
+    const std::string path = folder.write("poses.txt", poses);
+    EXPECT_EQ(
+        message_of(import_recording({path}), path),
+        "poses.txt: found poses without times, expected a times.txt beside them, --times FILE or --period SECONDS");
+    folder.write("times.txt", times);
+    const Result<ImportedRecording> imported = import_recording({path});
+    ASSERT_TRUE(imported.ok()) << imported.error().message();
+    const Track track = truth_track(imported->recording);
+    ASSERT_EQ(track.size(), 50u);
+    for (int i = 0; i < 50; ++i) {
+      const TimedPose& p = track[static_cast<std::size_t>(i)];
+      EXPECT_NEAR(p.time_s, 0.1 * i, 1e-12);
+      EXPECT_NEAR(p.pose.x_m, 2.0 * std::sin(0.05 * i), 1e-12);
+      EXPECT_NEAR(p.pose.y_m, 2.0 - 2.0 * std::cos(0.05 * i), 1e-12);
+      EXPECT_NEAR(p.pose.heading_rad, 0.05 * i, 1e-12);
+    }
+    EXPECT_EQ(imported->warnings.size(), 1u);
+  }
+}
+
+TEST(Trajectory, WarnsWhereTheBodyLeansOver) {
+  ScratchFolder folder;
+  const std::string truth = folder.write("truth.txt", "0 0 0 0 0.7071 0 0 0.7071\n1 1 0 0 0.7071 0 0 0.7071\n");
+  const Result<ImportedRecording> imported = import_recording({truth});
+  ASSERT_TRUE(imported.ok());
+  EXPECT_EQ(imported->warnings, std::vector<std::string>{"truth.txt: the body leans over: its axes may not be z up; "
+                                                         "--axes y_up or camera says otherwise"});
+}
+
+}  // namespace
+}  // namespace odolab
