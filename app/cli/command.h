@@ -41,6 +41,7 @@ Command calibrate_command();
 Command diagnose_command();
 Command predict_command();
 Command import_command();
+Command export_command();
 Command reproduce_command();
 
 // Reads the command line and does what it says. Without arguments the window opens.

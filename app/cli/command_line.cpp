@@ -9,7 +9,7 @@ namespace {
 
 std::vector<Command> commands() {
   return {gui_command(),     run_command(),    calibrate_command(), diagnose_command(),
-          predict_command(), import_command(), reproduce_command()};
+          predict_command(), import_command(), export_command(),    reproduce_command()};
 }
 
 class CliArguments : public Arguments {

@@ -41,6 +41,12 @@ std::string number_text(double value) {
   return text;
 }
 
+std::string decimal_text(double value) {
+  std::string text = number_text(value);
+  if (text.find('.') == std::string::npos) text.insert(std::min(text.find('e'), text.size()), ".0");
+  return text;
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string result = "'";

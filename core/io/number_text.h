@@ -17,6 +17,9 @@ std::optional<double> number_from(std::string_view text);
 void append_number(std::string& text, double value);
 std::string number_text(double value);
 
+// The same with a decimal point whatever the value, for readers that tell numbers from counts or texts by it.
+std::string decimal_text(double value);
+
 // As printf writes it, for people: "%.2f".
 std::string number_text(const char* format, double value);
 

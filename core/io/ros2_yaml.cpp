@@ -8,9 +8,8 @@ namespace odolab {
 std::string ros2_diff_drive_yaml(const DifferentialDrive& nominal, const DifferentialDrive& calibrated) {
   const double radius_m = 0.5 * (nominal.wheel_radius_left_m + nominal.wheel_radius_right_m);
   const auto line = [](const char* key, double value) {
-    std::string digits = number_text(value);  // YAML takes "1" for a whole number, and ROS 2 then refuses it
-    if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
-    return std::string("    ") + key + ": " + digits + "\n";
+    // YAML takes "1" for a whole number, and ROS 2 then refuses it
+    return std::string("    ") + key + ": " + decimal_text(value) + "\n";
   };
   return "# Calibrated by OdoLab. The controller multiplies: radius of a wheel = wheel_radius * its multiplier,\n"
          "# separation = wheel_separation * wheel_separation_multiplier (all in metres).\n"

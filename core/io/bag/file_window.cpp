@@ -31,7 +31,7 @@ Result<FileWindow> FileWindow::open(const std::string& path) {
 std::string_view FileWindow::peek(std::uint64_t wanted) {
   wanted = std::min(wanted, left());
   if (end_ - begin_ < wanted) {
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+    if (end_ > begin_) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     begin_ = 0;
     const std::size_t room = std::max<std::size_t>(kLeastBuffer, static_cast<std::size_t>(wanted));
