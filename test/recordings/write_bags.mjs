@@ -4,7 +4,7 @@ import { ros2humble } from "@foxglove/rosmsg-msgs-common";
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 import { McapWriter } from "@mcap/core";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 
 const folder = new URL("./bags/", import.meta.url).pathname;
 rmSync(folder, { recursive: true, force: true });
@@ -31,7 +31,7 @@ function encoded(type, message) {
 // The run, known to the tests by the same formulas: sample i of the wheels at i / 50 s, of the truth at i / 25 s. Stamps
 // of the headers; the log is 3 ms later.
 const START_S = 1700000000;
-const samples = 60;
+let samples = 60;
 const stampOf = (ns) => ({ sec: START_S + Math.floor(ns / 1e9), nanosec: ns % 1e9 });
 const header = (ns, frame_id) => ({ stamp: stampOf(ns), frame_id });
 const logged = (ns) => BigInt(START_S) * 1000000000n + BigInt(ns) + 3000000n;
@@ -76,7 +76,7 @@ function run(extra = []) {
 }
 
 // Every type, and topics that are not plain.
-const everything = run([
+const allTypes = () => run([
   (m, ns, i) => {
     if (i % 2 !== 0) return;
     const k = i / 2;
@@ -167,10 +167,52 @@ await mcap("no_index.mcap", run(), {
   useMessageIndex: false, useChunkIndex: false, useAttachmentIndex: false, useMetadataIndex: false,
 });
 await mcap("big_endian.mcap", bigEndian());
-await mcap("every_type.mcap", everything, packed("zstd", "zstd", ["-q", "-c"]));
+await mcap("every_type.mcap", allTypes(), packed("zstd", "zstd", ["-q", "-c"]));
+
+// The same without checksums, so that a fuzzer's changes get past them: those of chunks, and the one over all data.
+function withoutChecksums(file) {
+  const bytes = Buffer.from(file);
+  for (let at = 8; at + 9 <= bytes.length; ) {
+    const opcode = bytes[at];
+    const size = Number(bytes.readBigUInt64LE(at + 1));
+    if (opcode === 0x06) bytes.writeUInt32LE(0, at + 9 + 24);
+    if (opcode === 0x0f) bytes.writeUInt32LE(0, at + 9);
+    at += 9 + size;
+    if (opcode === 0x02) break;
+  }
+  return bytes;
+}
 
 // For write_db3.py, which knows SQLite: the messages as they are.
 const plain = (messages) => messages.map(([topic, type, time, data]) =>
   ({ topic, type: type.replace("/", "/msg/"), time: time.toString(), data: Buffer.from(data).toString("base64") }));
 execFileSync("python3", [new URL("./write_db3.py", import.meta.url).pathname, folder],
   { input: JSON.stringify(plain(run())), stdio: ["pipe", "inherit", "inherit"] });
+
+// Seeds of the fuzzers: three samples of everything.
+samples = 3;
+const seeds = new URL("../fuzz/seeds/", import.meta.url).pathname;
+for (const name of ["mcap", "sqlite", "messages"]) {
+  rmSync(seeds + name, { recursive: true, force: true });
+  mkdirSync(seeds + name, { recursive: true });
+}
+const few = run(), fewOfAll = allTypes();
+await mcap("small.mcap", few, { useChunks: false });
+await mcap("small_chunks.mcap", few, { chunkSize: 500 });
+await mcap("small_zstd.mcap", few, packed("zstd", "zstd", ["-q", "-c"]));
+await mcap("small_lz4.mcap", few, packed("lz4", "lz4", ["-q", "-c"]));
+await mcap("small_all.mcap", fewOfAll, { chunkSize: 2000 });
+for (const name of ["small", "small_chunks", "small_zstd", "small_lz4", "small_all"]) {
+  writeFileSync(seeds + "mcap/" + name + ".mcap", withoutChecksums(readFileSync(folder + name + ".mcap")));
+  rmSync(folder + name + ".mcap");
+}
+execFileSync("python3", [new URL("./write_db3.py", import.meta.url).pathname, seeds + "sqlite", "512"],
+  { input: JSON.stringify(plain(few)), stdio: ["pipe", "inherit", "inherit"] });
+// the type's number as in fuzz_messages.cpp, then the message
+const types = ["nav_msgs/Odometry", "geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
+  "geometry_msgs/TransformStamped", "tf2_msgs/TFMessage", "geometry_msgs/Twist", "geometry_msgs/TwistStamped",
+  "sensor_msgs/JointState"];
+for (const [topic, type, , data] of [...fewOfAll].reverse())
+  writeFileSync(seeds + "messages/" + types.indexOf(type) + "_little", Buffer.concat([Buffer.from([types.indexOf(type)]), data]));
+for (const [topic, type, , data] of bigEndian())
+  writeFileSync(seeds + "messages/" + types.indexOf(type) + "_big", Buffer.concat([Buffer.from([types.indexOf(type)]), data]));

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes sqlite3 bags as rosbag2 lays them out: messages as JSON on standard input, the folder as argument."""
+"""Writes sqlite3 bags as rosbag2 lays them out: messages as JSON on standard input; the folder, and for one small file the
+size of its pages, as arguments."""
 import base64
 import json
 import os
@@ -7,14 +8,15 @@ import sqlite3
 import sys
 
 folder = sys.argv[1]
+page_size = int(sys.argv[2]) if len(sys.argv) > 2 else 4096
 messages = json.load(sys.stdin)
 
 
 def write(path, part):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     database = sqlite3.connect(path)
+    database.execute(f"PRAGMA page_size = {page_size}")
     database.executescript("""
-        PRAGMA page_size = 4096;
         CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
         CREATE TABLE metadata(id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);
         CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
@@ -38,6 +40,9 @@ def write(path, part):
     database.close()
 
 
+if len(sys.argv) > 2:
+    write(os.path.join(folder, "small.db3"), messages)
+    sys.exit()
 half = len(messages) // 2
 write(os.path.join(folder, "two_files", "two_files_0.db3"), messages[:half])
 write(os.path.join(folder, "two_files", "two_files_1.db3"), messages[half:])
