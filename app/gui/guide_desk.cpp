@@ -65,6 +65,7 @@ void GuideDesk::open(const GuideSession& session, const std::string& file) {
   problem_.clear();
   internal_.reset();
   recordings_.clear();
+  held_out_.clear();
   actual_.reset();
   shown_ = true;
   vehicle_files_.clear();
@@ -129,13 +130,13 @@ void GuideDesk::show(bool on) {
 
 void GuideDesk::change(const GuideSession& session, Jobs& jobs) {
   if (!session_) return;
-  const std::size_t files = session_->recordings.size();
+  const std::size_t files = session_->recordings.size() + session_->held_out.size();
   const int page = session_->page;
   session_ = session;
   session_->page = std::clamp(session.page, 0, int(guide_of(session.kind).pages.size()) - 1);
   session_->reached = std::max(session_->reached, session_->page);
   if (session_->page != page) problem_.clear();
-  if (session_->recordings.size() != files) read_recordings(jobs);  // one was taken away
+  if (session_->recordings.size() + session_->held_out.size() != files) read_recordings(jobs);  // one was taken away
   changed_ = true;
   reckon();
 }
@@ -153,7 +154,7 @@ Result<Done> GuideDesk::choose_vehicle(const std::string& path, Jobs& jobs) {
 }
 
 void GuideDesk::reckon() {
-  outcome_ = outcome_of(*session_, internal_.get());
+  outcome_ = outcome_of(*session_, internal_.get(), held_out_);
   experiments_.clear();
   const auto add = [this](const GuideRound& round, const std::string& name) {
     ui::BenchExperiment e;
@@ -233,14 +234,16 @@ void GuideDesk::drive(Jobs& jobs) {
     reckon();
     return;
   }
+  if (page == PageTask::held_out) drive_another_way(jobs);
   if (page == PageTask::recordings) {
     const Vehicle nominal = session_->vehicle;
+    const std::uint64_t inside = inside_seed();
     const auto drives = std::make_shared<InsideDrives>();
     const auto found = std::make_shared<std::optional<Result<InternalCalibration>>>();
     jobs.start(
         "driving, and calibrating from the inside",
-        [nominal, seed, drives, found](const Progress& progress, const Jobs::Deliver&) {
-          *drives = drive_for_calibration_from_inside(nominal, seed,
+        [nominal, inside, drives, found](const Progress& progress, const Jobs::Deliver&) {
+          *drives = drive_for_calibration_from_inside(nominal, inside,
                                                       [&](double share) { return goes_on(progress, 0.8 * share); });
           if (drives->recordings.empty()) return;
           *found = calibrate_internally(drives->recordings, nominal,
@@ -255,16 +258,7 @@ void GuideDesk::drive(Jobs& jobs) {
           }
           session_->recordings.clear();
           recordings_ = drives->recordings;
-          const std::string folder = file_.empty() ? "" : file_.substr(0, file_.size() - 5) + "-recordings";
-          for (std::size_t i = 0; i < recordings_.size(); ++i) {
-            std::string name = recordings_[i].name;
-            if (!folder.empty()) {
-              name = folder + "/" + std::to_string(i + 1) + ".csv";
-              if (const Result<Done> done = write_recording_csv(name, recordings_[i]); !done)
-                problem_ = done.error().message();
-            }
-            session_->recordings.push_back(name);
-          }
+          for (const Recording& recording : recordings_) session_->recordings.push_back(kept(recording));
           actual_ = drives->actual;
           internal_ = std::make_shared<const InternalCalibration>(***found);
           changed_ = true;
@@ -273,16 +267,53 @@ void GuideDesk::drive(Jobs& jobs) {
   }
 }
 
+std::uint64_t GuideDesk::inside_seed() const { return seed_of_stream(scenario_.seed, 100); }
+
+// Writes a simulated recording beside the session, and returns its path; its name alone where nothing is kept.
+std::string GuideDesk::kept(const Recording& recording) {
+  if (file_.empty()) return recording.name;
+  const std::string path = file_.substr(0, file_.size() - 5) + "-recordings/" + recording.name + ".csv";
+  if (const Result<Done> done = write_recording_csv(path, recording); !done) problem_ = done.error().message();
+  return path;
+}
+
 void GuideDesk::read_recordings(Jobs& jobs) {
-  recordings_.clear();
-  for (const std::string& file : session_->recordings) {
-    const Result<ImportedRecording> recording = load_recording(file);
-    if (recording)
-      recordings_.push_back(recording->recording);
-    else
-      problem_ = recording.error().message();
-  }
+  const auto read = [this](const std::vector<std::string>& files, std::vector<Recording>& recordings) {
+    recordings.clear();
+    for (const std::string& file : files) {
+      const Result<ImportedRecording> recording = load_recording(file);
+      if (recording)
+        recordings.push_back(recording->recording);
+      else
+        problem_ = recording.error().message();
+    }
+  };
+  read(session_->recordings, recordings_);
+  read(session_->held_out, held_out_);
   calibrate_inside(jobs);
+}
+
+void GuideDesk::drive_another_way(Jobs& jobs) {
+  if (!outcome_.calibrated) return;
+  const Vehicle believed = *outcome_.calibrated, actual = drawn_machine(session_->vehicle, inside_seed());
+  const std::uint64_t seed = inside_seed();
+  const auto driven = std::make_shared<std::optional<Recording>>();
+  jobs.start(
+      "driving another way",
+      [believed, actual, seed, driven](const Progress& progress, const Jobs::Deliver&) {
+        *driven = drive_held_out(believed, actual, seed, progress);
+      },
+      [this, driven](bool cancelled) {
+        if (cancelled || !session_) return;
+        if (!*driven) {
+          problem_ = "The robot did not arrive.";
+          return;
+        }
+        held_out_ = {**driven};
+        session_->held_out = {kept(**driven)};
+        changed_ = true;
+        reckon();
+      });
 }
 
 void GuideDesk::calibrate_inside(Jobs& jobs) {
@@ -320,6 +351,16 @@ Result<Done> GuideDesk::take(const std::string& path, const Recording& recording
     recordings_.push_back(recording);
     changed_ = true;
     calibrate_inside(jobs);
+    return Done{};
+  }
+  if (page == PageTask::held_out) {
+    if (!outcome_.calibrated) return Error{path, "no calibration yet", "one to be held against it"};
+    const Result<HeldOutError> error = held_out_error(recording, session_->vehicle, *outcome_.calibrated);
+    if (!error) return error.error();
+    session_->held_out.push_back(path);
+    held_out_.push_back(recording);
+    changed_ = true;
+    reckon();
     return Done{};
   }
   const GuideRound* round = round_on(*session_, page);

@@ -49,8 +49,11 @@ class GuideDesk {
 
  private:
   PageTask task() const;
+  std::uint64_t inside_seed() const;  // of the machine that a calibration from the inside is about
   void reckon();
   void read_recordings(Jobs& jobs);
+  void drive_another_way(Jobs& jobs);
+  std::string kept(const Recording& recording);
   void calibrate_inside(Jobs& jobs);
   void look_for_saved();
   void open(const GuideSession& session, const std::string& file);
@@ -61,6 +64,7 @@ class GuideDesk {
   GuideOutcome outcome_;
   std::vector<ui::BenchExperiment> experiments_;
   std::shared_ptr<const InternalCalibration> internal_;
+  std::vector<Recording> held_out_;
   std::vector<Recording> recordings_;  // of a calibration from the inside, in the order of the session's files
   std::optional<Vehicle> actual_;
   std::vector<ui::SavedGuide> saved_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/gui/first_scenario.h"
 #include "core/io/file_kind.h"
@@ -21,6 +22,17 @@ constexpr double kFastest = 1e6;   // "as fast as possible" is bounded by the ti
 
 constexpr const char* kCableDeleted = "Cable deleted, Ctrl+Z brings it back";
 constexpr const char* kPatchDeleted = "Patch deleted, Ctrl+Z brings it back";
+
+// The path, or one with a number before its ending: no file of before is written over.
+std::string not_there_yet(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path wanted(path);
+  fs::path free = wanted;
+  for (int k = 2; fs::exists(free, none); ++k)
+    free = wanted.parent_path() / (wanted.stem().string() + "-" + std::to_string(k) + wanted.extension().string());
+  return free.string();
+}
 
 }  // namespace
 
@@ -175,7 +187,8 @@ struct Session::Executor {
     if (!s.refuse_while_busy("the guide's drive")) s.guide_.drive(s.jobs_);
   }
   void operator()(const ui::ExportGuide& a) const {
-    if (s.done_or_said(s.guide_.write(a.what, a.path))) s.say("Written: " + a.path, false);
+    const std::string path = not_there_yet(a.path);
+    if (s.done_or_said(s.guide_.write(a.what, path))) s.say("Written: " + path, false);
   }
   void operator()(const ui::OpenLesson& a) const { s.open_lesson(a.path); }
   void operator()(const ui::LessonStepTo& a) const {

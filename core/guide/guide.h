@@ -20,6 +20,7 @@ enum class PageTask {
   result,      // the numbers and where they go
   again,       // the squares once more with the corrected settings
   verdict,     // what that shows; perhaps a second compensation
+  held_out,    // drives that the calibration has not seen, before and after
   recordings,  // files with the vehicle's own encoders
   finish,      // what to take away
 };

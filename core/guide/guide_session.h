@@ -45,6 +45,7 @@ struct GuideSession {
   std::vector<GuideRound> rounds;       // the first uncalibrated; each next one with what the last one found
   GuideRound bumped;                    // extended UMBmark: over the bumps
   std::vector<std::string> recordings;  // files
+  std::vector<std::string> held_out;    // files that the calibration does not see
 };
 
 // The settings that the first round is driven with: the vehicle's, with the tape's scale put in.

@@ -133,6 +133,15 @@ Guide castor_guide() {
             {"Each number with its uncertainty, which is that of the encoders' steps."},
             {},
             {}},
+           {PageTask::held_out,
+            "Does it hold?",
+            {"Drives that the calibration has not seen, with the numbers as they were and with the new ones. Only this "
+             "shows that "
+             "they are right, and not only fitted."},
+            {"Drop one or more recordings that know the true pose at their start and end, headings included. What the "
+             "odometry "
+             "makes of them is compared with that."},
+            {"Press Drive: the calibrated robot drives another way, and the simulation knows the truth."}},
            {PageTask::finish, "Take it along", {"The calibrated vehicle file, and a page that tells how."}, {}, {}}}};
 }
 
@@ -161,6 +170,15 @@ Guide linked_guide() {
         {"Each number with its uncertainty. What the drives could not tell keeps its value, and is said."},
         {},
         {}},
+       {PageTask::held_out,
+        "Does it hold?",
+        {"Drives that the calibration has not seen, with the numbers as they were and with the new ones. Only this "
+         "shows that "
+         "they are right, and not only fitted."},
+        {"Drop one or more recordings that know the true pose at their start and end, headings included. What the "
+         "odometry "
+         "makes of them is compared with that."},
+        {"Press Drive: the calibrated robot drives another way, and the simulation knows the truth."}},
        {PageTask::finish, "Take it along", {"The calibrated vehicle file, and a page that tells how."}, {}, {}}}};
 }
 

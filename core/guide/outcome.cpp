@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/guide/misfit.h"
+#include "core/odometry/prediction.h"
 
 namespace odolab {
 
@@ -182,12 +183,41 @@ RoundOutcome outcome_of(const GuideRound& round, double side_m) {
   return out;
 }
 
-GuideOutcome outcome_of(const GuideSession& session, const InternalCalibration* internal) {
+Result<HeldOutError> held_out_error(const Recording& recording, const Vehicle& before, const Vehicle& after) {
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  if (truth.size() < 2 || !truth.front().heading_rad)
+    return Error{recording.name, "no true pose at the start and the end", "a measured pose at both ends"};
+  HeldOutError error;
+  error.name = recording.name;
+  for (const bool calibrated : {false, true}) {
+    const Result<Track> track = predicted_track(recording, calibrated ? after : before);
+    if (!track) return track.error();
+    if (track->empty()) return Error{recording.name, "no encoders", "those of the vehicle"};
+    const Pose end = track->back().pose;
+    (calibrated ? error.after_m : error.before_m) = length(end.position() - truth.back().position);
+    if (truth.back().heading_rad)
+      (calibrated ? error.after_rad : error.before_rad) =
+          std::abs(wrapped(end.heading_rad - *truth.back().heading_rad));
+  }
+  return error;
+}
+
+GuideOutcome outcome_of(const GuideSession& session, const InternalCalibration* internal,
+                        const std::vector<Recording>& held_out) {
   GuideOutcome out;
   if (session.kind == GuideKind::umbmark || session.kind == GuideKind::extended_umbmark)
     squares_outcome(out, session);
   else if (internal)
     internal_outcome(out, *internal);
+  if (out.calibrated)
+    for (const Recording& recording : held_out)
+      if (Result<HeldOutError> error = held_out_error(recording, session.vehicle, *out.calibrated)) {
+        out.held_out.push_back(*error);
+        if (error->after_m > error->before_m)
+          out.warnings.push_back(recording.name +
+                                 ": the new numbers end further from the truth than the old ones. Was it "
+                                 "driven by the same vehicle, and is its truth right?");
+      }
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/calibration/internal.h"
 #include "core/guide/guide_session.h"
+#include "core/recording/recording.h"
 
 namespace odolab {
 
@@ -32,6 +33,17 @@ struct RoundOutcome {
 };
 RoundOutcome outcome_of(const GuideRound& round, double side_m);
 
+// How far the odometry of a drive ends from the truth, with the numbers as they were and with the new ones.
+struct HeldOutError {
+  std::string name;
+  double before_m = 0.0, before_rad = 0.0;
+  double after_m = 0.0, after_rad = 0.0;
+};
+
+// Needs the true pose with a heading at the start, and the true position at the end; a heading there where there is
+// one.
+Result<HeldOutError> held_out_error(const Recording& recording, const Vehicle& before, const Vehicle& after);
+
 struct GuideOutcome {
   std::vector<RoundOutcome> rounds;
   std::optional<ScaleCalibration> scale;
@@ -40,11 +52,13 @@ struct GuideOutcome {
   std::optional<Vehicle> calibrated;   // with the settings in it
   std::vector<std::string> sentences;  // what was found
   std::vector<std::string> warnings;   // what to doubt
-  bool compensate_again = false;       // the rule of 3 SEM says that a second compensation is worth while
+  std::vector<HeldOutError> held_out;
+  bool compensate_again = false;  // the rule of 3 SEM says that a second compensation is worth while
 };
 
 // `internal` is what calibrate_internally found in the session's recordings; null where nothing yet, or in a guide of
-// squares.
-GuideOutcome outcome_of(const GuideSession& session, const InternalCalibration* internal = nullptr);
+// squares. `held_out` are drives that it has not seen.
+GuideOutcome outcome_of(const GuideSession& session, const InternalCalibration* internal = nullptr,
+                        const std::vector<Recording>& held_out = {});
 
 }  // namespace odolab

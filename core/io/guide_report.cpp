@@ -83,6 +83,15 @@ HtmlReport guide_report(const GuideSession& session, const GuideOutcome& outcome
                      number_text("%.5f", outcome.scale->scaling_error_stderr) + " (Eq. B.1).");
   if (guide.kind == GuideKind::umbmark || guide.kind == GuideKind::extended_umbmark)
     add_rounds(report, session, outcome);
+  if (!outcome.held_out.empty()) {
+    report.heading("Drives that the calibration has not seen");
+    std::vector<std::vector<std::string>> rows;
+    for (const HeldOutError& e : outcome.held_out)
+      rows.push_back({e.name, number_text("%.1f", 1e3 * e.before_m), number_text("%.1f", 1e3 * e.after_m),
+                      number_text("%.2f", degrees(e.before_rad)), number_text("%.2f", degrees(e.after_rad))});
+    report.table({"drive", "before [mm]", "after [mm]", "before [degrees]", "after [degrees]"}, rows);
+    report.paragraph("How far the odometry ends from the true pose.");
+  }
   if (!session.recordings.empty()) {
     report.heading("Recordings");
     std::vector<std::vector<std::string>> rows;

@@ -93,6 +93,7 @@ Result<GuideSession> read_guide_session(const std::string& path) {
   TomlTable bumped = top.table("bumped");
   session.bumped = read_round(bumped, session.vehicle);
   for (TomlTable& element : top.tables("recording")) element.field("file", session.recordings.emplace_back());
+  for (TomlTable& element : top.tables("held_out")) element.field("file", session.held_out.emplace_back());
   const Result<Done> done = top.finish();
   if (!done) return done.error();
   for (const std::string& problem : problems_in(session)) return top.error_of(problem);
@@ -120,6 +121,10 @@ Result<Done> write_guide_session(const std::string& path, const GuideSession& se
   write_round(text, session.bumped, "bumped");
   for (const std::string& file : session.recordings) {
     text.table_element("recording");
+    text.field("file", file);
+  }
+  for (const std::string& file : session.held_out) {
+    text.table_element("held_out");
     text.field("file", file);
   }
   return write_whole_file_durably(path, text.text());

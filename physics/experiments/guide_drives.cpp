@@ -37,11 +37,11 @@ Clapper drawn_clapper(const Clapper& nominal, std::uint64_t seed) {
   return actual;
 }
 
-Scenario clapper_scenario(const Vehicle& nominal, const Clapper& actual, const Path& path) {
+Scenario driven_as(const Vehicle& nominal, const Vehicle& actual, const Path& path) {
   Scenario scenario;
-  scenario.name = "CLAPPER";
+  scenario.name = nominal.name;
   scenario.vehicle = nominal;
-  scenario.machine.lengths = actual;
+  scenario.machine.lengths = actual.kind;
   scenario.path = path;
   scenario.driving = {0.35, 0.35, 0.2, 0.3};
   scenario.sensors.encoder_period_s = scenario.sensors.truth_period_s = 0.04;
@@ -49,6 +49,15 @@ Scenario clapper_scenario(const Vehicle& nominal, const Clapper& actual, const P
 }
 
 }  // namespace
+
+Vehicle drawn_machine(const Vehicle& nominal, std::uint64_t seed) {
+  Vehicle actual = nominal;
+  if (const auto* castors = std::get_if<MultiCastor>(&nominal.kind))
+    actual.kind = drawn_castor_machine(*castors, seed, true);
+  else if (const auto* clapper = std::get_if<Clapper>(&nominal.kind))
+    actual.kind = drawn_clapper(*clapper, seed);
+  return actual;
+}
 
 std::optional<TapeReading> drive_along_tape(const Scenario& scenario, double length_m, double tape_accuracy_m,
                                             std::uint64_t seed, const Progress& progress) {
@@ -92,10 +101,9 @@ Scenario on_guide_square(const Scenario& scenario, double side_m, int runs_each_
 
 InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint64_t seed, const Progress& progress) {
   InsideDrives drives;
-  drives.actual = nominal;
+  drives.actual = drawn_machine(nominal, seed);
   if (const auto* castors = std::get_if<MultiCastor>(&nominal.kind)) {
-    const MultiCastor actual = drawn_castor_machine(*castors, seed, true);
-    drives.actual.kind = actual;
+    const MultiCastor& actual = std::get<MultiCastor>(drives.actual.kind);
     constexpr double kSweep_rad = 1.6;
     int number = 0;
     for (const std::vector<CastorSample>& samples : calibration_drives(actual, *castors, kSweep_rad, mixed(seed))) {
@@ -105,9 +113,7 @@ InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint
       drives.recordings.back().provenance = "simulated: kinematics";
       ++number;
     }
-  } else if (const auto* clapper = std::get_if<Clapper>(&nominal.kind)) {
-    const Clapper actual = drawn_clapper(*clapper, seed);
-    drives.actual.kind = actual;
+  } else if (std::holds_alternative<Clapper>(nominal.kind)) {
     const ManoeuvrePath moves{
         {{2.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}, {0.0, 0.0, 0.5 * kPi}, {-1.0, 0.0, 0.0}}};
     const std::pair<const char*, Path> paths[] = {{"rectangle", RectanglePath{7.0, 4.0, 0.48, false}},
@@ -116,7 +122,7 @@ InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint
     for (const auto& [name, path] : paths) {
       const int before = done;
       const auto recording =
-          driven_recording(clapper_scenario(nominal, actual, path), seed_of_stream(seed, 10 + done),
+          driven_recording(driven_as(nominal, drives.actual, path), seed_of_stream(seed, 10 + done),
                            [&progress, before](double share) { return goes_on(progress, 0.5 * (before + share)); });
       if (!recording) return {};
       ++done;
@@ -125,6 +131,14 @@ InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint
     }
   }
   return drives;
+}
+
+std::optional<Recording> drive_held_out(const Vehicle& believed, const Vehicle& actual, std::uint64_t seed,
+                                        const Progress& progress) {
+  const ManoeuvrePath way{{{1.5, 0.0, 0.5 * kPi}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.5 * kPi}, {-1.0, 0.0, 0.0}}};
+  auto recording = driven_recording(driven_as(believed, actual, way), seed_of_stream(seed, 20), progress);
+  if (recording) recording->name = "another way";
+  return recording;
 }
 
 }  // namespace odolab

@@ -24,6 +24,9 @@ std::vector<Bump> ten_cables(double side_m);
 // own truth is exact.
 Scenario on_guide_square(const Scenario& scenario, double side_m, int runs_each_way);
 
+// The machine of a seed, not quite as its drawing says; unchanged for kinds that no guide calibrates from the inside.
+Vehicle drawn_machine(const Vehicle& nominal, std::uint64_t seed);
+
 // A machine that is not quite as its drawing says, and what it drives to be calibrated from the inside.
 // - multi_castor: the paper's errors (Table I), each castor held still once both ways, sweeps of 1.6 rad; kinematics,
 // no
@@ -37,5 +40,12 @@ struct InsideDrives {
 };
 InsideDrives drive_for_calibration_from_inside(const Vehicle& nominal, std::uint64_t seed,
                                                const Progress& progress = {});
+
+// The machine on another way in the planar world, steered by what it is believed to be: forward, sideways while
+// turning, back; its true pose is recorded. None where it never arrives. (A castor vehicle has more wheels than
+// freedoms: steered by wrong numbers they push against each other and slip, and even the right numbers then find the
+// way wrong.)
+std::optional<Recording> drive_held_out(const Vehicle& believed, const Vehicle& actual, std::uint64_t seed,
+                                        const Progress& progress = {});
 
 }  // namespace odolab

@@ -296,32 +296,69 @@ Actions runs(const GuideView& view, PageTask task, GuidePageState& state, const 
   return actions;
 }
 
-Actions recordings(const GuideView& view, GuidePageState& state, const Theme& theme) {
+// The files of a list, each of which can be taken out.
+Actions file_list(const GuideView& view, std::vector<std::string> GuideSession::*list, const Theme& theme) {
   Actions actions;
-  append(actions, drive_button(view, "Drive", theme));
-  if (view.session->real_robot && view.busy) {
-    ImGui::ProgressBar(float(view.share_done), {theme.px(220), 0.0f}, view.job.c_str());
-  }
+  const std::vector<std::string>& files = view.session->*list;
   ImGui::Dummy({1, theme.px(4)});
-  if (view.session->recordings.empty()) note("No recording yet.", theme);
-  for (std::size_t i = 0; i < view.session->recordings.size(); ++i) {
-    const std::string& path = view.session->recordings[i];
+  if (files.empty()) note("No recording yet.", theme);
+  for (std::size_t i = 0; i < files.size(); ++i) {
     ImGui::PushID(int(i));
     ButtonLook away;
     away.enabled = !view.busy;
-    away.tip = "Take this file out of the calibration; the file itself stays.";
+    away.tip = "Take this file out; the file itself stays.";
     if (text_button("Take out", theme, away, theme.px(90))) {
       GuideSession s = *view.session;
-      s.recordings.erase(s.recordings.begin() + long(i));
+      (s.*list).erase((s.*list).begin() + long(i));
       actions.push_back(ChangeGuide{s});
     }
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(fitted(path, ImGui::GetContentRegionAvail().x).c_str());
-    tooltip(path, theme);
+    ImGui::TextUnformatted(fitted(words_of_file(files[i]), ImGui::GetContentRegionAvail().x).c_str());
+    tooltip(files[i], theme);
     ImGui::PopID();
   }
-  (void)state;
+  return actions;
+}
+
+Actions recordings(const GuideView& view, const Theme& theme) {
+  Actions actions = drive_button(view, "Drive", theme);
+  if (view.session->real_robot && view.busy)
+    ImGui::ProgressBar(float(view.share_done), {theme.px(220), 0.0f}, view.job.c_str());
+  append(actions, file_list(view, &GuideSession::recordings, theme));
+  return actions;
+}
+
+Actions held_out(const GuideView& view, const Theme& theme) {
+  Actions actions = drive_button(view, "Drive", theme);
+  append(actions, file_list(view, &GuideSession::held_out, theme));
+  const std::vector<HeldOutError>& errors = view.outcome->held_out;
+  if (errors.empty()) return actions;
+  ImGui::Dummy({1, theme.px(4)});
+  heading("How far the odometry ends from the truth", theme);
+  if (!ImGui::BeginTable("held out", 3, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) return actions;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, theme.px(170));
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, theme.px(170));
+  ImGui::TableNextRow();
+  for (const char* title : {"drive", "as it was", "calibrated"}) {
+    ImGui::TableNextColumn();
+    if (title[0] == 'd')
+      ImGui::TextDisabled("%s", title);
+    else
+      text_right(title, theme.muted);
+  }
+  for (const HeldOutError& e : errors) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(words_of_file(e.name).c_str());
+    ImGui::TableNextColumn();
+    text_right(shown(e.before_m, kMillimetres) + ",  " + shown(e.before_rad, kDegrees), theme.muted);
+    ImGui::TableNextColumn();
+    WithFont strong(theme.strong);
+    text_right(shown(e.after_m, kMillimetres) + ",  " + shown(e.after_rad, kDegrees), theme.ink);
+  }
+  ImGui::EndTable();
   return actions;
 }
 
@@ -479,7 +516,9 @@ Actions guide_entries(const GuideView& view, PageTask task, GuidePageState& stat
     case PageTask::again:
       return runs(view, task, state, theme);
     case PageTask::recordings:
-      return recordings(view, state, theme);
+      return recordings(view, theme);
+    case PageTask::held_out:
+      return held_out(view, theme);
     case PageTask::result:
       result(view, state, theme);
       return {};

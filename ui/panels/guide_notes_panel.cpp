@@ -145,7 +145,8 @@ Actions guide_notes_panel(const GuideView& view, const Theme& theme) {
   const GuideRound* round = round_on(*view.session, task);
   if (round && task != PageTask::verdict) append(actions, run_list(view, task, *round, theme));
   const GuideOutcome& out = *view.outcome;
-  if (task == PageTask::robot || task == PageTask::tape || task == PageTask::drive)
+  if (task == PageTask::robot || task == PageTask::tape || task == PageTask::drive ||
+      (task == PageTask::recordings && out.sentences.empty()))
     append_words_before(view.session->kind, theme);
   const bool measured = !out.rounds.empty() && out.rounds.front().measure;
   if (task == PageTask::runs && !measured) return actions;
@@ -156,7 +157,8 @@ Actions guide_notes_panel(const GuideView& view, const Theme& theme) {
       ImGui::Dummy({1, theme.px(2)});
     }
   }
-  if (task == PageTask::result && !out.rounds.empty() && out.rounds.front().only_clockwise) {
+  if (task == PageTask::result && view.session->kind == GuideKind::umbmark && !out.rounds.empty() &&
+      out.rounds.front().only_clockwise) {
     heading("One direction alone", theme);
     const OneDirectionCalibration& o = *out.rounds.front().only_clockwise;
     note("The clockwise squares alone would have blamed the wheelbase, promised " +
