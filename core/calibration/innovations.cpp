@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/smooth_counts.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -172,6 +173,7 @@ Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& 
                  "two or more of truth_x_m and truth_y_m"};
   run.set_aside.assign(run.truth.size(), 0);
   run.counts_show = lie_on_counts(run.wheels, drive);
+  if (run.counts_show) run.smooth = smoothed_counts(run.wheels, count_rad(run, drive));
   return run;
 }
 
@@ -213,6 +215,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
 
   WheelLine line(run.wheels, run.speeds_are_held);
+  const bool smoothed = !run.smooth.empty();
+  const WheelLine smooth_line(smoothed ? run.smooth : run.wheels, run.speeds_are_held);
   const auto time_of = [&](std::size_t truth_index) {
     return run.truth[truth_index].time_s - model.truth.time_offset_s;
   };
@@ -231,7 +235,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     // Body velocity at the start: the clock's derivative needs it at both ends.
     Vector3d velocity;
     const auto velocity_in = [&](std::size_t interval, double time_s) {
-      const Rates rate = line.rates(interval, time_s);
+      const Rates rate = smooth_line.rates(interval, time_s);
       const double left = drive.wheel_radius_left_m * rate.left_radps,
                    right = drive.wheel_radius_right_m * rate.right_radps;
       Vector3d v(0.5 * (right + left), 0.0, (right - left) / b);
@@ -275,9 +279,17 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         d[1] += dx * d[2] + s * f + c * l + 0.5 * dx * w;
         d[2] += w;
       };
-      carry(jac + 3 * column::wheel_radius_left, 0.5 * left_rad, 0.0, -left_rad / b);
-      carry(jac + 3 * column::wheel_radius_right, 0.5 * right_rad, 0.0, right_rad / b);
-      carry(jac + 3 * column::wheelbase, 0.0, 0.0, -wheel_turn / b);
+      double left_d = left_rad, right_d = right_rad;
+      if (smoothed) {
+        const auto [left_0, right_0] = smooth_line.turned_rad(i, now_s);
+        const auto [left_1, right_1] = smooth_line.turned_rad(i, until_s);
+        left_d = left_1 - left_0;
+        right_d = right_1 - right_0;
+      }
+      carry(jac + 3 * column::wheel_radius_left, 0.5 * left_d, 0.0, -left_d / b);
+      carry(jac + 3 * column::wheel_radius_right, 0.5 * right_d, 0.0, right_d / b);
+      carry(jac + 3 * column::wheelbase, 0.0, 0.0,
+            -(drive.wheel_radius_right_m * right_d - drive.wheel_radius_left_m * left_d) / (b * b));
       for (int e = 0; e < extras; ++e) {
         const BodyMotion& m = run.extra[e].per_step[i];
         carry(jac + 3 * (column::first_extra + e), share * m.forward_m, share * m.sideways_m, share * m.turn_rad);

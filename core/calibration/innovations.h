@@ -67,6 +67,7 @@ struct ExtraColumn {
 struct InnovationRun {
   std::string name;
   std::vector<WheelSample> wheels;  // two or more, times strictly increasing
+  std::vector<WheelSample> smooth;  // the same without the steps of the counts, for derivatives; empty: as they are
   std::vector<TruthSample> truth;   // two or more, times strictly increasing, within the time of the wheels
   bool truth_has_heading = false;   // where not, the first heading is unknown and found with the path's shape
   bool speeds_are_held = false;     // between wheel samples, as a command is; else wheels speed up smoothly

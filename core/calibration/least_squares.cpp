@@ -84,8 +84,8 @@ std::string text(const char* format, double a = 0.0, double b = 0.0) {
   return buffer;
 }
 
-// Whether the robots hardly ever changed their speed while they drove. Without headings, a clock that is late by dt then
-// looks like a tracked point that is v dt behind.
+// Whether the robots hardly ever changed their speed while they drove. Without headings, a clock that is late by dt
+// then looks like a tracked point that is v dt behind.
 bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
   double n = 0.0, sum = 0.0, squares = 0.0;
   for (const InnovationRun& run : runs)
@@ -104,7 +104,8 @@ bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialD
 bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
   constexpr double kNear = 0.1;
   return std::abs(std::log(a.wheelbase_m / b.wheelbase_m)) > kNear ||
-         std::abs(std::log((a.wheel_radius_left_m + a.wheel_radius_right_m) / (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
+         std::abs(std::log((a.wheel_radius_left_m + a.wheel_radius_right_m) /
+                           (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
 }
 
 // The whole likelihood of all runs, with the state of the fit.
@@ -578,7 +579,8 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
       what_cannot_be_told(determined, active, information, driven_in(fit.runs(), model.drive), any_heading);
   if (clock_hides_in_place)
     result.cannot_tell.push_back(
-        "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a tracked point "
+        "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a "
+        "tracked point "
         "further behind; both stay as given. Change the speed on the way, or stop now and then");
   result.normalised_chi2 = final_sums.chi2 / std::max(1, final_sums.scalars);
   Parameters as_nominal = start;

@@ -63,8 +63,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
   // Counts and uneven wheels shake these variables as they shake the way itself, because a wheel that is held up turns
-  // the slower: where hats are no wider than that, noise looks like a response to its own trace. So far apart they stand
-  // at least: what one count is over a short time, and what unevenness of a percent makes at walking pace.
+  // the slower: where hats are no wider than that, noise looks like a response to its own trace. So far apart they
+  // stand at least: what one count is over a short time, and what unevenness of a percent makes at walking pace.
   double count_m = 0.0, base_m = 1e300;
   for (const DriveView& v : views) {
     const double radius_m = std::max(v.drive.wheel_radius_left_m, v.drive.wheel_radius_right_m);

@@ -163,6 +163,32 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Le
   }
 }
 
+// The model with a group of generic terms let in.
+JointModel with_group(const JointModel& joint, const GenericTest& group) {
+  JointModel with = joint;
+  with.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
+  with.fit(2);
+  return with;
+}
+
+// The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
+// does anyway a score can promise without end.
+const GenericTest* what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
+  constexpr int kMostTried = 4;
+  std::vector<const GenericTest*> strong;
+  for (const GenericTest& g : generic)
+    if (g.p_value < error && g.test.cross_validated > 0.0) strong.push_back(&g);
+  std::stable_sort(strong.begin(), strong.end(),
+                   [](const GenericTest* a, const GenericTest* b) { return a->test.judged() > b->test.judged(); });
+  for (std::size_t k = 0; k < std::min<std::size_t>(strong.size(), kMostTried); ++k) {
+    const CandidateTest& t = strong[k]->test;
+    const double kept = joint.minus_two_log_likelihood() - with_group(joint, *strong[k]).minus_two_log_likelihood();
+    const double p = chi_square_tail(kept / t.inflation, t.freedom) * static_cast<double>(generic.size());
+    if (p < error) return strong[k];
+  }
+  return nullptr;
+}
+
 Response response_of(const GenericTest& g) {
   Response r;
   r.variable = g.variable;
@@ -297,11 +323,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   // Adequacy.
   const std::vector<GenericTest> generic = generic_tests(joint);
-  const GenericTest* left = nullptr;
-  for (const GenericTest& g : generic)
-    if (g.p_value < 0.5 * options.family_wise_error && g.test.cross_validated > 0.0 &&
-        (!left || g.test.judged() > left->test.judged()))
-      left = &g;
+  const GenericTest* left = what_is_left(joint, generic, 0.5 * options.family_wise_error);
   double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
   // Several causes that explain it only together are more likely one that has no name here.
   std::vector<double> shares;
@@ -310,9 +332,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
   // Significant is not enough where the innovations are correlated: dead reckoning must be the better for it.
   if (left && joint.innovations_correlated()) {
-    JointModel with = joint;
-    with.accepted.push_back({left->as_effect.get(), {}, std::vector<double>(left->test.value.size(), 0.0), {}});
-    with.fit(2);
+    const JointModel with = with_group(joint, *left);
     const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
                                     with_more = with.gathered_error();
     if (!is_material(named_only, with_more, true)) left = nullptr;

@@ -39,21 +39,21 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   view.number = number;
   view.drive = drive;
   view.from_commands = from_commands;
-  view.count_rad = count_rad(run, drive);
+  const std::vector<WheelSample>& wheels = run.smooth.empty() ? run.wheels : run.smooth;
   const std::vector<DriveStep> steps = drive_steps(run, drive);
   const int n = static_cast<int>(steps.size());
   view.steps.resize(n);
   std::size_t k = 0;
   for (int i = 0; i < n; ++i) {
     const DriveStep& d = steps[i];
-    const WheelSample &a = run.wheels[i], &b = run.wheels[i + 1], &first = run.wheels.front();
+    const WheelSample &a = wheels[i], &b = wheels[i + 1], &first = wheels.front();
     EffectStep& s = view.steps[i];
     s.time_s = d.time_s;
     s.duration_s = d.duration_s;
     s.since_start_s = d.time_s - first.time_s;
-    s.left_m = d.left_m;
-    s.right_m = d.right_m;
-    s.turn_rad = d.turn_rad;
+    s.left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad);
+    s.right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
+    s.turn_rad = (s.right_m - s.left_m) / drive.wheelbase_m;
     s.left_rad = 0.5 * (a.left_rad + b.left_rad) - first.left_rad;
     s.right_rad = 0.5 * (a.right_rad + b.right_rad) - first.right_rad;
     s.left_by_rad = b.left_rad - a.left_rad;

@@ -33,7 +33,6 @@ struct DriveView {
   int number = 0;  // of the recording
   DifferentialDrive drive;
   bool from_commands = false;
-  double count_rad = 0.0;  // of the wheels, as it shows in the readings; 0: they are not whole counts
   std::vector<EffectStep> steps;
 };
 
@@ -71,8 +70,6 @@ struct Effect {
   std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
-  // What the first amplitude must be to be seen at all, whatever its evidence; empty: anything.
-  std::function<double(const DriveView&)> least;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
   bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement

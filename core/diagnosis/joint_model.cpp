@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/minimise.h"
+#include "core/diagnosis/counts_at_rest.h"
 
 namespace odolab {
 
@@ -82,28 +83,36 @@ InnovationRun JointModel::prepared(int r) const {
   sum.name = "effects";
   sum.value = 1.0;
   sum.per_step.resize(run.wheels.size() - 1);
+  const auto add = [&sum](const Motions& motions, double value) {
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      sum.per_step[i].forward_m += value * motions[i].forward_m;
+      sum.per_step[i].sideways_m += value * motions[i].sideways_m;
+      sum.per_step[i].turn_rad += value * motions[i].turn_rad;
+    }
+  };
   bool any = false;
+  if (run.counts_show && (half_counts[0] != 0.0 || half_counts[1] != 0.0)) {
+    const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
+    for (int k = 0; k < 2; ++k) add(of_wheel[k], half_counts[k]);
+    any = true;
+  }
   for (const AcceptedEffect& a : accepted) {
     if (a.effect->clock_rate) {
       const double t0 = run.truth[0].time_s - clock_s[r];
-      for (WheelSample& w : run.wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.value[0]);
+      for (std::vector<WheelSample>* wheels : {&run.wheels, &run.smooth})
+        for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.value[0]);
       continue;
     }
     const std::vector<Motions> motions = a.effect->motions(views_[r], a.shape);
     any = true;
-    for (std::size_t k = 0; k < motions.size(); ++k)
-      for (std::size_t i = 0; i < motions[k].size(); ++i) {
-        sum.per_step[i].forward_m += a.value[k] * motions[k][i].forward_m;
-        sum.per_step[i].sideways_m += a.value[k] * motions[k][i].sideways_m;
-        sum.per_step[i].turn_rad += a.value[k] * motions[k][i].turn_rad;
-      }
+    for (std::size_t k = 0; k < motions.size(); ++k) add(motions[k], a.value[k]);
   }
   if (any) run.extra = {std::move(sum)};
   return run;
 }
 
 int JointModel::columns() const {
-  int n = 6 + static_cast<int>(runs_.size());
+  int n = first_amplitude();
   for (const AcceptedEffect& a : accepted) n += static_cast<int>(a.value.size());
   return n;
 }
@@ -134,7 +143,11 @@ void JointModel::linearise() {
     for (int c = 0; c < 6; ++c)
       if (nuisance_active[c]) linear.of_parameter(c, z.col(c).data());
     if (clock_active[r]) linear.of_parameter(column::truth_clock, z.col(clock_column(r)).data());
-    int k = 6 + n;
+    if (runs_[r].counts_show) {
+      const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
+      for (int k = 0; k < 2; ++k) linear.of_motion(of_wheel[k], z.col(half_count_column(k)).data());
+    }
+    int k = first_amplitude();
     for (const AcceptedEffect& a : accepted) {
       if (a.effect->clock_rate) {
         linear.of_clock_rate(z.col(k++).data());
@@ -170,7 +183,11 @@ void JointModel::linearise() {
     gram_(6 + r, 6 + r) += 25.0;
     zr_(6 + r) += clock_active[r] ? 25.0 * (nominal_.truth.time_offset_s - clock_s[r]) : 0.0;
   }
-  for (int k = 6 + n; k < q; ++k) gram_(k, k) += 1e-12;
+  for (int k = 0; k < 2; ++k) {  // a share between none and all
+    gram_(half_count_column(k), half_count_column(k)) += 1.0;
+    zr_(half_count_column(k)) -= half_counts[k];
+  }
+  for (int k = first_amplitude(); k < q; ++k) gram_(k, k) += 1e-12;
 }
 
 void JointModel::fit(int iterations) {
@@ -182,6 +199,7 @@ void JointModel::fit(int iterations) {
     const auto saved_accepted = accepted;
     const InnovationModel saved = model;
     const std::vector<double> saved_clock = clock_s;
+    const std::array<double, 2> saved_half_counts = half_counts;
     const double before = chi2_;
     double scale = 1.0;
     for (int attempt = 0; attempt < 3; ++attempt, scale *= 0.3) {
@@ -190,7 +208,8 @@ void JointModel::fit(int iterations) {
       accepted = saved_accepted;
       for (int c = 0; c < 6; ++c) entry(model, c) += scale * step(c);
       for (std::size_t r = 0; r < runs_.size(); ++r) clock_s[r] += scale * step(6 + r);
-      int k = 6 + static_cast<int>(runs_.size());
+      for (int w = 0; w < 2; ++w) half_counts[w] = saved_half_counts[w] + scale * step(half_count_column(w));
+      int k = first_amplitude();
       for (AcceptedEffect& a : accepted) {
         for (std::size_t j = 0; j < a.value.size(); ++j, ++k)
           a.value[j] =
@@ -203,7 +222,7 @@ void JointModel::fit(int iterations) {
     if (size < 0.01) break;
   }
   const MatrixXd cov = covariance();
-  int k = 6 + static_cast<int>(runs_.size());
+  int k = first_amplitude();
   for (AcceptedEffect& a : accepted) {
     a.stderr_value.resize(a.value.size());
     for (std::size_t j = 0; j < a.value.size(); ++j, ++k) a.stderr_value[j] = std::sqrt(std::max(0.0, cov(k, k)));
@@ -280,7 +299,7 @@ MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Id
 double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
 
 int JointModel::first_column(int which) const {
-  int n = 6 + static_cast<int>(runs_.size());
+  int n = first_amplitude();
   for (int a = 0; a < which; ++a) n += static_cast<int>(accepted[static_cast<std::size_t>(a)].value.size());
   return n;
 }
@@ -341,7 +360,9 @@ JointModel JointModel::left_out(int run) const {
   const VectorXd step = gram.ldlt().solve(zr);
   if (step.allFinite())
     for (int c = 0; c < 6; ++c) entry(one.model, c) += step(c);
-  int k = 6 + static_cast<int>(runs_.size());
+  if (step.allFinite())
+    for (int w = 0; w < 2; ++w) one.half_counts[w] += step(half_count_column(w));
+  int k = first_amplitude();
   for (AcceptedEffect a : accepted) {
     bool known = true;
     for (std::size_t j = 0; j < a.value.size(); ++j, ++k) {
@@ -504,7 +525,7 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   std::vector<int> kept, removed;
   VectorXd taken = VectorXd::Zero(q);
   {
-    int at = 6 + static_cast<int>(runs_.size());
+    int at = first_amplitude();
     for (int j = 0; j < at; ++j) kept.push_back(j);
     for (std::size_t a = 0; a < accepted.size(); ++a)
       for (double v : accepted[a].value) {

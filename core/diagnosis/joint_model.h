@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <vector>
 
 #include "core/diagnosis/effect.h"
@@ -47,6 +48,7 @@ class JointModel {
   InnovationModel model;  // without the clocks
   std::vector<double> clock_s;
   std::vector<char> clock_active;
+  std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
 
   const std::vector<DriveView>& views() const { return views_; }
@@ -55,7 +57,7 @@ class JointModel {
   double chi2() const { return chi2_; }
   double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
   int scalars() const { return scalars_; }
-  Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, amplitudes
+  Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, half counts, amplitudes
   double stderr_of_nuisance(int c) const;
   int first_column(int accepted) const;  // of an accepted effect's amplitudes
   // How much wider than the curvature says each column's estimate scatters, from the scatter of the score over batches:
@@ -86,6 +88,8 @@ class JointModel {
  private:
   int columns() const;
   int clock_column(int run) const { return 6 + run; }
+  int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }
+  int first_amplitude() const { return 6 + static_cast<int>(runs_.size()) + 2; }
 
   std::vector<InnovationRun> runs_;
   std::vector<int> numbers_;  // of the recordings, as the effects know them

@@ -135,16 +135,13 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
         std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
     best.test.cross_validated = best.test.statistic;
   }
-  if (e.least && !best.test.value.empty())
-    for (const DriveView& view : joint.views())
-      best.large_enough = best.large_enough && best.test.value[0] >= e.least(view);
   const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
   best.p_value = std::min(1.0, tail * std::exp(log_tests));
   return best;
 }
 
 bool stands(const ScoredCandidate& c, double family_wise_error) {
-  return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.large_enough;
+  return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
 }
 
 bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {

@@ -13,7 +13,6 @@ struct ScoredCandidate {
   const Effect* effect = nullptr;
   CandidateTest test;
   double p_value = 1.0;  // family-wise
-  bool large_enough = true;
 };
 
 // Every entry's best shape, judged against the model as it is; best first.

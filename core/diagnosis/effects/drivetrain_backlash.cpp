@@ -42,8 +42,6 @@ Effect of_wheel(Wheel wheel) {
   e.regime = "after a wheel reverses";
   e.looks_like = {"castor_reversal_kick", "traction_slip"};
   e.told_apart_by = "a stop and then on in the same direction, and a turn on the spot and then a straight";
-  // A driver that stops by its counts stops just behind one: that too is lost when it sets off, and is no play.
-  e.least = [](const DriveView& view) { return 2.0 * view.count_rad; };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m(view.steps.size());
     const DifferentialDrive& drive = view.drive;

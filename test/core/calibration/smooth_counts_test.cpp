@@ -1,0 +1,68 @@
+#include "core/calibration/smooth_counts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace odolab {
+namespace {
+
+constexpr double kCount_rad = 0.00628;  // 1000 to a turn
+
+// A wheel that speeds up from rest, goes on evenly and stops, read 100 times a second; the right one backward.
+double turned_rad(double time_s) {
+  const double t = std::max(0.0, time_s - 1.0);
+  if (t < 1.0) return 0.75 * t * t;
+  if (t < 4.0) return 0.75 + 1.5 * (t - 1.0);
+  const double u = std::min(t - 4.0, 1.0);
+  return 5.25 + 1.5 * u - 0.75 * u * u;
+}
+
+std::vector<WheelSample> readings() {
+  std::vector<WheelSample> all;
+  for (int i = 0; i <= 700; ++i) {
+    const double t = 0.01 * i, rad = turned_rad(t);
+    all.push_back({t, kCount_rad * std::floor(rad / kCount_rad), kCount_rad * std::floor(-rad / kCount_rad)});
+  }
+  return all;
+}
+
+TEST(SmoothedCounts, KeepTimesAndEnds) {
+  const std::vector<WheelSample> raw = readings(), smooth = smoothed_counts(raw, kCount_rad);
+  ASSERT_EQ(smooth.size(), raw.size());
+  for (std::size_t i = 0; i < raw.size(); ++i) EXPECT_EQ(smooth[i].time_s, raw[i].time_s);
+  EXPECT_EQ(smooth.front().left_rad, raw.front().left_rad);
+  EXPECT_NEAR(smooth.back().left_rad, raw.back().left_rad, 1e-12);  // at rest: rounding of sums
+  EXPECT_NEAR(smooth.back().right_rad, raw.back().right_rad, 1e-12);
+}
+
+TEST(SmoothedCounts, FollowAnEvenWheelToATenthOfACount) {
+  const std::vector<WheelSample> smooth = smoothed_counts(readings(), kCount_rad);
+  // Rounding down is half a count low in the mean. 16 steps of the saw are averaged: 1/16 of a count at most, twice
+  // that where they are not whole.
+  for (const WheelSample& s : smooth)
+    if (s.time_s > 2.5 && s.time_s < 4.5) {
+      EXPECT_NEAR(s.left_rad + 0.5 * kCount_rad, turned_rad(s.time_s), 0.125 * kCount_rad);
+    }
+}
+
+TEST(SmoothedCounts, DifferencesHardlyKnowTheRoundingErrorOfTheReadings) {
+  const std::vector<WheelSample> raw = readings(), smooth = smoothed_counts(raw, kCount_rad);
+  double with_raw = 0.0, with_smooth = 0.0;
+  for (std::size_t i = 0; i + 1 < raw.size(); ++i) {
+    const double wrong =
+        (raw[i + 1].left_rad - turned_rad(raw[i + 1].time_s)) - (raw[i].left_rad - turned_rad(raw[i].time_s));
+    with_raw += wrong * (raw[i + 1].left_rad - raw[i].left_rad);
+    with_smooth += wrong * (smooth[i + 1].left_rad - smooth[i].left_rad);
+  }
+  EXPECT_GT(with_raw, 0.0);
+  EXPECT_LT(std::abs(with_smooth), 0.1 * with_raw);  // about one in the sixteen counts that are averaged
+}
+
+TEST(SmoothedCounts, LeaveReadingsAloneThatAreNotCounted) {
+  const std::vector<WheelSample> raw = readings(), same = smoothed_counts(raw, 0.0);
+  for (std::size_t i = 0; i < raw.size(); ++i) EXPECT_EQ(same[i].right_rad, raw[i].right_rad);
+}
+
+}  // namespace
+}  // namespace odolab
