@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/parallel.h"
 #include "core/calibration/first_guess.h"
 #include "core/calibration/minimise.h"
 
@@ -132,11 +133,14 @@ class Fit {
     FilterOptions options;
     options.derivatives = derivatives;
     if (batches > 0) options.batch = std::max(1, truth_samples() / batches);
-    Sums total = none();
-    for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    const int n = static_cast<int>(runs_.size());
+    std::vector<InnovationSums> of_run(n);
+    parallel_for(n, [&](int r) {
       const InnovationModel model = parameters.of(r);
-      add(total, r, filtered(runs_[r], summed_up(runs_[r], model), model, options));
-    }
+      of_run[r] = filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    });
+    Sums total = none();
+    for (int r = 0; r < n; ++r) add(total, r, of_run[r]);
     return total;
   }
 
@@ -201,16 +205,19 @@ class Fit {
                          any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad};
     };
     const auto objective = [&](const std::vector<double>& logs) {
-      Sums total = none();
-      for (const Stretch& s : stretches) {
+      std::vector<InnovationSums> of_stretch(stretches.size());
+      parallel_for(static_cast<int>(stretches.size()), [&](int i) {
+        const Stretch& s = stretches[i];
         InnovationModel model = now_.of(s.run);
         model.noise = noise_of(logs);
         FilterOptions options;
         options.derivatives = restricted;
         options.first = s.first;
         options.last = s.last;
-        add(total, s.run, filtered(runs_[s.run], summed[s.run], model, options));
-      }
+        of_stretch[i] = filtered(runs_[s.run], summed[s.run], model, options);
+      });
+      Sums total = none();
+      for (std::size_t i = 0; i < stretches.size(); ++i) add(total, stretches[i].run, of_stretch[i]);
       double value = total.chi2 + total.log_determinant;
       if (restricted) {
         MatrixXd a(active.size(), active.size());

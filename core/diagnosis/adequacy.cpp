@@ -172,7 +172,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       values_of(view, values);
       std::vector<Motions> out(values.size());
       for (std::size_t k = 0; k < values.size(); ++k) {
-        out[k].resize(view.steps.size());
+        out[k] = Motions(view.steps.size());
         for (std::size_t j = 0; j < values[k].size(); ++j) {
           const EffectStep& s = view.steps[j];
           // Turning on the spot counts as way too, by the way of the wheels.

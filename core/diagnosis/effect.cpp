@@ -33,6 +33,12 @@ std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, do
   return found;
 }
 
+std::size_t DriveView::step_at(double time_s) const {
+  return static_cast<std::size_t>(
+      std::lower_bound(steps.begin(), steps.end(), time_s, [](const EffectStep& s, double t) { return s.time_s < t; }) -
+      steps.begin());
+}
+
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses) {
   DriveView view;
@@ -69,6 +75,8 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
       s.heading_rad = p.pose.heading_rad + share * wrapped(q.pose.heading_rad - p.pose.heading_rad);
     }
   }
+  for (int i = 0; i + 1 < n; ++i)
+    view.longest_step_m = std::max(view.longest_step_m, length(view.steps[i + 1].position - view.steps[i].position));
   for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
   // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
   // kick, so that over shorter times noise itself would depend on acceleration.

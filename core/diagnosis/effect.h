@@ -8,6 +8,7 @@
 #include "core/calibration/innovations.h"
 #include "core/diagnosis/active_effect.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/motions.h"
 
 namespace odolab {
 
@@ -34,13 +35,24 @@ struct DriveView {
   DifferentialDrive drive;
   bool from_commands = false;
   std::vector<EffectStep> steps;
+  double longest_step_m = 1e-9;  // that the axle's middle moves from one step to the next
+
+  // The first step whose middle is not before that time; steps.size() where there is none.
+  std::size_t step_at(double time_s) const;
+  // Calls `visit(i)` for each step whose place is within so far of another, in order. Looks at few of the others.
+  template <typename Visit>
+  void steps_near(Vec2 place, double within_m, Visit&& visit) const {
+    for (std::size_t i = 0; i < steps.size();) {
+      const double away_m = length(steps[i].position - place) - within_m;
+      if (away_m <= 0.0) visit(i);
+      i += away_m <= longest_step_m ? 1 : static_cast<std::size_t>(away_m / longest_step_m);
+    }
+  }
 };
 
 // `truth_poses`: the axle's poses at those times, from the filter; empty where the place is dead reckoned.
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses);
-
-using Motions = std::vector<BodyMotion>;
 
 enum class Wheel { left, right, both };
 const char* component_of(Wheel wheel);

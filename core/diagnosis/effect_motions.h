@@ -9,6 +9,6 @@ namespace odolab {
 
 // For each wheel interval of the view; what acts on clocks, on the truth or on commands that are not there adds
 // nothing.
-Motions motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects);
+std::vector<BodyMotion> motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects);
 
 }  // namespace odolab

@@ -83,17 +83,10 @@ InnovationRun JointModel::prepared(int r) const {
   sum.name = "effects";
   sum.value = 1.0;
   sum.per_step.resize(run.wheels.size() - 1);
-  const auto add = [&sum](const Motions& motions, double value) {
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      sum.per_step[i].forward_m += value * motions[i].forward_m;
-      sum.per_step[i].sideways_m += value * motions[i].sideways_m;
-      sum.per_step[i].turn_rad += value * motions[i].turn_rad;
-    }
-  };
   bool any = false;
   if (run.counts_show && (half_counts[0] != 0.0 || half_counts[1] != 0.0)) {
     const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
-    for (int k = 0; k < 2; ++k) add(of_wheel[k], half_counts[k]);
+    for (int k = 0; k < 2; ++k) of_wheel[k].add_to(sum.per_step, half_counts[k]);
     any = true;
   }
   for (const AcceptedEffect& a : accepted) {
@@ -105,7 +98,7 @@ InnovationRun JointModel::prepared(int r) const {
     }
     const std::vector<Motions> motions = a.effect->motions(views_[r], a.shape);
     any = true;
-    for (std::size_t k = 0; k < motions.size(); ++k) add(motions[k], a.value[k]);
+    for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum.per_step, a.value[k]);
   }
   if (any) run.extra = {std::move(sum)};
   return run;
@@ -245,9 +238,10 @@ void JointModel::fit_noise() {
                        any_heading ? std::exp(logs[3]) : model.noise.truth_heading_rad, std::exp(logs[2])};
   };
   const auto value = [&](const std::vector<double>& logs) {
-    double sum = 0.0;
-    int scalars = 0;
-    for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    const int runs = static_cast<int>(runs_.size());
+    std::vector<double> sum_of(runs, 0.0);
+    std::vector<int> scalars_of(runs, 0);
+    parallel_for(runs, [&](int r) {
       InnovationModel m = model_of(r);
       m.noise = noise_of(logs);
       FilterOptions options;
@@ -258,10 +252,13 @@ void JointModel::fit_noise() {
         options.first = first;
         options.last = every == 1 ? n : std::min(n, first + stretch);
         const InnovationSums s = filtered(linear_[r].run(), summed[r], m, options);
-        sum += s.chi2 + s.log_determinant;
-        scalars += s.scalars;
+        sum_of[r] += s.chi2 + s.log_determinant;
+        scalars_of[r] += s.scalars;
       }
-    }
+    });
+    double sum = 0.0;
+    int scalars = 0;
+    for (int r = 0; r < runs; ++r) sum += sum_of[r], scalars += scalars_of[r];
     // The freedom that the parameters took, as an average: exact where all scales move together.
     if (every == 1 && scalars > 2 * parameters) sum -= parameters * 2.0 * (logs[0] + logs[1]) / 2.0;
     const double usual[4] = {0.003, 0.002, 0.0005, 0.005};
@@ -345,8 +342,11 @@ JointModel JointModel::left_out(int run) const {
   const MatrixXd own = z_[run].transpose() * z_[run];
   MatrixXd gram = gram_ - own;
   VectorXd zr = zr_ - z_[run].transpose() * residual_[run];
-  JointModel one(*this);
-  one.accepted.clear();
+  JointModel one;  // of that run: a copy of all runs would cost more than the step
+  one.model = model;
+  one.half_counts = half_counts;
+  one.nuisance_active = nuisance_active;
+  one.nominal_ = nominal_;
   // What only this run could tell is not known from the others.
   std::vector<char> unknown(gram.rows(), 0);
   for (Eigen::Index c = 0; c < gram.rows(); ++c)
@@ -373,15 +373,15 @@ JointModel JointModel::left_out(int run) const {
     }
     if (known || !a.effect->of_one_recording) one.accepted.push_back(a);
   }
-  const auto keep = [run](auto& of) { of = {of[static_cast<std::size_t>(run)]}; };
-  keep(one.runs_);
-  keep(one.numbers_);
-  keep(one.from_commands_);
-  keep(one.masked_);
-  keep(one.clock_s);
-  keep(one.clock_active);
-  keep(one.views_);
-  one.linear_ = {linear_[run]};
+  const auto keep = [run](auto& into, const auto& of) { into = {of[static_cast<std::size_t>(run)]}; };
+  keep(one.runs_, runs_);
+  keep(one.numbers_, numbers_);
+  keep(one.from_commands_, from_commands_);
+  keep(one.masked_, masked_);
+  keep(one.clock_s, clock_s);
+  keep(one.clock_active, clock_active);
+  keep(one.views_, views_);
+  keep(one.linear_, linear_);
   one.linearise();
   return one;
 }

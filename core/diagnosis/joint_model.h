@@ -86,6 +86,7 @@ class JointModel {
   InnovationRun prepared(int run) const;  // with the accepted effects put in
 
  private:
+  JointModel() = default;
   int columns() const;
   int clock_column(int run) const { return 6 + run; }
   int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }

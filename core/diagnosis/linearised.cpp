@@ -142,13 +142,16 @@ Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion,
   return {first, n};
 }
 
-Stretch LinearisedRun::of_motion(const std::vector<BodyMotion>& per_step, double* out) const {
-  const auto moves = [](const BodyMotion& m) { return m.forward_m != 0.0 || m.sideways_m != 0.0 || m.turn_rad != 0.0; };
-  const auto first = std::find_if(per_step.begin(), per_step.end(), moves);
-  if (first == per_step.end()) return {0, 0};
-  const auto last = std::find_if(per_step.rbegin(), per_step.rend(), moves);
-  const int from_step = static_cast<int>(first - per_step.begin());
-  const int to_step = static_cast<int>(per_step.rend() - last) - 1;
+Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
+  const auto moves = [&](std::size_t step) {
+    const BodyMotion& m = motions[step];
+    return m.forward_m != 0.0 || m.sideways_m != 0.0 || m.turn_rad != 0.0;
+  };
+  std::size_t first = motions.first(), end = motions.end();
+  while (first < end && !moves(first)) ++first;
+  if (first == end) return {0, 0};
+  while (!moves(end - 1)) --end;
+  const int from_step = static_cast<int>(first), to_step = static_cast<int>(end) - 1;
   // Truth intervals that touch these wheel intervals.
   const auto piece_of = [&](int step) {
     return static_cast<int>(
@@ -166,7 +169,7 @@ Stretch LinearisedRun::of_motion(const std::vector<BodyMotion>& per_step, double
   const auto motion = [&](int t, double* d) {
     for (int p = first_piece_[t]; p < first_piece_[t + 1]; ++p) {
       const Piece& piece = pieces_[p];
-      const BodyMotion& m = per_step[piece.interval];
+      const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
       const double f = piece.share * m.forward_m, l = piece.share * m.sideways_m, w = piece.share * m.turn_rad;
       d[0] += -piece.dy * d[2] + piece.c * f - piece.s * l - 0.5 * piece.dy * w;
       d[1] += piece.dx * d[2] + piece.s * f + piece.c * l + 0.5 * piece.dx * w;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/calibration/innovations.h"
+#include "core/diagnosis/motions.h"
 
 namespace odolab {
 
@@ -31,7 +32,7 @@ class LinearisedRun {
 
   // Derivative of the prediction by the value of an effect that moves the body by `per_step` between wheel samples.
   // `out` has three numbers for each sample and is written to within the returned stretch only.
-  Stretch of_motion(const std::vector<BodyMotion>& per_step, double* out) const;
+  Stretch of_motion(const Motions& motions, double* out) const;
   // The same by one of the seven parameters of `column`.
   void of_parameter(int parameter, double* out) const;
   // By the rate of the wheels' clock, against the truth's, about the run's first truth sample.

@@ -49,7 +49,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   Track track;
   for (int pass = 0; pass < 2; ++pass) {
     const DriveView view = drive_view(0, run, *drive, from_commands, track);
-    const Motions sum = motions_of(view, effects);
+    const std::vector<BodyMotion> sum = motions_of(view, effects);
     track.clear();
     Pose pose;
     track.push_back({run.wheels[0].time_s, pose});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -77,8 +78,12 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   const auto motions = of.motions;
   placebo.motions = [motions, shape](const DriveView& view, const std::vector<double>&) {
     std::vector<Motions> m = motions(view, shape);
-    for (Motions& one : m)
-      std::rotate(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(one.size() / 2), one.end());
+    const std::size_t n = view.steps.size();
+    for (Motions& one : m) {
+      Motions later(n);
+      for (std::size_t i = 0; i < n; ++i) later[i] = one.at((i + n / 2) % n);
+      one = later;
+    }
     return m;
   };
   return placebo;
@@ -145,9 +150,11 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     d.left_out_in_turn = true;
     d.held_out = table([&](const JointModel& m, bool as_it_is) {
       const JointModel all = with_one_noise(m);
+      if (as_it_is) return Models{all};
+      std::vector<std::optional<JointModel>> of_run(train.size());
+      parallel_for(static_cast<int>(train.size()), [&](int r) { of_run[r] = all.left_out(r); });
       Models left_out;
-      for (int r = 0; r < static_cast<int>(train.size()) && !as_it_is; ++r) left_out.push_back(all.left_out(r));
-      if (as_it_is) left_out.push_back(all);
+      for (std::optional<JointModel>& one : of_run) left_out.push_back(std::move(*one));
       return left_out;
     });
   }

@@ -31,9 +31,7 @@ void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, st
 }
 
 Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length_m) {
-  Motions m(view.steps.size());
-  std::size_t middle = 0;
-  while (middle + 1 < view.steps.size() && view.steps[middle].time_s < at_s) ++middle;
+  const std::size_t middle = std::min(view.step_at(at_s), view.steps.size() - 1);
   std::size_t from = middle, to = middle;
   double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
   while (from > 0 && before < 0.5 * length_m && view.steps[middle].time_s - view.steps[from].time_s < 1.0)
@@ -41,25 +39,26 @@ Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length
   while (to + 1 < view.steps.size() && behind < 0.5 * length_m &&
          view.steps[to].time_s - view.steps[middle].time_s < 1.0)
     behind += std::abs(way(wheel, view.steps[++to]));
+  Motions m(from, to + 1);
   spread(m, view, wheel, from, to);
   return m;
 }
 
 // Empty where the wheel never comes there.
 Motions at_place(const DriveView& view, Wheel wheel, Vec2 place, double reach_m) {
-  Motions m;
-  const auto near = [&](std::size_t i) {
-    const Vec2 to = contact(wheel, view.steps[i], view.drive.wheelbase_m) - place;
-    return dot(to, to) < reach_m * reach_m;
-  };
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    if (!near(i)) continue;
-    m.resize(view.steps.size());
-    std::size_t to = i;
-    while (to + 1 < view.steps.size() && near(to + 1)) ++to;
-    spread(m, view, wheel, i, to);
-    i = to;
-  }
+  const double b = view.drive.wheelbase_m;
+  std::vector<std::pair<std::size_t, std::size_t>> visits;  // first and last step of each
+  view.steps_near(place, reach_m + 0.5 * b, [&](std::size_t i) {
+    const Vec2 to = contact(wheel, view.steps[i], b) - place;
+    if (dot(to, to) >= reach_m * reach_m) return;
+    if (!visits.empty() && visits.back().second + 1 == i)
+      visits.back().second = i;
+    else
+      visits.emplace_back(i, i);
+  });
+  if (visits.empty()) return {};
+  Motions m(visits.front().first, visits.back().second + 1);
+  for (const auto& [from, to] : visits) spread(m, view, wheel, from, to);
   return m;
 }
 
@@ -83,7 +82,7 @@ Effect once(Wheel wheel) {
   e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm"};
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions(view.steps.size())};
+    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};
     return std::vector<Motions>{at_moment(view, wheel, shape[1], kLength_m[static_cast<int>(shape.back())])};
   };
   e.scan = [](const std::vector<DriveView>& views) {

@@ -22,8 +22,7 @@ std::vector<Effect> collision() {
   e.of_one_recording = true;
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
-    std::vector<Motions> m(3, Motions(view.steps.size()));
-    if (view.number != static_cast<int>(shape[0])) return m;
+    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);
     const double lasts_s = kLasts_s[static_cast<int>(shape.back())];
     double total_s = 0.0;
     // How much of the way is done: it begins at `at_s` and ends softly. At least the interval in which it begins.
@@ -36,11 +35,16 @@ std::vector<Effect> collision() {
       return to < shape[1] || from > shape[1] + lasts_s ? 0.0 : done(to) - done(from);
     };
     std::vector<std::pair<std::size_t, double>> acts;
-    for (std::size_t i = 0; i < view.steps.size(); ++i)
+    const std::size_t at = view.step_at(shape[1]);
+    for (std::size_t i = at > 0 ? at - 1 : 0; i < view.steps.size(); ++i) {
+      if (view.steps[i].time_s - 0.5 * view.steps[i].duration_s > shape[1] + lasts_s) break;
       if (const double share = within(view.steps[i]); share > 0.0) {
         acts.emplace_back(i, share);
         total_s += share;
       }
+    }
+    if (acts.empty()) return std::vector<Motions>(3);
+    std::vector<Motions> m(3, Motions(acts.front().first, acts.back().first + 1));
     for (const auto& [i, share] : acts) {
       const double c = view.steps[i].cos_heading, s = view.steps[i].sin_heading, part = share / total_s;
       m[0][i] = {part * c, -part * s, 0.0};

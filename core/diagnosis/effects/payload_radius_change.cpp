@@ -19,11 +19,11 @@ Effect from_when(std::function<double(const DriveView&, const std::vector<double
   e.looks_like = {"radius_drift"};
   e.told_apart_by = "a longer run, with the same straight several times";
   e.motions = [loaded](const DriveView& view, const std::vector<double>& shape) {
-    Motions left(view.steps.size()), right(view.steps.size());
-    const double from_s = loaded(view, shape), b = view.drive.wheelbase_m;
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const std::size_t from = view.step_at(loaded(view, shape));
+    const double b = view.drive.wheelbase_m;
+    Motions left(from, view.steps.size()), right = left;
+    for (std::size_t i = from; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
-      if (s.time_s < from_s) continue;
       left[i] = by_wheel(Wheel::left, s.left_m, b);
       right[i] = by_wheel(Wheel::right, s.right_m, b);
     }

@@ -20,13 +20,15 @@ std::vector<Effect> slip_zone() {
   e.told_apart_by = "the same patch crossed again on another line and at another speed";
   e.local = true;
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    Motions m(view.steps.size());
     const Vec2 centre{shape[0], shape[1]};
     const double b = view.drive.wheelbase_m, r2 = shape[2] * shape[2];
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    std::vector<std::size_t> near;
+    view.steps_near(centre, shape[2] + 0.5 * b, [&](std::size_t i) { near.push_back(i); });
+    if (near.empty()) return std::vector<Motions>{Motions()};
+    Motions m(near.front(), near.back() + 1);
+    for (const std::size_t i : near) {
       const EffectStep& s = view.steps[i];
       const Vec2 to = s.position - centre;
-      if (dot(to, to) > (shape[2] + b) * (shape[2] + b)) continue;
       const Vec2 side{-0.5 * b * s.sin_heading, 0.5 * b * s.cos_heading};
       const Vec2 left = to + side, right = to - side;
       if (shape.back() < 0.5) {

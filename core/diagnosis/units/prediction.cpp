@@ -21,7 +21,7 @@ struct TrueUnits {
 };
 
 TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,
-                          const std::vector<Motions>& motions) {
+                          const std::vector<std::vector<BodyMotion>>& motions) {
   TrueUnits result{samples, std::vector<std::vector<double>>(samples.size(), std::vector<double>(units.size(), 0.0))};
   for (std::size_t u = 0; u < units.size(); ++u) {
     const DifferentialDrive& drive = units[u].drive;
@@ -152,7 +152,7 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
   }
 
   const std::vector<VehicleUnit> units = units_of(with);
-  std::vector<Motions> motions(units.size());
+  std::vector<std::vector<BodyMotion>> motions(units.size());
   Track track;
   // Effects of a place act where the units are, and the units are where they put them: twice is enough.
   for (int pass = 0; pass < 3; ++pass) {

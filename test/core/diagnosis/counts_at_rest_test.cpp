@@ -41,7 +41,7 @@ TEST(CountsAtRest, AreRegainedAtAStopAndLostAtTheNextStart) {
   EXPECT_NEAR(of[0][59].turn_rad, half_count_m / kBase_m, 1e-15);
   EXPECT_NEAR(of[1][59].turn_rad, -half_count_m / kBase_m, 1e-15);
   int moments = 0;
-  for (const BodyMotion& m : of[0]) moments += m.forward_m != 0.0;
+  for (std::size_t i = of[0].first(); i < of[0].end(); ++i) moments += of[0][i].forward_m != 0.0;
   EXPECT_EQ(moments, 3);
 }
 
@@ -49,7 +49,7 @@ TEST(CountsAtRest, AreNothingWhereReadingsAreNotCounted) {
   InnovationRun run = there_and_back();
   run.counts_show = false;
   for (const Motions& m : counts_at_rest(run, drive_of_1000_counts()))
-    for (const BodyMotion& b : m) EXPECT_EQ(b.forward_m, 0.0);
+    for (std::size_t i = m.first(); i < m.end(); ++i) EXPECT_EQ(m[i].forward_m, 0.0);
 }
 
 }  // namespace
