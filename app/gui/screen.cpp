@@ -244,6 +244,8 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     state.drive_floor.fit_next = state.compare_floor.fit_next = true;
     state.drive_transport.view.fitted = state.compare_transport.view.fitted = true;
     state.editing = false;
+    if (session.mode() == ui::Mode::learn && session.lesson().is_open())
+      state.drive_transport.show_heading = session.lesson().step().plot_heading;
     if (const std::optional<Benchmark>& asked = session.run().scenario().benchmark) {
       state.calibrate.runs_each_way = asked->runs_each_way;
       state.calibrate.keep_things = !asked->extended;  // what lies on its floor belongs to its experiment

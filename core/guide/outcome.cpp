@@ -38,7 +38,7 @@ std::vector<Setting> drive_settings(const DifferentialDrive& before, const Diffe
                  before.wheel_radius_left_m, after.wheel_radius_left_m, of_left * after.wheel_radius_left_m};
   settings[1] = {"radius of the right wheel", "wheel_radius_right_m",     "right_wheel_radius_multiplier",      "m",
                  before.wheel_radius_right_m, after.wheel_radius_right_m, of_right * after.wheel_radius_right_m};
-  settings[2] = {"wheelbase, between the wheels' contact points",
+  settings[2] = {"wheelbase",
                  "wheelbase_m",
                  "wheel_separation_multiplier",
                  "m",

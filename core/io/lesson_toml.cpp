@@ -57,6 +57,8 @@ Result<Done> read_step(TomlTable& table, const std::string& path, LessonStep& st
   table.field("text", step.text);
   table.field("look_at", step.look_at);
   table.field("speed", step.speed);
+  std::size_t plot = table.index_of_choice("plot", 0, {"position", "heading"});
+  step.plot_heading = plot == 1;
   if (table.has("scenario")) {
     Result<Scenario> scenario = read_named_or_inside(table, "scenario", path, step.scenario_path);
     if (!scenario) return scenario.error();

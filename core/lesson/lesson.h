@@ -35,6 +35,7 @@ struct LessonStep {
   std::string look_at;  // where the point can be seen, in one sentence
   std::optional<Scenario> scenario;
   std::string scenario_path;  // that the scenario's own files are relative to
+  bool plot_heading = false;  // below the floor, instead of the position gap
   double speed = 1.0;         // times real time, 0: as fast as possible
   std::optional<LessonQuestion> question;
   std::optional<Mystery> mystery;

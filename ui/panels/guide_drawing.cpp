@@ -157,13 +157,19 @@ void guide_drawing(const GuideSession& session, float height, const Theme& theme
   switch (session.kind) {
     case GuideKind::umbmark:
     case GuideKind::extended_umbmark: {
-      const bool bumps = session.kind == GuideKind::extended_umbmark;
-      const float side = std::min(height - theme.px(80), 0.21f * width);
-      const float y = at.y + 0.5f * (height - side);
+      // In a narrow window what is measured stands below what is driven.
+      const bool bumps = session.kind == GuideKind::extended_umbmark, narrow = width < theme.px(560);
+      const float side = std::min(height - theme.px(80), (narrow ? 0.36f : 0.21f) * width);
+      const float y = at.y + 0.5f * (height - side), gap = (narrow ? 0.12f : 0.07f) * width;
       square(pen, {at.x + theme.px(28), y}, side, true, session.side_m, bumps);
-      square(pen, {at.x + theme.px(28) + side + 0.07f * width, y}, side, false, session.side_m, bumps);
-      const float x = at.x + theme.px(28) + 2.0f * side + 0.13f * width;
-      corner(pen, {x, at.y + theme.px(6)}, at.x + width - x, height - theme.px(12), bumps);
+      square(pen, {at.x + theme.px(28) + side + gap, y}, side, false, session.side_m, bumps);
+      if (narrow) {
+        corner(pen, {at.x, at.y + height}, width, height - theme.px(12), bumps);
+        ImGui::Dummy({width, height});
+      } else {
+        const float x = at.x + theme.px(28) + 2.0f * side + gap + 0.06f * width;
+        corner(pen, {x, at.y + theme.px(6)}, at.x + width - x, height - theme.px(12), bumps);
+      }
       break;
     }
     case GuideKind::castors:

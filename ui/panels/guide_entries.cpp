@@ -14,12 +14,17 @@ namespace {
 const Unit kReadMillimetres{"mm", 1e3, 1, 0.2};
 const Unit kSettingMillimetres{"mm", 1e3, 3, 0.01};
 
+// Where the fields of a page begin: as far right as a narrow window allows.
+float field_column(const Theme& theme) {
+  return std::min(theme.px(300), ImGui::GetWindowContentRegionMax().x - theme.px(160));
+}
+
 // A labelled field in a column that is not too wide to read.
 Edited row(const char* label, const NumberField& field, double& value, const Theme& theme) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   tooltip(field.tip, theme);
-  ImGui::SameLine(theme.px(300));
+  ImGui::SameLine(field_column(theme));
   return number_field(field, value, theme.px(150), theme);
 }
 
@@ -37,7 +42,7 @@ Actions robot(const GuideView& view, GuidePageState& state, const Theme& theme) 
   std::snprintf(name, sizeof name, "%s", s.vehicle.name.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Name");
-  ImGui::SameLine(theme.px(300));
+  ImGui::SameLine(field_column(theme));
   ImGui::SetNextItemWidth(theme.px(150));
   if (ImGui::InputText("##name", name, sizeof name)) {
     s.vehicle.name = name;
@@ -196,18 +201,20 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
   std::snprintf(title, sizeof title, "Next run: %s %d", s.draft.clockwise ? "cw" : "ccw",
                 counted(round, s.draft.clockwise) + 1);
   heading(title, theme);
-  ImGui::SameLine(theme.px(190));
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (width > theme.px(600)) ImGui::SameLine(theme.px(190));
   if (const auto way = segmented("way", {"clockwise", "counter-clockwise"}, s.draft.clockwise ? 0 : 1, theme)) {
     s.draft.clockwise = *way == 0;
     actions.push_back(ChangeGuide{s});
   }
   if (!needs_heading) {
-    ImGui::SameLine();
+    if (width > theme.px(600)) ImGui::SameLine();
     if (ImGui::Checkbox("heading measured", &s.draft.has_heading)) actions.push_back(ChangeGuide{s});
     tooltip("UMBmark needs the place alone.", theme);
   }
   Edited e = Edited::no;
-  const float label = theme.px(190), field = theme.px(104);
+  const float label = std::min(theme.px(190), 0.34f * width);
+  const float field = std::min(theme.px(104), 0.5f * (width - label) - theme.px(34));
   const auto pose_row = [&](const char* words, const char* tip, Pose& pose) {
     ImGui::PushID(words);
     ImGui::AlignTextToFramePadding();
@@ -225,7 +232,12 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
     float x = label;
     for (const Part& part : parts) {
       if (!part.there) continue;
-      ImGui::SameLine(x);
+      const bool fits = x + ImGui::CalcTextSize(part.name).x + field < width + theme.px(30);
+      if (!fits) x = label;  // on the next line
+      if (fits)
+        ImGui::SameLine(x);
+      else
+        ImGui::SetCursorPosX(x);
       ImGui::AlignTextToFramePadding();
       ImGui::TextDisabled("%s", part.name);
       x += ImGui::CalcTextSize(part.name).x + theme.px(7);
@@ -239,11 +251,11 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
     }
     ImGui::PopID();
   };
-  pose_row("It really stands at",
+  pose_row("It stands at",
            "Measured from the start mark: x forward along the first side, y to its left, the heading "
            "counter-clockwise positive.",
            s.draft.measured);
-  pose_row("Its odometry says", "What the robot believes at the end, set to zero at the start.", s.draft.odometry);
+  pose_row("Odometry says", "What the robot believes at the end, set to zero at the start.", s.draft.odometry);
   keep(e, state, actions);
   ButtonLook enter;
   const int cw = counted(round, true), ccw = counted(round, false), wanted = s.runs_each_way;
@@ -263,7 +275,7 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
   }
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%d of %d clockwise, %d of %d counter-clockwise%s", cw, wanted, ccw, wanted,
+  ImGui::TextDisabled("%d of %d cw, %d of %d ccw%s", cw, wanted, ccw, wanted,
                       cw >= wanted && ccw >= wanted ? ": go on" : "");
   return actions;
 }
