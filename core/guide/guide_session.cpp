@@ -73,6 +73,14 @@ bool compensate(GuideSession& session) {
   return true;
 }
 
+void turn_to(GuideSession& session, int page) {
+  const Guide& guide = guide_of(session.kind);
+  session.page = std::clamp(page, 0, static_cast<int>(guide.pages.size()) - 1);
+  session.reached = std::max(session.reached, session.page);
+  if (guide.pages[static_cast<std::size_t>(session.page)].task == PageTask::again && session.rounds.size() == 1)
+    compensate(session);
+}
+
 std::string still_to_do(const GuideSession& session) {
   const Guide& guide = guide_of(session.kind);
   const PageTask task = guide.pages[static_cast<std::size_t>(session.page)].task;

@@ -71,6 +71,9 @@ UmbmarkRuns umbmark_runs(const GuideRound& round, double side_m);
 // where the last round calibrates nothing.
 bool compensate(GuideSession& session);
 
+// Turns to a page. The first visit to "Once more" begins the round that is driven with what the first one found.
+void turn_to(GuideSession& session, int page);
+
 // What must still be done on the page before the next one makes sense, in one sentence; empty where nothing.
 std::string still_to_do(const GuideSession& session);
 

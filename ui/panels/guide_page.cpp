@@ -48,10 +48,7 @@ Actions navigation(const GuideView& view, const Theme& theme) {
   const float button = theme.px(120), width = ImGui::GetContentRegionAvail().x;
   const auto to = [&](int page) {
     GuideSession next = session;
-    next.page = page;
-    // The page "Once more" is driven with what the first round found; that round begins here.
-    const PageTask task = guide.pages[std::size_t(page)].task;
-    if (task == PageTask::again && next.rounds.size() == 1) compensate(next);
+    turn_to(next, page);
     actions.push_back(ChangeGuide{next});
   };
   ButtonLook back;

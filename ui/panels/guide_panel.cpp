@@ -69,7 +69,7 @@ Actions guide_panel(const GuideView& view, const Theme& theme) {
     if (page_row(int(i) + 1, guide.pages[i].title.c_str(), int(i) == session.page, int(i) <= session.reached, theme) &&
         !view.busy) {
       GuideSession next = session;
-      next.page = int(i);
+      turn_to(next, int(i));
       actions.push_back(ChangeGuide{next});
     }
   ImGui::Dummy({1, theme.px(6)});

@@ -139,6 +139,19 @@ TEST(GuideSession, OffersASecondCompensationOnlyWhereTheRuleOfThreeStandardError
   }
 }
 
+TEST(GuideSession, BeginsTheSecondRoundOnceHoweverThePageIsReached) {
+  GuideSession session = at_runs();
+  for (const bool cw : {true, false}) enter_run(session, PageTask::runs, run_of({0.02, 0.01}, 4.0, cw, 0.34));
+  turn_to(session, 5);
+  ASSERT_EQ(session.rounds.size(), 2u);
+  turn_to(session, 3);
+  turn_to(session, 5);
+  EXPECT_EQ(session.rounds.size(), 2u);
+  EXPECT_EQ(session.reached, 5);
+  turn_to(session, 99);
+  EXPECT_EQ(session.page, 7);
+}
+
 TEST(GuideSession, SaysWhereTheCalibrationDidNotHelp) {
   GuideSession session = at_runs();
   for (const PageTask task : {PageTask::runs, PageTask::again}) {
