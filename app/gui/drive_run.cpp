@@ -20,7 +20,10 @@ Pose mixed_pose(const Pose& a, const Pose& b, double u) {
 }  // namespace
 
 DriveRun::DriveRun(const Scenario& scenario, std::shared_ptr<const Recording> replayed)
-    : scenario_(scenario), replayed_(std::move(replayed)), simulation_(scenario, scenario.seed, replayed_) {
+    : scenario_(scenario),
+      replayed_(std::move(replayed)),
+      simulation_(scenario, scenario.seed, replayed_),
+      estimates_(scenario, simulation_) {
   steps_per_picture_ = std::max(1, int(std::lround(kPicture / scenario.step_s)));
   shape_ = simulation_.shape();
   remember();
@@ -34,7 +37,9 @@ void DriveRun::restart() {
   gap_m_.clear();
   gap_heading_.clear();
   events_.clear();
-  samples_seen_ = 0;
+  samples_seen_ = 1;
+  gap_ = {};
+  estimates_ = RunEstimates(scenario_, simulation_);
   shown_s_ = 0.0;
   remember();
 }
@@ -43,11 +48,12 @@ void DriveRun::see_sample() {
   if (simulation_.samples() == samples_seen_) return;
   samples_seen_ = simulation_.samples();
   gap_ = between(simulation_.state().true_pose, simulation_.state().estimated_pose);
+  estimates_.take(simulation_);
 }
 
 void DriveRun::remember() {
   SimulationState s = simulation_.state();
-  see_sample();
+  estimates_.remember();
   s.estimated_pose = s.true_pose * gap_;
   history_.push_back(s);
   postures_.push_back(simulation_.posture());

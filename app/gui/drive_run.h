@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/run_estimates.h"
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -53,6 +54,7 @@ class DriveRun {
   const std::vector<double>& time_s() const { return times_; }
   const std::vector<double>& gap_m() const { return gap_m_; }
   const std::vector<double>& gap_heading_rad() const { return gap_heading_; }
+  const RunEstimates& estimates() const { return estimates_; }
   const std::vector<RunEvent>& events() const { return events_; }
 
  private:
@@ -70,13 +72,14 @@ class DriveRun {
   Scenario scenario_;
   std::shared_ptr<const Recording> replayed_;
   Simulation simulation_;
+  RunEstimates estimates_;
   int steps_per_picture_ = 20;
   VehicleShape shape_;
   std::vector<SimulationState> history_;  // a state and a posture for each picture
   std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;
   std::vector<RunEvent> events_;
-  std::size_t samples_seen_ = 0;
+  std::size_t samples_seen_ = 1;
   Pose gap_;  // at the last sample
   double shown_s_ = 0.0;
 };

@@ -156,7 +156,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
   switch (session.mode()) {
     case ui::Mode::drive:
       append(actions, ui::welcome_card(state.welcome, theme));
-      append(actions, ui::readout_panel(readout_of(session, shown), theme));
+      append(actions, ui::readout_panel(readout_of(session, shown, theme), state.estimators, theme));
       break;
     case ui::Mode::calibrate:
       if (session.guide().shown())
@@ -180,7 +180,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
 Actions centre_pane(const Session& session, ScreenState& state, const SimulationState& shown, const Theme& theme) {
   switch (session.mode()) {
     case ui::Mode::drive:
-      return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
+      return ui::floor_view(drive_scene(session, shown, theme, state.estimators.shown), state.drive_floor, theme);
     case ui::Mode::calibrate:
       if (session.guide().shown()) return ui::guide_page(guide_of(session), state.guide, theme);
       ui::cluster_panel(bench_of(session), state.clusters, theme);
@@ -308,7 +308,8 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     if (has_bottom) {
       begin_pane("bottom", l.bottom_low, l.bottom_size, true, false, theme.panel);
       if (session.mode() != ui::Mode::compare)
-        append(actions, ui::transport_bar(drive_transport(session, theme), state.drive_transport, theme));
+        append(actions, ui::transport_bar(drive_transport(session, theme, state.estimators.shown),
+                                          state.drive_transport, theme));
       else
         append(actions, ui::transport_bar(compare_transport(session, theme), state.compare_transport, theme));
       ImGui::End();

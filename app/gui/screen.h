@@ -7,6 +7,7 @@
 #include "app/gui/session.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/cluster_panel.h"
+#include "ui/panels/estimator_panel.h"
 #include "ui/panels/floor_panel.h"
 #include "ui/panels/floor_view.h"
 #include "ui/panels/guide_page.h"
@@ -25,6 +26,7 @@ struct ScreenState {
   ui::Welcome welcome;
   ui::FloorViewState drive_floor, compare_floor;
   ui::FloorPanelState floor_panel;
+  ui::EstimatorState estimators;
   ui::TransportState drive_transport, compare_transport;
   ui::CalibrateState calibrate;
   ui::ClusterState clusters;

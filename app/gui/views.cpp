@@ -24,9 +24,23 @@ std::optional<ui::ReplayFigures> figures_of(const ComparedReplay* c) {
   return f;
 }
 
+// Calls back with each chosen estimator besides the one that the vehicle steers by.
+template <typename OnEach>
+void each_beside(const DriveRun& run, const std::set<std::string>& chosen, const ui::Theme& theme,
+                 const OnEach& on_each) {
+  const RunEstimates& estimates = run.estimates();
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < estimates.all().size(); ++i) {
+    if (i == estimates.steering()) continue;
+    const ui::EstimatorLook look = ui::estimator_look(beside++, theme);
+    if (chosen.count(estimates.all()[i].name) > 0) on_each(estimates.all()[i], look);
+  }
+}
+
 }  // namespace
 
-ui::FloorScene drive_scene(const Session& session, const SimulationState& shown, const ui::Theme& theme) {
+ui::FloorScene drive_scene(const Session& session, const SimulationState& shown, const ui::Theme& theme,
+                           const std::set<std::string>& estimators) {
   const DriveRun& run = session.run();
   const Scenario& scenario = run.scenario();
   ui::FloorScene scene;
@@ -49,6 +63,19 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   estimate.colour = theme.orange;
   estimate.dash = ui::Dash::dashes;
   scene.tracks = {truth, estimate};
+  each_beside(run, estimators, theme, [&](const RunEstimate& beside, const ui::EstimatorLook& look) {
+    ui::TrackLine line;
+    line.label = beside.name;
+    line.track = &beside.track;
+    line.reference = &true_track;
+    line.until_s = shown.time_s;
+    line.end =
+        shown.true_pose * between(*pose_nearest(true_track, shown.time_s), *pose_nearest(beside.track, shown.time_s));
+    line.colour = look.colour;
+    line.dash = look.dash;
+    scene.tracks[1].label = run.estimates().all()[run.estimates().steering()].name;
+    scene.tracks.push_back(line);
+  });
   ui::VehicleGlyph vehicle;
   vehicle.shape = &run.shape();
   vehicle.posture = run.shown_posture();
@@ -108,7 +135,7 @@ ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
   return scene;
 }
 
-ui::Transport drive_transport(const Session& session, const ui::Theme& theme) {
+ui::Transport drive_transport(const Session& session, const ui::Theme& theme, const std::set<std::string>& estimators) {
   const DriveRun& run = session.run();
   ui::Transport t;
   t.playing = session.playing();
@@ -121,8 +148,16 @@ ui::Transport drive_transport(const Session& session, const ui::Theme& theme) {
   t.speed = session.speed();
   t.reached_speed = session.reached_speed();
   t.quantity = "gap";
-  t.position_curves = {{"position gap", &run.time_s(), &run.gap_m(), theme.orange, false}};
-  t.heading_curves = {{"heading gap", &run.time_s(), &run.gap_heading_rad(), theme.orange, false}};
+  t.position_curves = {{"position gap", &run.time_s(), &run.gap_m(), theme.orange, ui::Stroke::line}};
+  t.heading_curves = {{"heading gap", &run.time_s(), &run.gap_heading_rad(), theme.orange, ui::Stroke::line}};
+  each_beside(run, estimators, theme, [&](const RunEstimate& beside, const ui::EstimatorLook& look) {
+    const ui::Stroke stroke = look.dash == ui::Dash::dots          ? ui::Stroke::dotted
+                              : look.dash == ui::Dash::long_dashes ? ui::Stroke::long_dashed
+                                                                   : ui::Stroke::dashed;
+    t.position_curves[0].label = t.heading_curves[0].label = run.estimates().all()[run.estimates().steering()].name;
+    t.position_curves.push_back({beside.name, &run.time_s(), &beside.gap_m, look.colour, stroke});
+    t.heading_curves.push_back({beside.name, &run.time_s(), &beside.heading_rad, look.colour, stroke});
+  });
   for (const RunEvent& e : run.events()) {
     const ImU32 colour = e.kind == RunEvent::Kind::bump        ? theme.bump_edge
                          : e.kind == RunEvent::Kind::slip_zone ? theme.zone
@@ -146,10 +181,10 @@ ui::Transport compare_transport(const Session& session, const ui::Theme& theme) 
   t.reached_speed = session.reached_speed();
   t.quantity = "error";
   if (shown) {
-    t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, false},
-                         {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, true}};
-    t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, false},
-                        {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, true}};
+    t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, ui::Stroke::line},
+                         {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, ui::Stroke::dashed}};
+    t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, ui::Stroke::line},
+                        {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, ui::Stroke::dashed}};
   }
   return t;
 }
@@ -206,7 +241,7 @@ ui::Compare compare_of(const Session& session, const std::vector<std::string>& e
   return view;
 }
 
-ui::Readout readout_of(const Session& session, const SimulationState& shown) {
+ui::Readout readout_of(const Session& session, const SimulationState& shown, const ui::Theme& theme) {
   ui::Readout r;
   r.state = shown;
   const Pose gap = between(shown.true_pose, shown.estimated_pose);
@@ -214,11 +249,36 @@ ui::Readout readout_of(const Session& session, const SimulationState& shown) {
   r.gap_heading_rad = wrapped(gap.heading_rad);
   r.gap_along_m = gap.x_m;
   r.gap_across_m = gap.y_m;
+  r.estimators = estimators_of(session, shown, theme);
   r.sideways = moves_sideways(session.run().scenario().vehicle.kind);
   r.by_hand = std::holds_alternative<HandPath>(session.run().scenario().path);
   r.shape = &session.run().shape();
   r.posture = session.run().shown_posture();
   return r;
+}
+
+ui::Estimators estimators_of(const Session& session, const SimulationState& shown, const ui::Theme& theme) {
+  const DriveRun& run = session.run();
+  const RunEstimates& estimates = run.estimates();
+  const Track& exact = run.simulation().true_track();
+  const auto after = std::upper_bound(exact.begin(), exact.end(), shown.time_s + 1e-9,
+                                      [](double time_s, const TimedPose& p) { return time_s < p.time_s; });
+  const std::size_t sample = after == exact.begin() ? 0 : std::size_t(after - exact.begin()) - 1;  // the last so far
+  ui::Estimators view;
+  view.finished = run.at_end();
+  std::size_t beside = 0;
+  for (std::size_t i = 0; i < estimates.all().size(); ++i) {
+    const RunEstimate& estimate = estimates.all()[i];
+    ui::EstimatorRow row;
+    row.name = estimate.name;
+    row.about = estimate.about;
+    row.steers = i == estimates.steering();
+    row.look = row.steers ? ui::EstimatorLook{theme.orange, ui::Dash::dashes} : ui::estimator_look(beside++, theme);
+    row.gap = between(exact[sample].pose, estimate.track[sample].pose);
+    row.error_m = exact[sample].pose.position() - estimate.track[sample].pose.position();
+    view.rows.push_back(row);
+  }
+  return view;
 }
 
 ui::ErrorNow error_now(const Session& session) {

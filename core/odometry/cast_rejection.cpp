@@ -113,47 +113,66 @@ int suspect(const std::vector<Testimony>& all, const std::vector<char>& unheard,
 
 }  // namespace
 
+RejectingCast::RejectingCast(const MultiCastor& vehicle, const Pose& start, const CastOptions& options,
+                             const RejectionOptions& rejection)
+    : vehicle_(vehicle),
+      options_(options),
+      rejection_(rejection),
+      left_out_(vehicle.castors.size(), 0),
+      quiet_(vehicle.castors.size(), 0),
+      since_s_(vehicle.castors.size(), 0.0),
+      body_(start) {
+  assert(problem_in(options, vehicle).empty());
+  if (options.left_out > 0) left_out_[static_cast<std::size_t>(options.left_out - 1)] = 1;
+  unheard_ = left_out_;
+}
+
+void RejectingCast::take(const CastorSample& now) {
+  const CastorSample before = last_;
+  last_ = now;
+  if (before.castors.empty()) return;
+  const std::size_t n = vehicle_.castors.size();
+  // Where the vehicle turned to without suspicion; good enough to linearise at.
+  const Pose guess =
+      moved_by_pivots(body_, pivot_ways(vehicle_, before, now, body_, options_.heading, unheard_), options_);
+  std::vector<Testimony> all;
+  for (std::size_t i = 0; i < n; ++i)
+    all.push_back(testimony(vehicle_.castors[i], before.castors[i], now.castors[i], body_, vehicle_,
+                            guess.heading_rad - body_.heading_rad, options_, rejection_));
+  if (const int found = suspect(all, unheard_, rejection_); found >= 0) {
+    const std::size_t i = static_cast<std::size_t>(found);
+    unheard_[i] = 1;
+    quiet_[i] = 0;
+    since_s_[i] = before.time_s;
+  }
+  const Vector3d motion = agreement(all, unheard_).motion;
+  body_ = moved_by_pivots(body_, pivot_ways(vehicle_, before, now, body_, options_.heading, unheard_), options_);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!unheard_[i] || left_out_[i]) continue;
+    quiet_[i] = all[i].disagreement(motion) < rejection_.back_below ? quiet_[i] + 1 : 0;
+    if (quiet_[i] < rejection_.back_after) continue;
+    unheard_[i] = 0;
+    disregarded_.push_back({static_cast<int>(i) + 1, since_s_[i], now.time_s});
+  }
+}
+
+void RejectingCast::finish() {
+  for (std::size_t i = 0; i < unheard_.size(); ++i)
+    if (unheard_[i] && !left_out_[i]) disregarded_.push_back({static_cast<int>(i) + 1, since_s_[i], last_.time_s});
+  unheard_ = left_out_;
+}
+
 RejectingTrack castor_track_with_rejection(const std::vector<CastorSample>& samples, const MultiCastor& vehicle,
                                            const Pose& start, const CastOptions& options,
                                            const RejectionOptions& rejection) {
-  assert(problem_in(options, vehicle).empty());
-  const std::size_t n = vehicle.castors.size();
-  std::vector<char> left_out(n, 0);
-  if (options.left_out > 0) left_out[static_cast<std::size_t>(options.left_out - 1)] = 1;
-  std::vector<char> unheard = left_out;  // left out for good, or disregarded now
-  std::vector<int> quiet(n, 0);
-  std::vector<double> since_s(n, 0.0);
+  RejectingCast cast(vehicle, start, options, rejection);
   RejectingTrack result;
-  Pose body = start;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (k == 0) {
-      result.track.push_back({samples[k].time_s, body});
-      continue;
-    }
-    const CastorSample &before = samples[k - 1], &now = samples[k];
-    // Where the vehicle turned to without suspicion; good enough to linearise at.
-    const Pose guess = moved_by_pivots(body, pivot_ways(vehicle, before, now, body, options.heading, unheard), options);
-    std::vector<Testimony> all;
-    for (std::size_t i = 0; i < n; ++i)
-      all.push_back(testimony(vehicle.castors[i], before.castors[i], now.castors[i], body, vehicle,
-                              guess.heading_rad - body.heading_rad, options, rejection));
-    if (const int found = suspect(all, unheard, rejection); found >= 0) {
-      const std::size_t i = static_cast<std::size_t>(found);
-      unheard[i] = 1;
-      quiet[i] = 0;
-      since_s[i] = before.time_s;
-    }
-    const Vector3d motion = agreement(all, unheard).motion;
-    body = moved_by_pivots(body, pivot_ways(vehicle, before, now, body, options.heading, unheard), options);
-    result.track.push_back({now.time_s, body});
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!unheard[i] || left_out[i]) continue;
-      quiet[i] = all[i].disagreement(motion) < rejection.back_below ? quiet[i] + 1 : 0;
-      if (quiet[i] < rejection.back_after && k + 1 < samples.size()) continue;
-      unheard[i] = 0;
-      result.disregarded.push_back({static_cast<int>(i) + 1, since_s[i], now.time_s});
-    }
+  for (const CastorSample& sample : samples) {
+    cast.take(sample);
+    result.track.push_back({sample.time_s, cast.body()});
   }
+  cast.finish();
+  result.disregarded = cast.disregarded();
   return result;
 }
 

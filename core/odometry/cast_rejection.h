@@ -34,6 +34,31 @@ struct RejectingTrack {
   std::vector<DisregardedCastor> disregarded;
 };
 
+// The same step by step, along a run.
+class RejectingCast {
+ public:
+  // Options as in castor_track_with_rejection.
+  RejectingCast(const MultiCastor& vehicle, const Pose& start, const CastOptions& options = {},
+                const RejectionOptions& rejection = {});
+
+  void take(const CastorSample& now);  // the first one is where it starts
+  const Pose& body() const { return body_; }
+  // Castors that were disregarded and taken back; finish() adds those that still are.
+  const std::vector<DisregardedCastor>& disregarded() const { return disregarded_; }
+  void finish();
+
+ private:
+  MultiCastor vehicle_;
+  CastOptions options_;
+  RejectionOptions rejection_;
+  std::vector<char> left_out_, unheard_;  // for good; for good or now
+  std::vector<int> quiet_;
+  std::vector<double> since_s_;
+  CastorSample last_;
+  Pose body_;
+  std::vector<DisregardedCastor> disregarded_;
+};
+
 // `options` as in castor_track, with castors left out for good; at least three must be left to find one by. With two
 // nothing can be told, and the track is that of castor_track.
 RejectingTrack castor_track_with_rejection(const std::vector<CastorSample>& samples, const MultiCastor& vehicle,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "app/gui/session.h"
 #include "app/gui/views.h"
@@ -91,6 +92,55 @@ TEST(EveryVehicle, HasAGapThatIsTheOdometrysAndNotThatOfOldReadings) {
   // At 0.3 m/s the pose is up to 15 mm older than the picture: encoders are read every 50 ms. What odometry itself has
   // wrong after a metre on a plain floor is its encoders' rounding, some tenths of a millimetre.
   for (const double gap_m : session.run().gap_m()) EXPECT_LT(gap_m, 0.002);
+}
+
+TEST(EveryVehicle, SteersByTheEstimatorThatTheListSays) {
+  for (const char* file : kVehicleFiles) {
+    Session session(false);
+    ASSERT_TRUE(session.open(asset("vehicles/") + file + ".toml")) << file;
+    for (const bool internal : {true, false}) {
+      Scenario scenario = session.run().scenario();
+      scenario.driving.internal_correction = internal;
+      session.execute(ui::EditScenario{scenario});
+      play(session, 5.0);
+      const RunEstimates& estimates = session.run().estimates();
+      const Track &own = estimates.all()[estimates.steering()].track,
+                  &robots = session.run().simulation().estimated_track();
+      ASSERT_EQ(own.size(), robots.size()) << file;
+      for (std::size_t i = 0; i < own.size(); ++i)  // the trailer's hitch angle is unwrapped in another order
+        ASSERT_LT(length(own[i].pose.position() - robots[i].pose.position()), 1e-12) << file << " " << i;
+    }
+  }
+}
+
+TEST(EveryVehicle, ShowsChosenEstimatorsAsTracksAndCurvesAndTheirReturnErrorsInTheEnd) {
+  Session session(false);
+  ASSERT_TRUE(session.open(asset("scenarios/smart_encoder_trailer.toml")));
+  Scenario scenario = session.run().scenario();
+  scenario.path = SquarePath{1.0};
+  session.execute(ui::EditScenario{scenario});
+  session.execute(ui::Play{});
+  for (int i = 0; i < 2000 && !session.run().finished(); ++i) session.advance(0.1, kAlways);
+  ASSERT_TRUE(session.run().finished());
+  const ui::Theme theme = ui::make_theme(false, 1.0f);
+  const SimulationState shown = session.run().shown();
+  EXPECT_EQ(drive_scene(session, shown, theme).tracks.size(), 2u);
+  const std::set<std::string> chosen{"towing wheels", "trailer alone"};
+  const ui::FloorScene scene = drive_scene(session, shown, theme, chosen);
+  ASSERT_EQ(scene.tracks.size(), 4u);
+  EXPECT_EQ(scene.tracks[2].label, "towing wheels");
+  EXPECT_NE(scene.tracks[2].colour, scene.tracks[3].colour);
+  const ui::Transport bar = drive_transport(session, theme, chosen);
+  ASSERT_EQ(bar.position_curves.size(), 3u);
+  EXPECT_EQ(bar.position_curves[1].value->size(), bar.position_curves[0].value->size());
+
+  const ui::Estimators table = estimators_of(session, shown, theme);
+  EXPECT_TRUE(table.finished);
+  // Two cables lie on the first metre: each turns the towing wheels' estimate by 0.6 degrees, which the trailer undoes.
+  EXPECT_TRUE(table.rows[0].steers);
+  EXPECT_GT(length(table.rows[1].gap.position()), 2.0 * length(table.rows[0].gap.position()));
+  EXPECT_NEAR(length(table.rows[1].error_m), length(table.rows[1].gap.position()), 1e-12);
+  EXPECT_EQ(bar.position_curves[1].value->back(), length(table.rows[1].gap.position()));
 }
 
 TEST(EveryVehicle, ButADifferentialDriveIsTurnedAwayFromTheSquaresOfUmbmarkInOneLine) {

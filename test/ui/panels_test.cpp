@@ -37,7 +37,7 @@ class TransportTest : public ::testing::Test {
     t.latest_s = 40.0;
     t.time_s = 20.0;
     t.total_s = 100.0;
-    t.position_curves = {{"gap", &times, &gap, screen.theme.orange, false}};
+    t.position_curves = {{"gap", &times, &gap, screen.theme.orange, Stroke::line}};
     draw = [this] { append(asked, transport_bar(t, state, screen.theme)); };
     screen.picture(draw, low, size);
   }
@@ -368,6 +368,7 @@ TEST(Panels, DrawInEveryState) {
     CalibrateState calibrate;
     ClusterState clusters;
     Readout readout;
+    EstimatorState estimators;
     Welcome welcome{true};
     Compare compare;
     ErrorNow now;
@@ -376,7 +377,7 @@ TEST(Panels, DrawInEveryState) {
     const auto all = [&] {
       calibrate_panel(bench, calibrate, screen.theme);
       calibration_result_panel(bench, screen.theme);
-      readout_panel(readout, screen.theme);
+      readout_panel(readout, estimators, screen.theme);
       welcome_card(welcome, screen.theme);
       compare_panel(compare, ask, screen.theme);
       error_panel(compare, now, screen.theme);

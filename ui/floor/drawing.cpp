@@ -205,6 +205,9 @@ void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colo
     case Dash::dots:
       dashed_line(draw, points, colour, theme.px(2.6f), theme.px(2.6f), theme.px(5.4f));
       break;
+    case Dash::long_dashes:
+      dashed_line(draw, points, colour, theme.px(2.0f), theme.px(16), theme.px(4));
+      break;
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace odolab::ui {
 
-enum class Dash { solid, dashes, dots };
+enum class Dash { solid, dashes, dots, long_dashes };
 
 // A track as it is drawn, up to a time. Where a reference is given, the deviation from it can be exaggerated.
 struct TrackLine {

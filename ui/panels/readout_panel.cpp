@@ -152,7 +152,7 @@ void gauge_table(const Readout& r, const Theme& theme) {
 
 }  // namespace
 
-Actions readout_panel(const Readout& r, const Theme& theme) {
+Actions readout_panel(const Readout& r, EstimatorState& estimators, const Theme& theme) {
   Actions actions;
   heading("Gap between estimate and truth", theme);
   const float half = 0.5f * ImGui::GetContentRegionAvail().x;
@@ -164,6 +164,7 @@ Actions readout_panel(const Readout& r, const Theme& theme) {
        theme);
   heading("Poses", theme);
   pose_table(r, theme);
+  if (!r.estimators.rows.empty()) estimator_panel(r.estimators, estimators, theme);
   if (r.shape && !r.posture.gauges.empty()) {
     heading("Joints", theme);
     gauge_table(r, theme);

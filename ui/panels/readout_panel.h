@@ -8,6 +8,7 @@
 #include "physics/simulation.h"
 #include "ui/actions.h"
 #include "ui/look/theme.h"
+#include "ui/panels/estimator_panel.h"
 
 namespace odolab::ui {
 
@@ -20,11 +21,13 @@ struct Readout {
   double gap_across_m = 0.0;  // left of it
   const VehicleShape* shape = nullptr;
   VehiclePosture posture;
+  Estimators estimators;
   bool by_hand = false;   // the arrow keys drive
   bool sideways = false;  // and Q and E, where the vehicle can
 };
 
-Actions readout_panel(const Readout& readout, const Theme& theme);
+// The state says which estimators a person has chosen to see.
+Actions readout_panel(const Readout& readout, EstimatorState& estimators, const Theme& theme);
 
 // The card of the first start.
 struct Welcome {

@@ -135,7 +135,7 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
     s.y = c.value->data();
     s.count = std::min(c.time_s->size(), c.value->size());
     s.colour = c.colour;
-    s.stroke = c.dashed ? Stroke::dashed : Stroke::line;
+    s.stroke = c.stroke;
     plot_of.series.push_back(s);
   }
   for (const TimelineEvent& e : t.events) plot_of.marks.push_back({e.time_s, e.words, e.colour});

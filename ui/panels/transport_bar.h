@@ -22,7 +22,7 @@ struct TimeCurve {
   const std::vector<double>* time_s = nullptr;
   const std::vector<double>* value = nullptr;
   ImU32 colour = 0;
-  bool dashed = false;
+  Stroke stroke = Stroke::line;
 };
 
 struct Transport {

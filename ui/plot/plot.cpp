@@ -123,6 +123,15 @@ void marker(ImDrawList& draw, Marker kind, ImVec2 at, ImU32 colour, const Theme&
   }
 }
 
+// A line of one of the strokes; in a legend a short piece of it.
+void stroke_line(ImDrawList& draw, const std::vector<ImVec2>& points, Stroke stroke, ImU32 colour, float width,
+                 const Theme& theme) {
+  if (stroke == Stroke::line) solid_line(draw, points, colour, width);
+  if (stroke == Stroke::dashed) dashed_line(draw, points, colour, width, theme.px(6), theme.px(4));
+  if (stroke == Stroke::dotted) dashed_line(draw, points, colour, 1.2f * width, theme.px(2), theme.px(4));
+  if (stroke == Stroke::long_dashed) dashed_line(draw, points, colour, width, theme.px(14), theme.px(4));
+}
+
 void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool in_order, const Theme& theme) {
   if (s.stroke != Stroke::none) {
     std::vector<std::size_t> kept;
@@ -132,10 +141,7 @@ void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool
       for (std::size_t i = 0; i < s.count; ++i) kept.push_back(i);
     std::vector<ImVec2> points;
     const auto finish = [&] {
-      if (s.stroke == Stroke::line)
-        solid_line(draw, points, s.colour, theme.px(s.width));
-      else
-        dashed_line(draw, points, s.colour, theme.px(s.width), theme.px(6), theme.px(4));
+      stroke_line(draw, points, s.stroke, s.colour, theme.px(s.width), theme);
       points.clear();
     };
     for (const std::size_t i : kept) {
@@ -204,9 +210,7 @@ float draw_legend(ImDrawList& draw, const Plot& what, const Frame& frame, float 
   const float middle = top + 0.5f * ImGui::GetTextLineHeight();
   for (const PlotSeries& s : what.series) {
     if (s.label.empty()) continue;
-    if (s.stroke == Stroke::line) draw.AddLine({x, middle}, {x + swatch, middle}, s.colour, theme.px(2));
-    if (s.stroke == Stroke::dashed)
-      dashed_line(draw, {{x, middle}, {x + swatch, middle}}, s.colour, theme.px(2), theme.px(5), theme.px(3));
+    stroke_line(draw, {{x, middle}, {x + swatch, middle}}, s.stroke, s.colour, theme.px(2), theme);
     marker(draw, s.marker, {x + 0.5f * swatch, middle}, s.colour, theme);
     draw.AddText({x + swatch + theme.px(5), top}, theme.ink, s.label.c_str());
     x += swatch + theme.px(5) + ImGui::CalcTextSize(s.label.c_str()).x + gap;

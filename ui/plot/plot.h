@@ -11,7 +11,7 @@
 
 namespace odolab::ui {
 
-enum class Stroke { line, dashed, none };
+enum class Stroke { line, dashed, dotted, long_dashed, none };
 enum class Marker { none, disc, ring, square, box, cross };
 
 // One curve or cloud. The numbers belong to the caller and outlive the call; they are SI.

@@ -1,0 +1,39 @@
+// Every estimator of the vehicle beside the run, on the same readings: its track, and its gap to the truth over time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/geometry/track.h"
+#include "core/odometry/estimators.h"
+#include "physics/simulation.h"
+
+namespace odolab {
+
+struct RunEstimate {
+  std::string name, about;
+  Track track;                // a pose for each sample of the encoders
+  Pose gap;                   // estimate as seen from the truth, at the last sample
+  std::vector<double> gap_m;  // at every picture
+  std::vector<double> heading_rad;
+};
+
+class RunEstimates {
+ public:
+  // Begins at the simulation's start, of whose first sample it takes the readings.
+  RunEstimates(const Scenario& scenario, const Simulation& simulation);
+
+  void take(const Simulation& simulation);  // after each sample
+  void remember();                          // at each picture
+
+  const std::vector<RunEstimate>& all() const { return estimates_; }
+  // The one that the vehicle itself steers by.
+  std::size_t steering() const { return steering_; }
+
+ private:
+  std::vector<std::unique_ptr<RunningEstimator>> running_;
+  std::vector<RunEstimate> estimates_;
+  std::size_t steering_ = 0;
+};
+
+}  // namespace odolab
