@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/odometry/estimators.h"
 #include "core/odometry/prediction.h"
+#include "core/recording/vehicle_samples.h"
+#include "core/scenario/suited_scenario.h"
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -29,24 +32,31 @@ double turn_onto(const Track& track, const std::vector<TruthSample>& truth) {
 }  // namespace
 
 Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
-  Scenario scenario;
+  Scenario scenario = with_vehicle(Scenario{}, vehicle);
   scenario.name = "Replay of " + recording.name;
-  scenario.vehicle = vehicle;
-  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  if (drive) scenario.actual = as_drawn(*drive);
+  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) scenario.actual = as_drawn(*drive);
   ReplayPath path;
   path.recording = recording.name;
-  path.by = !drive || wheel_samples(recording, *drive).empty() ? ReplayPath::By::commands : ReplayPath::By::wheels;
+  path.by = missing_columns(recording, vehicle).empty() ? ReplayPath::By::wheels : ReplayPath::By::commands;
   scenario.path = path;
   return scenario;
 }
 
-Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress) {
-  if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) return *other;
+Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording> recording, const Progress& progress,
+                      double picture_period_s) {
   const bool by_wheels = std::get<ReplayPath>(scenario.path).by == ReplayPath::By::wheels;
-  if (by_wheels && wheel_samples(*recording, std::get<DifferentialDrive>(scenario.vehicle.kind)).size() < 2)
-    return Error{recording->name + ": path.by", "'wheels', but the recording has no wheel rotation",
+  const bool pair_of_wheels = encoder_channels(scenario.vehicle.kind).size() == 2;
+  if (const std::string missing = missing_columns(*recording, scenario.vehicle); by_wheels && !missing.empty())
+    return Error{recording->name + ": path.by",
+                 "'wheels', but the recording has no " + (pair_of_wheels ? std::string("wheel rotation") : missing),
                  "'commands', or another recording"};
+  const auto* drive = std::get_if<DifferentialDrive>(&scenario.vehicle.kind);
+  if (by_wheels && drive && wheel_samples(*recording, *drive).size() < 2)
+    return Error{recording->name + ": path.by", "'wheels', but the recording has one row of them",
+                 "'commands', or another recording"};
+  if (!by_wheels && !drive && command_samples(*recording).size() < 2)
+    return Error{recording->name, "no " + missing_columns(*recording, scenario.vehicle),
+                 "the encoders of a " + kind_name(scenario.vehicle) + ", or commands"};
   if (!by_wheels && command_samples(*recording).size() < 2)
     return Error{recording->name + ": path.by", "'commands', but the recording has none",
                  "'wheels', or another recording"};
@@ -71,13 +81,25 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
   const double begin_s = simulation.state().time_s, duration_s = simulation.expected_duration_s();
   if (duration_s > 1e5)
     return Error{recording->name, "more than a day between truth and wheels", "one recording on one clock"};
+  result.shape = simulation.shape();
+  double next_picture_s = begin_s;
+  const auto take_picture = [&] {
+    if (picture_period_s <= 0.0 || simulation.state().time_s < next_picture_s - 1e-9) return;
+    result.postures.push_back({simulation.state().time_s, simulation.posture()});
+    next_picture_s += picture_period_s;
+  };
   for (int k = 0; !simulation.state().finished; ++k) {
+    take_picture();
     simulation.step();
     if (k % 1000 == 0 && !goes_on(progress, (simulation.state().time_s - begin_s) / duration_s))
       return Error{recording->name, "the replay stopped by its user", "a replay to the end"};
   }
   result.dead_reckoned = *reckoned;
   const TruthMounting truth = simulation.truth_mounting();
+  for (TimedPosture& p : result.postures) {
+    p.time_s += truth.time_offset_s;
+    p.posture.reference = p.posture.reference * truth.axle_T_tracked;
+  }
   for (const TimedPose& p : simulation.true_track())
     result.simulated.push_back({p.time_s + truth.time_offset_s, p.pose * truth.axle_T_tracked});
   result.simulated_error = track_error(result.simulated, result.truth);

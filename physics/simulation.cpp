@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/odometry/estimators.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
@@ -34,6 +35,20 @@ Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMo
   const Pose tracked{truth[0].position.x_m, truth[0].position.y_m,
                      truth[0].heading_rad.value_or(scenario.start.heading_rad)};
   return tracked * inverse(mounting.axle_T_tracked);
+}
+
+// What the recording's encoders read first; empty where it lacks one of them.
+std::vector<double> first_readings(const Scenario& scenario, const Recording* replayed) {
+  std::vector<double> readings;
+  if (!replayed) return readings;
+  for (const std::string& name : encoder_channels(scenario.vehicle.kind)) {
+    const Channel* channel = replayed->channel(name);
+    if (!channel) return {};
+    const auto first = std::find_if(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
+    if (first == channel->values.end()) return {};
+    readings.push_back(*first);
+  }
+  return readings;
 }
 
 Scenario with_effects_built_in(Scenario scenario, const planar::Effects& effects) {
@@ -70,13 +85,14 @@ struct Simulation::Parts {
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
         start(start_of(scenario, replayed.get(), mounting)),
         built(with_effects_built_in(scenario, effects)),
-        vehicle(make_planar_vehicle({built, start, effects, seed_of_stream(seed, kEncoderStream)})),
+        vehicle(make_planar_vehicle(
+            {built, start, effects, seed_of_stream(seed, kEncoderStream), first_readings(scenario, replayed.get())})),
         driven_start(vehicle->believed_driven_point()),
         route(route_of(scenario.path, driven_start)),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
         rotation(replays(ReplayPath::By::wheels)
-                     ? wheel_samples(*replayed, std::get<DifferentialDrive>(scenario.vehicle.kind))
-                     : std::vector<WheelSample>{}),
+                     ? recorded_rotation(*replayed, scenario.vehicle.kind, vehicle->turned_channels())
+                     : RecordedRotation{}),
         commands(replays(ReplayPath::By::commands) ? command_samples(*replayed) : std::vector<CommandSample>{}),
         encoder_steps(steps_in(scenario.sensors.encoder_period_s, scenario.step_s)),
         truth_steps(scenario.sensors.truth_period_s > 0.0 ? steps_in(scenario.sensors.truth_period_s, scenario.step_s)
@@ -119,7 +135,7 @@ struct Simulation::Parts {
       vehicle->set_clock(begin_s);
       if (!rotation.empty()) {
         rotation_now = rotation.at(begin_s);
-        vehicle->by_wheels()->begin_in_motion(rotation.speed_at(begin_s));
+        vehicle->begin_in_motion(rotation.speed_at(begin_s));
       }
     } else {
       duration_s = duration_of(route, scenario.driving);
@@ -166,10 +182,11 @@ struct Simulation::Parts {
   void drive_one_step() {
     const double h = scenario.step_s;
     if (!rotation.empty()) {
-      const WheelPair next = rotation.at(recorded_s(static_cast<double>(steps + 1)));
-      vehicle->by_wheels()->turn_wheels(ground, scenario.floor,
-                                        {(next.left - rotation_now.left) / h, (next.right - rotation_now.right) / h});
-      rotation_now = next;
+      std::vector<double> next = rotation.at(recorded_s(static_cast<double>(steps + 1)));
+      std::vector<double> speeds = next;
+      for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] = (next[i] - rotation_now[i]) / h;
+      vehicle->turn(ground, scenario.floor, speeds);
+      rotation_now = std::move(next);
     } else if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
       vehicle->by_wheels()->drive_wheels(ground, scenario.floor,
                                          tabled_speeds(begin_s + (static_cast<double>(steps) + 0.5) * h));
@@ -285,7 +302,7 @@ struct Simulation::Parts {
   double begin_s = 0.0, duration_s = 0.0;
   bool by_route = false;
   BaseCommand command_before, command_next;
-  WheelPair rotation_now;
+  std::vector<double> rotation_now;  // of the motors that a recording turns
   BaseCommand hand, hand_now, given_now;
   SimulationState state;
   SampledRun run;

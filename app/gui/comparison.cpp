@@ -1,13 +1,17 @@
 #include "app/gui/comparison.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "physics/simulation.h"
+#include "core/odometry/estimators.h"
+#include "core/recording/vehicle_samples.h"
 
 namespace odolab {
 
 namespace {
+
+constexpr double kPicture_s = 0.04;  // between two postures in which the vehicle is drawn
 
 void errors_along(const Track& estimate, const Track& truth, std::vector<double>& metres,
                   std::vector<double>& radians) {
@@ -20,16 +24,12 @@ void errors_along(const Track& estimate, const Track& truth, std::vector<double>
 
 Result<ComparedReplay> compared(const Scenario& scenario, const std::shared_ptr<const Recording>& recording,
                                 const Progress& progress) {
-  Result<Replay> result = replay(scenario, recording, progress);
+  Result<Replay> result = replay(scenario, recording, progress, kPicture_s);
   if (!result) return result.error();
   ComparedReplay c;
   c.vehicle = scenario.vehicle;
-  Scenario at_rest = scenario;
-  at_rest.path = HandPath{};
-  at_rest.start = {};
-  const Simulation standing(at_rest, scenario.seed);
-  c.shape = standing.shape();
-  c.posture = standing.posture();
+  const bool by_wheels = std::get<ReplayPath>(scenario.path).by == ReplayPath::By::wheels;
+  c.estimator = by_wheels ? estimators_for(scenario.vehicle.kind).front().name : "dead reckoning";
   c.replay = std::move(*result);
   const Track& truth = c.replay.truth;
   for (const TimedPose& t : truth) c.time_s.push_back(t.time_s - truth.front().time_s);
@@ -106,8 +106,22 @@ void Comparison::calibrate(Jobs& jobs, OnError on_error) {
 }
 
 bool Comparison::has_wheels() const {
-  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&scenario_.vehicle.kind);
-  return recording_ && drive && !wheel_samples(*recording_, *drive).empty();
+  return recording_ && missing_columns(*recording_, scenario_.vehicle).empty();
+}
+
+bool Comparison::can_be_calibrated() const {
+  return has_wheels() && std::holds_alternative<DifferentialDrive>(scenario_.vehicle.kind);
+}
+
+VehiclePosture ComparedReplay::posture_at(double time_s) const {
+  const std::vector<TimedPosture>& p = replay.postures;
+  if (p.empty()) return {};
+  const auto after = std::lower_bound(p.begin(), p.end(), time_s,
+                                      [](const TimedPosture& a, double time) { return a.time_s < time; });
+  if (after == p.begin()) return p.front().posture;
+  if (after == p.end()) return p.back().posture;
+  const TimedPosture& before = *(after - 1);
+  return between(before.posture, after->posture, (time_s - before.time_s) / (after->time_s - before.time_s));
 }
 
 double Comparison::start_s() const {

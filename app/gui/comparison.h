@@ -9,7 +9,6 @@
 #include "app/gui/jobs.h"
 #include "core/calibration/least_squares.h"
 #include "physics/replay.h"
-#include "physics/vehicles/vehicle_shape.h"
 #include "ui/compare.h"
 
 namespace odolab {
@@ -17,9 +16,10 @@ namespace odolab {
 // One replay and its errors at the times of the truth, counted from the first of them.
 struct ComparedReplay {
   Vehicle vehicle;
-  VehicleShape shape;      // of the simulated vehicle
-  VehiclePosture posture;  // in which it is drawn
+  std::string estimator;  // whose track is the dead reckoned one
   Replay replay;
+  // How the simulated vehicle stands, its reference being the point that the truth measures.
+  VehiclePosture posture_at(double time_s) const;  // of the truth's clock
   std::vector<double> time_s;
   std::vector<double> simulated_m, simulated_rad;
   std::vector<double> dead_reckoned_m, dead_reckoned_rad;
@@ -47,7 +47,8 @@ class Comparison {
   const ComparedReplay* shown() const {
     return chosen_ == ui::ReplayVehicle::calibrated && calibrated_ ? calibrated() : nominal();
   }
-  bool has_wheels() const;
+  bool has_wheels() const;         // all encoders of the vehicle
+  bool can_be_calibrated() const;  // by least squares from this recording
 
   // Playback, in seconds since the truth's first sample.
   double time_s = 0.0;

@@ -106,7 +106,7 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
     session.execute(ui::RecordSimulatedRun{});
   session.advance(0.0, [] { return false; });  // takes in what opening the files has begun
-  if (session.comparison().nominal() && session.comparison().has_wheels()) {
+  if (session.comparison().nominal() && session.comparison().can_be_calibrated()) {
     session.execute(ui::CalibrateFromRecording{});
     session.execute(ui::ReplayWith{ui::ReplayVehicle::nominal});
   }

@@ -216,10 +216,6 @@ struct Session::Executor {
   void operator()(const ui::RecordSimulatedRun&) const {
     if (s.refuse_while_busy("a simulated run")) return;
     const Scenario scenario = s.run_->scenario();
-    if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) {
-      s.say(other->message(), true);
-      return;
-    }
     const std::shared_ptr<const Recording> replayed = s.replayed_;
     Session* session = &s;
     const auto made = std::make_shared<Recording>();
@@ -475,10 +471,6 @@ bool Session::open_recording(const std::string& path) {
 }
 
 void Session::compare(std::shared_ptr<const Recording> recording, const Scenario& scenario) {
-  if (const auto other = other_than_differential_drive(scenario.vehicle, "can be replayed")) {
-    say(recording->name + ": " + other->message(), true);
-    return;
-  }
   mode_ = ui::Mode::compare;
   playing_ = false;
   ++loads_;

@@ -111,18 +111,19 @@ ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
   simulated.reference = &replay.truth;
   simulated.colour = theme.orange;
   simulated.dash = ui::Dash::dashes;
-  reckoned.label = "dead reckoning";
+  reckoned.label = shown->estimator;
   reckoned.track = &replay.dead_reckoned;
   reckoned.reference = &replay.truth;
   reckoned.colour = theme.blue;
   reckoned.dash = ui::Dash::dots;
   truth.until_s = simulated.until_s = reckoned.until_s = now;
   scene.tracks = {truth, simulated, reckoned};
+  const VehiclePosture posture = shown->posture_at(now);
   const auto glyph = [&](const std::optional<Pose>& pose, bool outline, ImU32 colour) {
     if (!pose) return;
     ui::VehicleGlyph v;
-    v.shape = &shown->shape;
-    v.posture = shown->posture;
+    v.shape = &replay.shape;
+    v.posture = posture;
     v.pose = *pose;
     v.outline = outline;
     v.colour = colour;
@@ -182,9 +183,9 @@ ui::Transport compare_transport(const Session& session, const ui::Theme& theme) 
   t.quantity = "error";
   if (shown) {
     t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, ui::Stroke::line},
-                         {"dead reckoning", &shown->time_s, &shown->dead_reckoned_m, theme.blue, ui::Stroke::dashed}};
+                         {shown->estimator, &shown->time_s, &shown->dead_reckoned_m, theme.blue, ui::Stroke::dashed}};
     t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, ui::Stroke::line},
-                        {"dead reckoning", &shown->time_s, &shown->dead_reckoned_rad, theme.blue, ui::Stroke::dashed}};
+                        {shown->estimator, &shown->time_s, &shown->dead_reckoned_rad, theme.blue, ui::Stroke::dashed}};
   }
   return t;
 }
@@ -227,6 +228,7 @@ ui::Compare compare_of(const Session& session, const std::vector<std::string>& e
   view.duration_s = c.recording().duration_s();
   view.vehicle_name = c.vehicle().name;
   view.mass_kg = c.scenario().actual.mass_kg;
+  if (c.shown()) view.estimator = c.shown()->estimator;
   view.vehicle = c.chosen();
   view.nominal = figures_of(c.nominal());
   view.calibrated = figures_of(c.calibrated());
@@ -235,8 +237,10 @@ ui::Compare compare_of(const Session& session, const std::vector<std::string>& e
     view.travelled_m = travelled_m(c.nominal()->replay.truth);
     view.truth_samples = c.nominal()->replay.truth.size();
   }
-  view.can_calibrate = c.has_wheels() && view.truth_samples > 1;
-  view.why_not = c.has_wheels() ? "Calibration needs an outside truth with headings."
+  view.can_calibrate = c.can_be_calibrated() && view.truth_samples > 1;
+  view.why_not = c.has_wheels() && !c.can_be_calibrated()
+                     ? "Least squares calibrate a differential drive; this is another kind of vehicle."
+                 : c.has_wheels() ? "Calibration needs an outside truth with headings."
                                 : "Calibration needs wheel rotation; this recording holds commands alone.";
   return view;
 }

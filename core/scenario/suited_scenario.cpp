@@ -35,8 +35,8 @@ struct Suit {
 };
 
 bool fits(const Path& path, const VehicleKind& kind) {
-  if (std::holds_alternative<WheelSpeedPath>(path) || std::holds_alternative<ReplayPath>(path))
-    return std::holds_alternative<DifferentialDrive>(kind);
+  if (std::holds_alternative<WheelSpeedPath>(path)) return std::holds_alternative<DifferentialDrive>(kind);
+  if (std::holds_alternative<ReplayPath>(path)) return false;  // a recording is of one kind of vehicle
   const auto* manoeuvres = std::get_if<ManoeuvrePath>(&path);
   return !manoeuvres || moves_sideways(kind) ||
          std::all_of(manoeuvres->moves.begin(), manoeuvres->moves.end(),
@@ -62,11 +62,10 @@ Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
     scenario.driving = plain.driving;
     scenario.sensors.encoder_period_s = std::max(plain.sensors.encoder_period_s, scenario.step_s);
     if (!std::holds_alternative<DifferentialDrive>(vehicle.kind)) scenario.benchmark.reset();
-    if (!fits(scenario.path, vehicle.kind)) scenario.path = SquarePath{};
     std::visit(Suit{&scenario}, vehicle.kind);
-  } else if (!fits(scenario.path, vehicle.kind)) {
-    scenario.path = SquarePath{};
   }
+  const bool still_replays = same_kind && std::holds_alternative<ReplayPath>(scenario.path);
+  if (!still_replays && !fits(scenario.path, vehicle.kind)) scenario.path = SquarePath{};
   if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
     const ActualDrive drawn = as_drawn(*drive);
     scenario.actual.wheel_radius_left_m = drawn.wheel_radius_left_m;

@@ -1,5 +1,9 @@
 #include "physics/driver/recorded_motion.h"
 
+#include <optional>
+
+#include "core/recording/aligned_rows.h"
+
 namespace odolab {
 
 namespace {
@@ -11,47 +15,77 @@ double hermite(double a, double slope_a, double b, double slope_b, double h, dou
          (u3 - u2) * h * slope_b;
 }
 
+// The left and right wheel of a recording, where a vehicle is driven by such a pair.
+struct PairOfWheels {
+  using Drive = std::optional<DifferentialDrive>;
+  Drive operator()(const DifferentialDrive& v) const { return v; }
+  Drive operator()(const Tracked& v) const { return as_differential_drive(v); }
+  Drive operator()(const EncoderTrailer& v) const { return v.tow; }
+  Drive operator()(const SmartEncoderTrailer& v) const { return v.tow; }
+  Drive operator()(const SynchroDrive&) const { return {}; }
+  Drive operator()(const LinkedTrucks&) const { return {}; }
+  Drive operator()(const MultiCastor&) const { return {}; }
+};
+
 }  // namespace
 
-RecordedRotation::RecordedRotation(std::vector<WheelSample> samples) {
-  for (const WheelSample& s : samples)  // two rows at one time cannot be passed through: the later one counts
-    if (!samples_.empty() && s.time_s <= samples_.back().time_s)
-      samples_.back() = {samples_.back().time_s, s.left_rad, s.right_rad};
-    else
-      samples_.push_back(s);
-  speeds_radps_.assign(samples_.size(), WheelPair{});
+RecordedRotation::RecordedRotation(const std::vector<double>& time_s,
+                                   const std::vector<std::vector<double>>& rows_rad) {
+  for (std::size_t i = 0; i < time_s.size(); ++i)  // two rows at one time cannot be passed through: the later one counts
+    if (!time_s_.empty() && time_s[i] <= time_s_.back()) {
+      rows_rad_.back() = rows_rad[i];
+    } else {
+      time_s_.push_back(time_s[i]);
+      rows_rad_.push_back(rows_rad[i]);
+    }
+  const std::size_t n = time_s_.size();
+  for (const std::vector<double>& row : rows_rad_) speeds_radps_.emplace_back(row.size(), 0.0);
+  if (n < 2) return;
+  const auto mean_speed = [&](std::size_t from, std::size_t to, std::size_t wheel) {
+    return (rows_rad_[to][wheel] - rows_rad_[from][wheel]) / (time_s_[to] - time_s_[from]);
+  };
   // The ends take the speed of their interval: a recording may begin and end in motion.
-  if (samples_.size() > 1) {
-    const auto mean_speed = [&](std::size_t i) {
-      const double span_s = samples_[i + 1].time_s - samples_[i].time_s;
-      return WheelPair{(samples_[i + 1].left_rad - samples_[i].left_rad) / span_s,
-                       (samples_[i + 1].right_rad - samples_[i].right_rad) / span_s};
-    };
-    speeds_radps_.front() = mean_speed(0);
-    speeds_radps_.back() = mean_speed(samples_.size() - 2);
-  }
-  for (std::size_t i = 1; i + 1 < samples_.size(); ++i) {
-    const double span_s = samples_[i + 1].time_s - samples_[i - 1].time_s;
-    speeds_radps_[i] = {(samples_[i + 1].left_rad - samples_[i - 1].left_rad) / span_s,
-                        (samples_[i + 1].right_rad - samples_[i - 1].right_rad) / span_s};
-  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t wheel = 0; wheel < rows_rad_[i].size(); ++wheel)
+      speeds_radps_[i][wheel] = mean_speed(i == 0 ? 0 : i - 1, i + 1 == n ? i : i + 1, wheel);
 }
 
-WheelPair RecordedRotation::at(double time_s) {
-  if (time_s <= samples_.front().time_s) return {samples_.front().left_rad, samples_.front().right_rad};
-  if (time_s >= samples_.back().time_s) return {samples_.back().left_rad, samples_.back().right_rad};
-  while (samples_[segment_ + 1].time_s < time_s) ++segment_;
-  const WheelSample &a = samples_[segment_], &b = samples_[segment_ + 1];
-  const WheelPair va = speeds_radps_[segment_], vb = speeds_radps_[segment_ + 1];
-  const double h = b.time_s - a.time_s, u = (time_s - a.time_s) / h;
-  return {hermite(a.left_rad, va.left, b.left_rad, vb.left, h, u),
-          hermite(a.right_rad, va.right, b.right_rad, vb.right, h, u)};
+std::vector<double> RecordedRotation::at(double time_s) {
+  if (time_s <= time_s_.front()) return rows_rad_.front();
+  if (time_s >= time_s_.back()) return rows_rad_.back();
+  while (time_s_[segment_ + 1] < time_s) ++segment_;
+  const double h = time_s_[segment_ + 1] - time_s_[segment_], u = (time_s - time_s_[segment_]) / h;
+  const std::vector<double> &a = rows_rad_[segment_], &b = rows_rad_[segment_ + 1];
+  const std::vector<double> &va = speeds_radps_[segment_], &vb = speeds_radps_[segment_ + 1];
+  std::vector<double> rotation(a.size());
+  for (std::size_t wheel = 0; wheel < a.size(); ++wheel)
+    rotation[wheel] = hermite(a[wheel], va[wheel], b[wheel], vb[wheel], h, u);
+  return rotation;
 }
 
-WheelPair RecordedRotation::speed_at(double time_s) {
+std::vector<double> RecordedRotation::speed_at(double time_s) {
   constexpr double kInstant_s = 1e-4;
-  const WheelPair now = at(time_s), soon = at(time_s + kInstant_s);
-  return {(soon.left - now.left) / kInstant_s, (soon.right - now.right) / kInstant_s};
+  const std::vector<double> now = at(time_s);
+  std::vector<double> speed = at(time_s + kInstant_s);
+  for (std::size_t wheel = 0; wheel < speed.size(); ++wheel) speed[wheel] = (speed[wheel] - now[wheel]) / kInstant_s;
+  return speed;
+}
+
+RecordedRotation recorded_rotation(const Recording& recording, const VehicleKind& kind,
+                                   const std::vector<std::string>& channels) {
+  if (const std::optional<DifferentialDrive> drive = std::visit(PairOfWheels{}, kind)) {
+    std::vector<double> time_s;
+    std::vector<std::vector<double>> rows_rad;
+    for (const WheelSample& sample : wheel_samples(recording, *drive)) {
+      time_s.push_back(sample.time_s);
+      rows_rad.push_back({sample.left_rad, sample.right_rad});
+    }
+    return {time_s, rows_rad};
+  }
+  std::vector<AlignedChannel> wheels;
+  for (const std::string& channel : channels) wheels.push_back({channel, false});
+  const AlignedRows rows = aligned_rows(recording, wheels);
+  return {rows.time_s, rows.values};
 }
 
 CommandSample RecordedCommands::at(double time_s) {

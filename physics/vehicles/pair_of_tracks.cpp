@@ -36,6 +36,14 @@ void PairOfTracks::turn_motors(WheelPair set) {
   tracks_[1].speed_radps = tracks_[1].drive.advance(set.right, tracks_[1].state.traction_n, step_s_);
 }
 
+void PairOfTracks::turn_exactly(WheelPair speed) {
+  const double speeds[] = {speed.left, speed.right};
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    tracks_[i].drive.turn_at(speeds[i], step_s_);
+    tracks_[i].speed_radps = speeds[i];
+  }
+}
+
 void PairOfTracks::before_step(const Ground& ground, const Floor& floor) {
   const Pose& pose = world_->pose(body_);
   const double heading_rad = pose.heading_rad + 0.5 * step_s_ * world_->yaw_rate_radps(body_);

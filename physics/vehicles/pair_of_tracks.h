@@ -25,6 +25,7 @@ class PairOfTracks {
 
   // In this order, once a step. Tracks bridge bumps and roughness: they meet slip zones and friction alone.
   void turn_motors(WheelPair set_speed_radps);
+  void turn_exactly(WheelPair speed_radps);  // instead: the sprockets turn at these speeds
   void before_step(const Ground& ground, const Floor& floor);
   void after_step();
 

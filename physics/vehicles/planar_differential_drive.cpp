@@ -33,8 +33,8 @@ void PlanarDifferentialDrive::drive_wheels(const Ground& ground, const Floor& fl
   step(ground, floor);
 }
 
-void PlanarDifferentialDrive::turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed) {
-  axle_.turn_exactly(speed);
+void PlanarDifferentialDrive::turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) {
+  axle_.turn_exactly({speeds[0], speeds[1]});
   step(ground, floor);
 }
 
@@ -45,9 +45,9 @@ void PlanarDifferentialDrive::step(const Ground& ground, const Floor& floor) {
   axle_.after_step();
 }
 
-void PlanarDifferentialDrive::begin_in_motion(WheelPair speed) {
-  const double left_mps = actual_.wheel_radius_left_m * speed.left,
-               right_mps = actual_.wheel_radius_right_m * speed.right;
+void PlanarDifferentialDrive::begin_in_motion(const std::vector<double>& speeds) {
+  const double left_mps = actual_.wheel_radius_left_m * speeds[0],
+               right_mps = actual_.wheel_radius_right_m * speeds[1];
   const Vec2 velocity = rotated({0.5 * (left_mps + right_mps), 0.0}, world_.pose(body_).heading_rad);
   world_.set_velocity(body_, velocity, (right_mps - left_mps) / actual_.wheelbase_m);
 }

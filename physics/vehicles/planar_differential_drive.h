@@ -16,9 +16,10 @@ class PlanarDifferentialDrive final : public PlanarVehicle, public DrivenByWheel
 
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override;
   void drive_wheels(const Ground& ground, const Floor& floor, WheelPair set_speed_radps) override;
-  void turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed_radps) override;
-  void begin_in_motion(WheelPair speed_radps) override;
   BaseCommand motion_of(WheelPair speed_radps) const override;
+  std::vector<std::string> turned_channels() const override { return channels(); }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) override;
+  void begin_in_motion(const std::vector<double>& speeds_radps) override;
   DrivenByWheels* by_wheels() override { return this; }
   void set_clock(double begin_s) override { axle_.set_clock(begin_s); }
   void push(Vec2 impulse_ns) override;

@@ -19,6 +19,10 @@ namespace {
 
 constexpr int kTrailerAxle = 1;  // whose roughness it meets
 
+double hitch_at_start_rad(const VehicleSetup& setup, const EncoderTrailer& lengths) {
+  return setup.first_readings.empty() ? 0.0 : setup.first_readings[4] - lengths.hitch_angle_offset_rad;
+}
+
 class PlanarEncoderTrailer final : public PlanarVehicle {
  public:
   PlanarEncoderTrailer(const VehicleSetup& setup, const EncoderTrailer& nominal, const EncoderTrailer& actual)
@@ -32,7 +36,8 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
         world_(step_s_),
         body_(world_.add_body(
             {setup.start * inverse(tracks_middle_), tow_mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
-        towed_(world_.add_body({setup.start * Pose{-actual.hitch_offset_m - actual.drawbar_length_m, 0.0, 0.0},
+        towed_(world_.add_body({setup.start * Pose{-actual.hitch_offset_m, 0.0, -hitch_at_start_rad(setup, actual)} *
+                                    Pose{-actual.drawbar_length_m, 0.0, 0.0},
                                 masses_.mass_kg, masses_.moment_of_inertia_kgm2})),
         tracks_(world_, body_, actual.tow, setup.scenario.machine.tracks, setup.scenario.actual, setup.scenario.motor,
                 step_s_),
@@ -40,7 +45,6 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
         slip_ring_(setup.scenario.machine.slip_ring.bursts_per_s, setup.scenario.machine.slip_ring.largest_burst_counts,
                    seed_of_stream(setup.sensor_seed, 1)),
         hitch_noise_(seed_of_stream(setup.sensor_seed, 2)),
-        believed_trailer_(setup.start * inverse(trailer_T_tow(nominal, nominal.hitch_angle_offset_rad))),
         believed_(setup.start) {
     world_.add_pin(
         {body_, towed_, tracks_middle_ * Vec2{-actual.hitch_offset_m, 0.0}, Vec2{actual.drawbar_length_m, 0.0}});
@@ -54,6 +58,14 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
     tracks_.turn_motors(
         between(wheel_speeds(command.before, nominal_.tow), wheel_speeds(command.next, nominal_.tow), command.share));
+    step(ground, floor);
+  }
+  std::vector<std::string> turned_channels() const override { return {"left_wheel_rad", "right_wheel_rad"}; }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
+    tracks_.turn_exactly({speeds[0], speeds[1]});
+    step(ground, floor);
+  }
+  void step(const Ground& ground, const Floor& floor) {
     tracks_.before_step(ground, floor);
     axle_->before_step();
     pull_downhill(world_, body_, tow_mass_kg_, floor);
@@ -99,8 +111,9 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
     if (read_)
       believed_trailer_ =
           dead_reckoned(believed_trailer_, now.left - read_->left, now.right - read_->right, nominal_.trailer);
-    read_ = now;
     hitch_unwrapped_rad_ += wrapped(hitch_rad - hitch_unwrapped_rad_);  // the trailer may swivel by any angle
+    if (!read_) believed_trailer_ = believed_ * inverse(trailer_T_tow(nominal_, hitch_unwrapped_rad_));
+    read_ = now;
     believed_ = believed_trailer_ * trailer_T_tow(nominal_, hitch_unwrapped_rad_);
     readings = {left_encoder_.reading_rad(left().counted_rad), right_encoder_.reading_rad(right().counted_rad),
                 now.left, now.right, hitch_rad};

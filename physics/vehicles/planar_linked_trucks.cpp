@@ -6,6 +6,28 @@
 
 namespace odolab {
 
+namespace {
+
+// How the link stands as a recording begins: the direction from B to A, and truck B.
+struct LinkAtStart {
+  double heading_rad;
+  Pose truck_b;
+};
+
+LinkAtStart link_at_start(const VehicleSetup& setup, const LinkedTrucks& lengths) {
+  double angle_a_rad = 0.0, angle_b_rad = 0.0, length_m = lengths.link_length_m;
+  if (const std::vector<double>& r = setup.first_readings; !r.empty()) {
+    angle_a_rad = r[4] - lengths.link_angle_a_offset_rad;
+    angle_b_rad = r[5] - lengths.link_angle_b_offset_rad;
+    length_m = r[6] - lengths.link_length_offset_m;
+  }
+  const double heading_rad = setup.start.heading_rad - angle_a_rad;
+  const Vec2 b = setup.start.position() - rotated({length_m, 0.0}, heading_rad);
+  return {heading_rad, {b.x_m, b.y_m, heading_rad + angle_b_rad}};
+}
+
+}  // namespace
+
 PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTrucks& nominal,
                                        const LinkedTrucks& lengths, bool with_platform)
     : nominal_(nominal),
@@ -20,7 +42,7 @@ PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTr
       phases_(setup.sensor_seed),
       a_(world_, setup.start, nominal.truck_a, with_wheels_of(lengths.truck_a, setup.scenario.actual), setup,
          effects_a_, 0, phases_),
-      b_(world_, setup.start * Pose{-lengths.link_length_m, 0.0, 0.0}, nominal.truck_b,
+      b_(world_, link_at_start(setup, lengths).truck_b, nominal.truck_b,
          with_wheels_of(lengths.truck_b, setup.scenario.actual), setup, effects_b_, 1, phases_),
       control_(nominal.link_length_m, setup.scenario.sensors.encoder_period_s),
       belief_({nominal.truck_a, nominal.truck_b, nominal.link_angle_resolution_rad, nominal.link_angle_resolution_rad},
@@ -29,7 +51,8 @@ PlanarLinkedTrucks::PlanarLinkedTrucks(const VehicleSetup& setup, const LinkedTr
   if (with_platform) {
     // A bar of the link's length and half as wide.
     const double inertia_kgm2 = link_.platform_mass_kg * length_m * length_m * (1.0 + 0.25) / 12.0;
-    platform_ = world_.add_body({setup.start * Pose{-0.5 * length_m, 0.0, 0.0}, link_.platform_mass_kg, inertia_kgm2});
+    const Pose at_a{setup.start.x_m, setup.start.y_m, link_at_start(setup, lengths).heading_rad};
+    platform_ = world_.add_body({at_a * Pose{-0.5 * length_m, 0.0, 0.0}, link_.platform_mass_kg, inertia_kgm2});
     world_.add_pin({a_.body(), *platform_, {}, {0.5 * length_m, 0.0}});
     world_.add_slider(
         {*platform_, b_.body(), {-0.5 * length_m, 0.0}, {}, 0.0, link_.spring_frequency_hz, link_.damping_ratio});
@@ -49,6 +72,20 @@ void PlanarLinkedTrucks::drive(const Ground& ground, const Floor& floor, const C
   }
   a_.axle().turn_motors(between(set_a_before_, set_a_next_, command.share));
   b_.axle().turn_motors(between(set_b_before_, set_b_next_, command.share));
+  step(ground, floor);
+}
+
+std::vector<std::string> PlanarLinkedTrucks::turned_channels() const {
+  return {"a_left_wheel_rad", "a_right_wheel_rad", "b_left_wheel_rad", "b_right_wheel_rad"};
+}
+
+void PlanarLinkedTrucks::turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) {
+  a_.axle().turn_exactly({speeds[0], speeds[1]});
+  b_.axle().turn_exactly({speeds[2], speeds[3]});
+  step(ground, floor);
+}
+
+void PlanarLinkedTrucks::step(const Ground& ground, const Floor& floor) {
   for (Truck* truck : {&a_, &b_}) {
     truck->axle().before_step(ground, floor);
     pull_downhill(world_, truck->body(), truck->mass_kg(), floor);

@@ -20,6 +20,8 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
                      bool with_platform);
 
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override;
+  std::vector<std::string> turned_channels() const override;
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) override;
   void push(Vec2 impulse_ns) override;
   Pose pose() const override { return a_.pose(); }
   double speed_mps() const override { return world_.velocity_of_point_mps(a_.body(), {}).x_m; }
@@ -37,6 +39,7 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   Pose believed_driven_point() const override { return belief_.link_centre(nominal_.link_length_m); }
 
  private:
+  void step(const Ground& ground, const Floor& floor);
   LinkReadings true_link() const;
   LinkReadings read_link() const;
 

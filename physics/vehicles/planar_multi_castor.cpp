@@ -56,7 +56,10 @@ class PlanarMultiCastor final : public PlanarVehicle {
     effects_.reserve(lengths.castors.size());  // axles keep pointers to them
     for (std::size_t i = 0; i < lengths.castors.size(); ++i) {
       const Castor& castor = lengths.castors[i];
-      const Pose pivot = setup.start * Pose{castor.pivot().x_m, castor.pivot().y_m, 0.0};
+      const double angle_rad = setup.first_readings.empty()
+                                   ? 0.0
+                                   : setup.first_readings[3 * i + 2] - castor.pivot_encoder_offset_rad;
+      const Pose pivot = setup.start * Pose{castor.pivot().x_m, castor.pivot().y_m, angle_rad};
       const int body =
           world_.add_body({pivot * Pose{-castor.offset_m, 0.0, 0.0}, weight_.mass_kg, weight_.moment_of_inertia_kgm2});
       world_.add_pin({platform_, body, castor.pivot(), {castor.offset_m, 0.0}});
@@ -80,8 +83,23 @@ class PlanarMultiCastor final : public PlanarVehicle {
     const Vec2 velocity{a.speed_mps + u * (b.speed_mps - a.speed_mps),
                         a.sideways_mps + u * (b.sideways_mps - a.sideways_mps)};
     const double rate = a.yaw_rate_radps + u * (b.yaw_rate_radps - a.yaw_rate_radps);
+    for (std::size_t i = 0; i < castors_.size(); ++i) castors_[i].axle.turn_motors(wheel_speeds_of(i, velocity, rate));
+    step(ground, floor);
+  }
+  std::vector<std::string> turned_channels() const override {
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i <= castors_.size(); ++i)
+      for (const char* wheel : {"_left_wheel_rad", "_right_wheel_rad"})
+        names.push_back("castor" + std::to_string(i) + wheel);
+    return names;
+  }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
+    for (std::size_t i = 0; i < castors_.size(); ++i)
+      castors_[i].axle.turn_exactly({speeds[2 * i], speeds[2 * i + 1]});
+    step(ground, floor);
+  }
+  void step(const Ground& ground, const Floor& floor) {
     for (std::size_t i = 0; i < castors_.size(); ++i) {
-      castors_[i].axle.turn_motors(wheel_speeds_of(i, velocity, rate));
       castors_[i].axle.before_step(ground, floor);
       pull_downhill(world_, castors_[i].body, weight_.mass_kg, floor);
     }

@@ -12,6 +12,10 @@ namespace odolab {
 
 namespace {
 
+double hitch_at_start_rad(const VehicleSetup& setup, const SmartEncoderTrailer& lengths) {
+  return setup.first_readings.empty() ? 0.0 : setup.first_readings[4] - lengths.hitch_angle_offset_rad;
+}
+
 class PlanarSmartEncoderTrailer final : public PlanarVehicle {
  public:
   PlanarSmartEncoderTrailer(const VehicleSetup& setup, const SmartEncoderTrailer& nominal,
@@ -25,8 +29,9 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
         phases_(setup.sensor_seed),
         tow_(world_, setup.start, nominal.tow, with_wheels_of(lengths.tow, setup.scenario.actual), setup, setup.effects,
              0, phases_),
-        towed_(world_.add_body({setup.start * Pose{-lengths.drawbar_length_m, 0.0, 0.0}, trailer_.mass_kg,
-                                trailer_.moment_of_inertia_kgm2})),
+        towed_(world_.add_body({setup.start * Pose{0.0, 0.0, -hitch_at_start_rad(setup, lengths)} *
+                                    Pose{-lengths.drawbar_length_m, 0.0, 0.0},
+                                trailer_.mass_kg, trailer_.moment_of_inertia_kgm2})),
         axle_(world_, towed_, lengths.trailer, nominal.trailer.counts_per_wheel_turn(), 1, effects_, step_s_, phases_),
         noise_(seed_of_stream(setup.sensor_seed, 1)),
         belief_({nominal.tow, nominal.trailer, nominal.hitch_angle_resolution_rad, 0.0}, setup.start,
@@ -37,6 +42,14 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
     tow_.axle().turn_motors(
         between(wheel_speeds(command.before, nominal_.tow), wheel_speeds(command.next, nominal_.tow), command.share));
+    step(ground, floor);
+  }
+  std::vector<std::string> turned_channels() const override { return {"left_wheel_rad", "right_wheel_rad"}; }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
+    tow_.axle().turn_exactly({speeds[0], speeds[1]});
+    step(ground, floor);
+  }
+  void step(const Ground& ground, const Floor& floor) {
     tow_.axle().before_step(ground, floor);
     axle_.before_step();
     pull_downhill(world_, tow_.body(), tow_.mass_kg(), floor);

@@ -56,8 +56,20 @@ class PlanarSynchroDrive final : public PlanarVehicle {
     const double steered_rad = steering_.rotation_rad();
     const double steering_radps = nominal_.steering_ratio * yaw_radps;
     steering_.advance(steering_radps, 0.0, step_s_);
-    const double rolling_radps = drive_.advance(
-        speed_mps / nominal_.wheel_radius_m + nominal_.wheel_rad_per_steering_rad * yaw_radps, traction_n, step_s_);
+    step(ground, floor,
+         drive_.advance(speed_mps / nominal_.wheel_radius_m + nominal_.wheel_rad_per_steering_rad * yaw_radps,
+                        traction_n, step_s_),
+         steered_rad);
+  }
+  std::vector<std::string> turned_channels() const override { return channels(); }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
+    const double steered_rad = steering_.rotation_rad();
+    drive_.turn_at(speeds[0], step_s_);
+    steering_.turn_at(speeds[1], step_s_);
+    step(ground, floor, speeds[0], steered_rad);
+  }
+  // `steered_rad` as it was before this step.
+  void step(const Ground& ground, const Floor& floor, double rolling_radps, double steered_rad) {
     set_treads(ground, floor, rolling_radps, 0.5 * (steered_rad + steering_.rotation_rad()) / actual_.steering_ratio);
     grip_.before_step();
     pull_downhill(world_, body_, mass_kg_, floor);

@@ -35,6 +35,14 @@ class PlanarTracked final : public PlanarVehicle {
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override {
     tracks_.turn_motors(
         between(wheel_speeds(command.before, nominal_), wheel_speeds(command.next, nominal_), command.share));
+    step(ground, floor);
+  }
+  std::vector<std::string> turned_channels() const override { return channels(); }
+  void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
+    tracks_.turn_exactly({speeds[0], speeds[1]});
+    step(ground, floor);
+  }
+  void step(const Ground& ground, const Floor& floor) {
     tracks_.before_step(ground, floor);
     pull_downhill(world_, body_, mass_kg_, floor);
     world_.step();

@@ -24,6 +24,9 @@ struct VehicleSetup {
   Pose start;  // of the point whose pose the truth measures
   const planar::Effects& effects;
   std::uint64_t sensor_seed = 0;
+  // The readings with which a recording that is replayed begins, in the order of the vehicle's channels: how links,
+  // hitches and pivots stand. Empty: a straight train, pivots at zero.
+  std::vector<double> first_readings = {};
 };
 
 // The base commands before and after a step, which set speeds follow evenly: a jump would make the wheels slip.
@@ -38,10 +41,6 @@ class DrivenByWheels {
   virtual ~DrivenByWheels() = default;
   // One step on this ground with the motors set to these speeds, in rad/s.
   virtual void drive_wheels(const Ground& ground, const Floor& floor, WheelPair set_speed_radps) = 0;
-  // One step in which the encoders are to count exactly these speeds.
-  virtual void turn_wheels(const Ground& ground, const Floor& floor, WheelPair speed_radps) = 0;
-  // The wheels turn at these speeds from now on, and the vehicle moves with them.
-  virtual void begin_in_motion(WheelPair speed_radps) = 0;
   // The motion that such wheels give the nominal vehicle.
   virtual BaseCommand motion_of(WheelPair speed_radps) const = 0;
 };
@@ -56,6 +55,13 @@ class PlanarVehicle {
   virtual void push(Vec2 impulse_ns) = 0;
   // The clock of the run at its start, for effects that have a time; 0 if not told.
   virtual void set_clock(double /*begin_s*/) {}
+  // Of a recording that is replayed, the columns that turn the vehicle's motors, a speed for each; and one step in which
+  // their encoders are to count exactly these speeds.
+  virtual std::vector<std::string> turned_channels() const = 0;
+  virtual void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) = 0;
+  // The motors turn at these speeds from now on, and the vehicle moves with them; where a kind cannot tell how, it
+  // begins at rest.
+  virtual void begin_in_motion(const std::vector<double>& /*speeds_radps*/) {}
   // Null where the vehicle has no such pair of wheels.
   virtual DrivenByWheels* by_wheels() { return nullptr; }
 
