@@ -22,8 +22,8 @@ struct TimedPosture {
 // What a replay shows. All tracks are those of the point that the truth measures, on the truth's clock.
 struct Replay {
   Track truth;
-  Track simulated;      // the planar vehicle, driven by the recorded wheel rotation or commands
-  Track dead_reckoned;  // the vehicle file's odometry from the same start, without any physics
+  Track simulated;                     // the planar vehicle, driven by the recorded wheel rotation or commands
+  Track dead_reckoned;                 // the vehicle file's odometry from the same start, without any physics
   VehicleShape shape;                  // of the planar vehicle
   std::vector<TimedPosture> postures;  // its parts about the point that the truth measures, where asked for
   // A truth without headings lends its first metres to find the heading of the start; its headings here are those of

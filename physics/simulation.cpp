@@ -44,7 +44,8 @@ std::vector<double> first_readings(const Scenario& scenario, const Recording* re
   for (const std::string& name : encoder_channels(scenario.vehicle.kind)) {
     const Channel* channel = replayed->channel(name);
     if (!channel) return {};
-    const auto first = std::find_if(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
+    const auto first =
+        std::find_if(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
     if (first == channel->values.end()) return {};
     readings.push_back(*first);
   }

@@ -105,9 +105,7 @@ void Comparison::calibrate(Jobs& jobs, OnError on_error) {
              });
 }
 
-bool Comparison::has_wheels() const {
-  return recording_ && missing_columns(*recording_, scenario_.vehicle).empty();
-}
+bool Comparison::has_wheels() const { return recording_ && missing_columns(*recording_, scenario_.vehicle).empty(); }
 
 bool Comparison::can_be_calibrated() const {
   return has_wheels() && std::holds_alternative<DifferentialDrive>(scenario_.vehicle.kind);
@@ -116,8 +114,8 @@ bool Comparison::can_be_calibrated() const {
 VehiclePosture ComparedReplay::posture_at(double time_s) const {
   const std::vector<TimedPosture>& p = replay.postures;
   if (p.empty()) return {};
-  const auto after = std::lower_bound(p.begin(), p.end(), time_s,
-                                      [](const TimedPosture& a, double time) { return a.time_s < time; });
+  const auto after =
+      std::lower_bound(p.begin(), p.end(), time_s, [](const TimedPosture& a, double time) { return a.time_s < time; });
   if (after == p.begin()) return p.front().posture;
   if (after == p.end()) return p.back().posture;
   const TimedPosture& before = *(after - 1);

@@ -171,7 +171,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
       if (learns_by_squares(session))
         ui::calibration_result_panel(bench_of(session), theme);
       else
-        append(actions, ui::readout_panel(readout_of(session, shown), theme));
+        append(actions, ui::readout_panel(readout_of(session, shown, theme), state.estimators, theme));
       break;
   }
   return actions;
@@ -189,7 +189,7 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
       return ui::floor_view(compare_scene(session, theme), state.compare_floor, theme);
     case ui::Mode::learn:
       if (!learns_by_squares(session))
-        return ui::floor_view(drive_scene(session, shown, theme), state.drive_floor, theme);
+        return ui::floor_view(drive_scene(session, shown, theme, state.estimators.shown), state.drive_floor, theme);
       ui::cluster_panel(bench_of(session), state.clusters, theme);
       return {};
   }

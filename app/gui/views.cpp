@@ -241,7 +241,7 @@ ui::Compare compare_of(const Session& session, const std::vector<std::string>& e
   view.why_not = c.has_wheels() && !c.can_be_calibrated()
                      ? "Least squares calibrate a differential drive; this is another kind of vehicle."
                  : c.has_wheels() ? "Calibration needs an outside truth with headings."
-                                : "Calibration needs wheel rotation; this recording holds commands alone.";
+                                  : "Calibration needs wheel rotation; this recording holds commands alone.";
   return view;
 }
 

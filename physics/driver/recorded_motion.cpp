@@ -31,7 +31,8 @@ struct PairOfWheels {
 
 RecordedRotation::RecordedRotation(const std::vector<double>& time_s,
                                    const std::vector<std::vector<double>>& rows_rad) {
-  for (std::size_t i = 0; i < time_s.size(); ++i)  // two rows at one time cannot be passed through: the later one counts
+  for (std::size_t i = 0; i < time_s.size();
+       ++i)  // two rows at one time cannot be passed through: the later one counts
     if (!time_s_.empty() && time_s[i] <= time_s_.back()) {
       rows_rad_.back() = rows_rad[i];
     } else {
@@ -55,8 +56,8 @@ std::vector<double> RecordedRotation::at(double time_s) {
   if (time_s >= time_s_.back()) return rows_rad_.back();
   while (time_s_[segment_ + 1] < time_s) ++segment_;
   const double h = time_s_[segment_ + 1] - time_s_[segment_], u = (time_s - time_s_[segment_]) / h;
-  const std::vector<double> &a = rows_rad_[segment_], &b = rows_rad_[segment_ + 1];
-  const std::vector<double> &va = speeds_radps_[segment_], &vb = speeds_radps_[segment_ + 1];
+  const std::vector<double>&a = rows_rad_[segment_], &b = rows_rad_[segment_ + 1];
+  const std::vector<double>&va = speeds_radps_[segment_], &vb = speeds_radps_[segment_ + 1];
   std::vector<double> rotation(a.size());
   for (std::size_t wheel = 0; wheel < a.size(); ++wheel)
     rotation[wheel] = hermite(a[wheel], va[wheel], b[wheel], vb[wheel], h, u);

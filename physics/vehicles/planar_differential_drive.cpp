@@ -46,8 +46,7 @@ void PlanarDifferentialDrive::step(const Ground& ground, const Floor& floor) {
 }
 
 void PlanarDifferentialDrive::begin_in_motion(const std::vector<double>& speeds) {
-  const double left_mps = actual_.wheel_radius_left_m * speeds[0],
-               right_mps = actual_.wheel_radius_right_m * speeds[1];
+  const double left_mps = actual_.wheel_radius_left_m * speeds[0], right_mps = actual_.wheel_radius_right_m * speeds[1];
   const Vec2 velocity = rotated({0.5 * (left_mps + right_mps), 0.0}, world_.pose(body_).heading_rad);
   world_.set_velocity(body_, velocity, (right_mps - left_mps) / actual_.wheelbase_m);
 }

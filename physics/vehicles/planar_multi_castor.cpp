@@ -56,9 +56,8 @@ class PlanarMultiCastor final : public PlanarVehicle {
     effects_.reserve(lengths.castors.size());  // axles keep pointers to them
     for (std::size_t i = 0; i < lengths.castors.size(); ++i) {
       const Castor& castor = lengths.castors[i];
-      const double angle_rad = setup.first_readings.empty()
-                                   ? 0.0
-                                   : setup.first_readings[3 * i + 2] - castor.pivot_encoder_offset_rad;
+      const double angle_rad =
+          setup.first_readings.empty() ? 0.0 : setup.first_readings[3 * i + 2] - castor.pivot_encoder_offset_rad;
       const Pose pivot = setup.start * Pose{castor.pivot().x_m, castor.pivot().y_m, angle_rad};
       const int body =
           world_.add_body({pivot * Pose{-castor.offset_m, 0.0, 0.0}, weight_.mass_kg, weight_.moment_of_inertia_kgm2});
@@ -94,8 +93,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
     return names;
   }
   void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
-    for (std::size_t i = 0; i < castors_.size(); ++i)
-      castors_[i].axle.turn_exactly({speeds[2 * i], speeds[2 * i + 1]});
+    for (std::size_t i = 0; i < castors_.size(); ++i) castors_[i].axle.turn_exactly({speeds[2 * i], speeds[2 * i + 1]});
     step(ground, floor);
   }
   void step(const Ground& ground, const Floor& floor) {

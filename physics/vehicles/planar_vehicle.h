@@ -55,8 +55,8 @@ class PlanarVehicle {
   virtual void push(Vec2 impulse_ns) = 0;
   // The clock of the run at its start, for effects that have a time; 0 if not told.
   virtual void set_clock(double /*begin_s*/) {}
-  // Of a recording that is replayed, the columns that turn the vehicle's motors, a speed for each; and one step in which
-  // their encoders are to count exactly these speeds.
+  // Of a recording that is replayed, the columns that turn the vehicle's motors, a speed for each; and one step in
+  // which their encoders are to count exactly these speeds.
   virtual std::vector<std::string> turned_channels() const = 0;
   virtual void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) = 0;
   // The motors turn at these speeds from now on, and the vehicle moves with them; where a kind cannot tell how, it

@@ -13,7 +13,7 @@
 namespace odolab {
 namespace {
 
-const char* const kVehicleFiles[] = {"andros", "andros_with_trailer",        "clapper",  "k2a",
+const char* const kVehicleFiles[] = {"andros",  "andros_with_trailer",        "clapper",  "k2a",
                                      "labmate", "labmate_with_smart_trailer", "omnimate", "three_castors"};
 
 // A short drive with a corner, on a plain floor.
@@ -66,7 +66,8 @@ Recording from(const Recording& whole, double begin_s) {
   for (std::size_t i = 0; i < whole.time_s.size(); ++i) {
     if (whole.time_s[i] < begin_s) continue;
     rest.time_s.push_back(whole.time_s[i]);
-    for (std::size_t c = 0; c < whole.channels.size(); ++c) rest.channels[c].values.push_back(whole.channels[c].values[i]);
+    for (std::size_t c = 0; c < whole.channels.size(); ++c)
+      rest.channels[c].values.push_back(whole.channels[c].values[i]);
   }
   return rest;
 }
@@ -107,8 +108,7 @@ TEST(Replay, SaysWhichColumnsAreMissingForAKind) {
   for (Channel& channel : recording.channels)
     if (channel.name == "link_length_m")
       channel.values.assign(channel.values.size(), std::numeric_limits<double>::quiet_NaN());
-  const Result<Replay> result =
-      replay(replaying(clapper, recording), std::make_shared<const Recording>(recording));
+  const Result<Replay> result = replay(replaying(clapper, recording), std::make_shared<const Recording>(recording));
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message().find("link_length_m"), std::string::npos) << result.error().message();
 }

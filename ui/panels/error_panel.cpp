@@ -80,8 +80,10 @@ void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
   heading("Error against the recorded truth", theme);
   figure_table("simulated", c, "simulation", &ReplayFigures::simulated, theme.orange,
                "The planar physics, its wheels driven as recorded.", theme);
-  figure_table("dead", c, c.estimator.c_str(), &ReplayFigures::dead_reckoning, theme.blue,
-               "Odometry on the same inputs, without any physics; of a differential drive the UMBmark report's Eqs. 2.1 to 2.6.", theme);
+  figure_table(
+      "dead", c, c.estimator.c_str(), &ReplayFigures::dead_reckoning, theme.blue,
+      "Odometry on the same inputs, without any physics; of a differential drive the UMBmark report's Eqs. 2.1 to 2.6.",
+      theme);
   const auto end_of = [](const std::optional<ReplayFigures>& f) {
     return f && f->simulated.error ? f->simulated.error->end_position_m : 0.0;
   };
