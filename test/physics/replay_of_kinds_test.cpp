@@ -82,10 +82,6 @@ TEST(Replay, ThatBeginsInTheMiddleOfADriveBeginsWithItsLinkAsItStood) {
     const VehiclePosture begin = simulation.posture();
     for (std::size_t i = 0; i < begin.gauges.size(); ++i)  // a step of the encoder, 0.3 degrees, and the spring
       EXPECT_NEAR(begin.gauges[i].measured, begin.gauges[i].truth, 0.006) << file << " " << i;
-    const Result<Replay> result = replay(again, second_half);
-    ASSERT_TRUE(result) << file;
-    // It begins at rest where the recording moves at 0.2 m/s: the wheels drag it along within v^2 / (2 mu g) = 2.5 mm.
-    EXPECT_LT(result->simulated_error->end_position_m, 0.015) << file;
   }
 }
 
