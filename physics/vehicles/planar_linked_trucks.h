@@ -22,6 +22,7 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   void drive(const Ground& ground, const Floor& floor, const CommandRamp& command) override;
   std::vector<std::string> turned_channels() const override;
   void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) override;
+  void begin_in_motion(const std::vector<double>& speeds_radps) override;
   void push(Vec2 impulse_ns) override;
   Pose pose() const override { return a_.pose(); }
   double speed_mps() const override { return world_.velocity_of_point_mps(a_.body(), {}).x_m; }

@@ -96,6 +96,37 @@ class PlanarMultiCastor final : public PlanarVehicle {
     for (std::size_t i = 0; i < castors_.size(); ++i) castors_[i].axle.turn_exactly({speeds[2 * i], speeds[2 * i + 1]});
     step(ground, floor);
   }
+  void begin_in_motion(const std::vector<double>& speeds) override {
+    Vec2 mean;
+    std::vector<Vec2> pivots;  // their velocities
+    const double n = static_cast<double>(castors_.size());
+    for (std::size_t i = 0; i < castors_.size(); ++i) {
+      const Castor& c = lengths_.castors[i];
+      const double left_mps = c.wheel_radius_left_m * speeds[2 * i],
+                   right_mps = c.wheel_radius_right_m * speeds[2 * i + 1];
+      const double turn_radps = (right_mps - left_mps) / c.track_m();
+      const double travel_mps = (left_mps * c.wheel_offset_right_m + right_mps * c.wheel_offset_left_m) / c.track_m();
+      const double heading_rad = world_.pose(castors_[i].body).heading_rad;
+      const BodyMotion castor{rotated({travel_mps, 0.0}, heading_rad), turn_radps};
+      set_in_motion(world_, castors_[i].body, castor);
+      pivots.push_back(castor.at(rotated({c.offset_m, 0.0}, heading_rad)));
+    }
+    // The platform moves as its pivots do on average, and turns as they turn about their middle.
+    Vec2 middle;
+    std::vector<Vec2> places;
+    for (const Castor& c : lengths_.castors) places.push_back(rotated(c.pivot(), pose().heading_rad));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      middle = middle + (1.0 / n) * places[i];
+      mean = mean + (1.0 / n) * pivots[i];
+    }
+    double turned = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      turned += cross(places[i] - middle, pivots[i] - mean);
+      square += dot(places[i] - middle, places[i] - middle);
+    }
+    const double turn_radps = square > 0.0 ? turned / square : 0.0;
+    set_in_motion(world_, platform_, {BodyMotion{mean, turn_radps}.at(Vec2{} - middle), turn_radps});
+  }
   void step(const Ground& ground, const Floor& floor) {
     for (std::size_t i = 0; i < castors_.size(); ++i) {
       castors_[i].axle.before_step(ground, floor);

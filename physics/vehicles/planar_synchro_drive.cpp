@@ -68,6 +68,9 @@ class PlanarSynchroDrive final : public PlanarVehicle {
     steering_.turn_at(speeds[1], step_s_);
     step(ground, floor, speeds[0], steered_rad);
   }
+  void begin_in_motion(const std::vector<double>& speeds) override {
+    set_in_motion(world_, body_, {rotated({actual_.wheel_radius_m * speeds[0], 0.0}, pose().heading_rad), 0.0});
+  }
   // `steered_rad` as it was before this step.
   void step(const Ground& ground, const Floor& floor, double rolling_radps, double steered_rad) {
     set_treads(ground, floor, rolling_radps, 0.5 * (steered_rad + steering_.rotation_rad()) / actual_.steering_ratio);

@@ -59,9 +59,8 @@ class PlanarVehicle {
   // which their encoders are to count exactly these speeds.
   virtual std::vector<std::string> turned_channels() const = 0;
   virtual void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) = 0;
-  // The motors turn at these speeds from now on, and the vehicle moves with them; where a kind cannot tell how, it
-  // begins at rest.
-  virtual void begin_in_motion(const std::vector<double>& /*speeds_radps*/) {}
+  // The motors turn at these speeds from now on, and the vehicle moves with them.
+  virtual void begin_in_motion(const std::vector<double>& speeds_radps) = 0;
   // Null where the vehicle has no such pair of wheels.
   virtual DrivenByWheels* by_wheels() { return nullptr; }
 
