@@ -50,21 +50,20 @@ TEST(Replay, OfEveryKindTurnsItsWheelsAsTheyWereRecordedAndComesWhereItWas) {
     ASSERT_TRUE(result) << file << ": " << result.error().message();
     ASSERT_TRUE(result->simulated_error) << file;
     // The same physics, but wheels rounded to counts: a count of the K2A's steering is 3 mrad, which leads a metre 3 mm
-    // astray; a step of the castors' wheels is 0.26 mm on each of six. Twice that, and the smoothing of starts and
-    // stops between samples 40 to 50 ms apart.
-    EXPECT_LT(result->simulated_error->end_position_m, 0.010) << file;
+    // astray; a step of the castors' wheels is 0.26 mm, and six of them push against each other where they disagree.
+    EXPECT_LT(result->simulated_error->end_position_m, 0.008) << file;
     EXPECT_FALSE(result->postures.empty()) << file;
     EXPECT_EQ(result->postures.back().posture.bodies.size(), result->shape.bodies.size()) << file;
   }
 }
 
-// All cells of the rows before a time taken away: a recording that begins in the middle of a drive.
+// A recording that begins in the middle of a drive, with a row in which encoders and truth were read.
 Recording from(const Recording& whole, double begin_s) {
   Recording rest;
   rest.name = whole.name;
   for (const Channel& channel : whole.channels) rest.channels.push_back({channel.name, {}});
   for (std::size_t i = 0; i < whole.time_s.size(); ++i) {
-    if (whole.time_s[i] < begin_s) continue;
+    if (rest.time_s.empty() && (whole.time_s[i] < begin_s || std::isnan(whole.channels[0].values[i]))) continue;
     rest.time_s.push_back(whole.time_s[i]);
     for (std::size_t c = 0; c < whole.channels.size(); ++c)
       rest.channels[c].values.push_back(whole.channels[c].values[i]);
@@ -81,12 +80,15 @@ TEST(Replay, ThatBeginsInTheMiddleOfADriveBeginsAsItStoodAndMoved) {
     Simulation simulation(again, 1, second_half);
     const VehiclePosture begin = simulation.posture();
     for (std::size_t i = 0; i < begin.gauges.size(); ++i)  // a step of the encoder, 0.3 degrees, and the spring
-      if (!std::isnan(begin.gauges[i].measured))
+      if (!std::isnan(begin.gauges[i].measured)) {
         EXPECT_NEAR(begin.gauges[i].measured, begin.gauges[i].truth, 0.006) << file << " " << i;
+      }
     const Result<Replay> result = replay(again, second_half);
     ASSERT_TRUE(result) << file;
-    // As from its beginning, and what the encoder's step leaves open of the first posture.
-    EXPECT_LT(result->simulated_error->end_position_m, 0.015) << file;
+    // As from its beginning; tracks, in the middle of a skidding turn, begin in the turn that their nominal vehicle
+    // takes it for: off by half of 0.7 rad/s until they have slipped into the true one, some hundredths of a second.
+    const bool tracked = std::string(file).find("andros") == 0;
+    EXPECT_LT(result->simulated_error->end_position_m, tracked ? 0.012 : 0.004) << file;
   }
 }
 
