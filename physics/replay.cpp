@@ -29,6 +29,12 @@ double turn_onto(const Track& track, const std::vector<TruthSample>& truth) {
   return std::atan2(across, along);
 }
 
+// The first of several names, and how many others there are.
+std::string in_brief(const std::string& names) {
+  const auto others = std::count(names.begin(), names.end(), ',');
+  return others < 2 ? names : names.substr(0, names.find(',')) + " and " + std::to_string(others) + " other columns";
+}
+
 }  // namespace
 
 Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
@@ -55,8 +61,8 @@ Result<Replay> replay(const Scenario& scenario, std::shared_ptr<const Recording>
     return Error{recording->name + ": path.by", "'wheels', but the recording has one row of them",
                  "'commands', or another recording"};
   if (!by_wheels && !drive && command_samples(*recording).size() < 2)
-    return Error{recording->name, "no " + missing_columns(*recording, scenario.vehicle),
-                 "the encoders of a " + kind_name(scenario.vehicle) + ", or commands"};
+    return Error{recording->name, "no " + in_brief(missing_columns(*recording, scenario.vehicle)),
+                 "the encoders of a " + kind_name(scenario.vehicle) + ", or another vehicle to replay it with"};
   if (!by_wheels && command_samples(*recording).size() < 2)
     return Error{recording->name + ": path.by", "'commands', but the recording has none",
                  "'wheels', or another recording"};

@@ -10,6 +10,7 @@
 #include "core/io/recording_csv.h"
 #include "core/io/scenario_toml.h"
 #include "core/io/vehicle_toml.h"
+#include "core/recording/vehicle_samples.h"
 #include "core/scenario/suited_scenario.h"
 
 namespace odolab {
@@ -466,7 +467,11 @@ bool Session::open_recording(const std::string& path) {
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
   if (guide_in_hand()) return done_or_said(guide_.take(path, imported->recording, jobs_));
   const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
-  compare(recording, replay_scenario(opened_vehicle_ ? *opened_vehicle_ : run_->scenario().vehicle, *recording));
+  // With the vehicle that was opened, or else with the one that drives, if only that has such encoders.
+  const Vehicle& driving = run_->scenario().vehicle;
+  const bool fits = opened_vehicle_ && (missing_columns(*recording, *opened_vehicle_).empty() ||
+                                        !missing_columns(*recording, driving).empty());
+  compare(recording, replay_scenario(fits ? *opened_vehicle_ : driving, *recording));
   return true;
 }
 

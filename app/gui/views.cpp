@@ -96,8 +96,9 @@ ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
   ui::FloorScene scene;
   scene.reference_name = "recorded";
   scene.deviating_name = "simulated";
-  scene.empty_text = session.comparison().loaded() ? "The recording is being driven in the simulation…"
-                                                   : "Open a recording, or drop one here";
+  scene.empty_text = !session.comparison().loaded() ? "Open a recording, or drop one here"
+                     : session.jobs().running()     ? "The recording is being driven in the simulation…"
+                                                    : "This recording could not be replayed with this vehicle";
   const ComparedReplay* shown = session.comparison().shown();
   if (!shown) return scene;
   const Replay& replay = shown->replay;

@@ -143,6 +143,46 @@ TEST(EveryVehicle, ShowsChosenEstimatorsAsTracksAndCurvesAndTheirReturnErrorsInT
   EXPECT_EQ(bar.position_curves[1].value->back(), length(table.rows[1].gap.position()));
 }
 
+TEST(EveryVehicle, IsComparedWithTheReplayOfWhatItRecorded) {
+  for (const char* file : kVehicleFiles) {
+    Session session(false);
+    ASSERT_TRUE(session.open(asset("vehicles/") + file + ".toml")) << file;
+    Scenario scenario = session.run().scenario();
+    scenario.path = WaypointPath{{{0.8, 0.0}, {0.8, 0.5}}};
+    scenario.step_s = 0.002;
+    scenario.floor.bumps.clear();
+    session.execute(ui::EditScenario{scenario});
+    session.execute(ui::RecordSimulatedRun{});
+    session.advance(0.0, kAlways);
+    EXPECT_EQ(session.mode(), ui::Mode::compare) << file;
+    ASSERT_TRUE(session.comparison().nominal()) << file << ": " << session.messages().back().text;
+    const ui::Theme theme = ui::make_theme(false, 1.0f);
+    const ui::FloorScene scene = compare_scene(session, theme);
+    ASSERT_EQ(scene.vehicles.size(), 2u) << file;
+    EXPECT_EQ(scene.vehicles[0].posture.bodies.size(), scene.vehicles[0].shape->bodies.size()) << file;
+    EXPECT_EQ(scene.tracks[2].label, session.run().estimates().all().front().name) << file;
+    // Its weight is that of a drawing and not the scenario's; the castors' rounded wheels push against each other.
+    EXPECT_LT(session.comparison().nominal()->replay.simulated_error->end_position_m, 0.015) << file;
+    EXPECT_EQ(session.comparison().can_be_calibrated(), file == std::string("labmate")) << file;
+  }
+}
+
+TEST(EveryVehicle, SaysInOneLineWhyARecordingIsNotItsOwn) {
+  Session session(false);
+  ASSERT_TRUE(session.open(asset("vehicles/clapper.toml")));
+  session.open(asset("recordings/simulated_eight.csv"));
+  session.advance(0.0, kAlways);
+  EXPECT_FALSE(session.comparison().nominal());
+  ASSERT_EQ(session.messages().size(), 1u);
+  EXPECT_NE(session.messages()[0].text.find("a_left_wheel_rad and 6 other columns"), std::string::npos)
+      << session.messages()[0].text;
+  // The LabMate that drives has such encoders: it replays the recording though a CLAPPER's file was opened before.
+  ASSERT_TRUE(session.open(asset("scenarios/square_with_cable.toml")));
+  session.open(asset("recordings/simulated_eight.csv"));
+  session.advance(0.0, kAlways);
+  EXPECT_TRUE(session.comparison().nominal());
+}
+
 TEST(EveryVehicle, ButADifferentialDriveIsTurnedAwayFromTheSquaresOfUmbmarkInOneLine) {
   Session session(false);
   ASSERT_TRUE(session.open(asset("vehicles/clapper.toml")));
