@@ -46,10 +46,10 @@ void list_of(SynchroDrive& v, const Lister& to) {
 }
 
 void list_of(Tracked& v, const Lister& to) {
-  to.add("sprocket left", Unit::metres, v.sprocket_radius_left_m,
-         "Radius to the middle of the left track: its travel for each radian.");
-  to.add("sprocket right", Unit::metres, v.sprocket_radius_right_m,
-         "Radius to the middle of the right track: its travel for each radian.");
+  to.add("radius left", Unit::metres, v.sprocket_radius_left_m,
+         "Of the left sprocket, to the middle of the track: its travel for each radian.");
+  to.add("radius right", Unit::metres, v.sprocket_radius_right_m,
+         "Of the right sprocket, to the middle of the track: its travel for each radian.");
   to.add("track width", Unit::metres, v.track_width_m, "Between the tracks' middles.");
   to.add("slip factor", Unit::ratio, v.slip_factor,
          "How much wider the odometry takes the vehicle to be in turns, because its tracks slip.", false);
