@@ -11,7 +11,7 @@ namespace {
 
 struct ReproduceOptions {
   std::vector<std::string> names;
-  std::string json;
+  std::string json, recordings;
   int seed = 1;
   int cases = 0;
   bool list = false;
@@ -122,7 +122,7 @@ int execute(const ReproduceOptions& options) {
   if (options.cases < 0) return bad_input({"--cases", std::to_string(options.cases), "0 (its own number) or more"});
   const Result<std::vector<const Experiment*>> list = chosen(options.names);
   if (!list) return bad_input(list.error());
-  const ExperimentOptions drawn{static_cast<std::uint64_t>(options.seed), options.cases};
+  const ExperimentOptions drawn{static_cast<std::uint64_t>(options.seed), options.cases, options.recordings};
   Json json = Json::object();
   json["schema"] = "odolab.reproduction/1";
   json["seed"] = options.seed;
@@ -159,6 +159,8 @@ Command reproduce_command() {
     arguments.option("--seed", options->seed, "of all that is drawn");
     arguments.option("--cases", options->cases,
                      "how many cases are drawn, where an experiment draws; 0: its own number");
+    arguments.option("--recordings", options->recordings,
+                     "the folder of real recordings; else ODOLAB_RECORDINGS or ../shared/recordings");
     arguments.option("--json", options->json, "the reports to write for scripts (JSON)");
   };
   command.execute = [options] { return execute(*options); };

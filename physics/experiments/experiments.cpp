@@ -21,6 +21,7 @@ Experiment castor_umbmark_planar();
 Experiment castor_rejection();
 Experiment ipec_unconnected();
 Experiment concealed_physics();
+Experiment real_recordings();
 
 const std::vector<Experiment>& experiments() {
   // clang-format off
@@ -42,6 +43,7 @@ const std::vector<Experiment>& experiments() {
       castor_rejection(),
       ipec_unconnected(),
       concealed_physics(),
+      real_recordings(),
   };
   // clang-format on
   return list;

@@ -15,6 +15,14 @@ TEST(Reproduce, PrintsAClaimWithItsFiguresAndWritesThemForScripts) {
   EXPECT_NE(text_of_file(json).find("\"succeeded\": true"), std::string::npos);
 }
 
+TEST(Reproduce, SkipsRealRecordingsThatAreNotThere) {
+  const Outcome outcome = odolab("reproduce real --recordings /no/such/folder");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("note: skipped: OptiOdom's recordings are not in /no/such/folder/optiodom"),
+            std::string::npos)
+      << outcome.output;
+}
+
 TEST(Reproduce, NamesWhatItDoesNotKnow) {
   const Outcome outcome = odolab("reproduce umbmark-tabel3");
   EXPECT_EQ(outcome.exit_code, 2);

@@ -130,9 +130,9 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     if (layout.time.cell != kNowhere) {
       time_ns = stamp_ns(cell_of(layout.time), unit_ns(layout.time.mapped->unit));
       if (time_ns && layout.time.mapped->factor != 1.0)
-        time_ns = std::llround(static_cast<double>(*time_ns) * layout.time.mapped->factor);
+        time_ns = whole_ns(static_cast<double>(*time_ns) * layout.time.mapped->factor);
     } else {
-      time_ns = std::llround(static_cast<double>(row_number++) * mapping.period_s * 1e9);
+      time_ns = whole_ns(static_cast<double>(row_number++) * mapping.period_s * 1e9);
     }
     if (!time_ns) {
       left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " is no time");

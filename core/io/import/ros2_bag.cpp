@@ -23,6 +23,8 @@ struct Stamps {
   std::int64_t log_after_header_ns = std::numeric_limits<std::int64_t>::max();  // the least: with the shortest delay
   std::uint64_t broken = 0;
 
+  bool compares() const { return log_after_header_ns != std::numeric_limits<std::int64_t>::max(); }
+
   std::int64_t of(std::optional<std::int64_t> header_ns, std::int64_t log_ns) {
     if (!header_ns || *header_ns == 0) {
       ++by_log;
@@ -31,7 +33,7 @@ struct Stamps {
     ++by_header;
     // the difference of two times that a file may hold could leave the range
     const double apart_ns = static_cast<double>(log_ns) - static_cast<double>(*header_ns);
-    if (std::abs(apart_ns) < 9e18) log_after_header_ns = std::min(log_after_header_ns, log_ns - *header_ns);
+    if (std::abs(apart_ns) < 4e18) log_after_header_ns = std::min(log_after_header_ns, log_ns - *header_ns);
     return *header_ns;
   }
 };
@@ -124,7 +126,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
   // Where the headers run on another clock than the log (simulated time, a computer with a clock of its own), what is
   // stamped by the log is moved onto the headers' clock.
   const Stamps& reference = wheel_stamps.by_header > 0 ? wheel_stamps : truth_stamps;
-  if (reference.by_header > 0 && std::abs(reference.log_after_header_ns) > kOtherClock_ns) {
+  if (reference.compares() && std::abs(reference.log_after_header_ns) > kOtherClock_ns) {
     if (commands && command_stamps.by_header == 0 && command_stamps.by_log > 0) {
       commands->shift(-reference.log_after_header_ns);
       warnings.push_back(choice->commands + ": moved by " +
@@ -132,7 +134,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
                          " s from the log's clock onto that of the other stamps");
     }
   }
-  if (wheel_stamps.by_header > 0 && truth_stamps.by_header > 0) {
+  if (wheel_stamps.compares() && truth_stamps.compares()) {
     const double apart_s = 1e-9 * (static_cast<double>(wheel_stamps.log_after_header_ns) -
                                    static_cast<double>(truth_stamps.log_after_header_ns));
     if (std::abs(apart_s) > 0.1)

@@ -19,7 +19,8 @@ class SampleSpool {
   explicit SampleSpool(std::vector<std::string> channels, std::string spill_folder = "");
 
   // NaN where a channel was not sampled. Samples that come late are sorted in as long as fewer than 1024 later ones
-  // came before them; one that comes later still is left out and counted.
+  // came before them; one that comes later still
+  // is left out and counted, as is one more than 146 years from 1970.
   void add(std::int64_t time_ns, const double* values);
   // After the last sample. An error where the folder could not hold them.
   Result<Done> finish();
@@ -27,6 +28,7 @@ class SampleSpool {
   const std::vector<std::string>& channels() const { return channels_; }
   std::uint64_t size() const { return samples_; }
   std::uint64_t late() const { return late_; }
+  std::uint64_t beyond() const { return beyond_; }
   std::int64_t first_ns() const { return first_ns_ + shift_ns_; }  // of no use where there are none
 
   // A channel that only ever stays within a turn and jumps by one is made continuous when it is read back: an angle
@@ -66,7 +68,7 @@ class SampleSpool {
   std::deque<std::size_t> order_;
   std::vector<double> pending_;
   std::vector<std::int64_t> pending_ns_;
-  std::uint64_t samples_ = 0, late_ = 0;
+  std::uint64_t samples_ = 0, late_ = 0, beyond_ = 0;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
   std::int64_t shift_ns_ = 0;
   std::vector<Angle> angles_;

@@ -23,6 +23,10 @@ class Rows {
       if (stream.late() > 0)
         from.warnings.push_back(std::to_string(stream.late()) + (stream.late() == 1 ? " sample of " : " samples of ") +
                                 stream.channels().front() + " left out: time goes back there");
+      if (stream.beyond() > 0)
+        from.warnings.push_back(std::to_string(stream.beyond()) +
+                                (stream.beyond() == 1 ? " sample of " : " samples of ") + stream.channels().front() +
+                                " left out: a time that cannot be");
       if (stream.size() == 0) continue;
       for (std::size_t c = 0; c < stream.channels().size(); ++c) {
         const std::string& name = stream.channels()[c];
@@ -40,7 +44,7 @@ class Rows {
       zero = std::min(zero, head.stream->first_ns());
       rows.advance(head);
     }
-    rows.zero_ns_ = from.keep_zero ? 0 : zero;
+    rows.zero_ns_ = zero;
     return rows;
   }
 
@@ -65,7 +69,8 @@ class Rows {
       }
       column += head.values.size();
     }
-    time_s = static_cast<double>(time_ns - zero_ns_) / 1e9;
+    // no time lies before zero, and unsigned numbers hold every difference
+    time_s = static_cast<double>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(zero_ns_)) / 1e9;
     return true;
   }
 

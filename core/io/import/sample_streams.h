@@ -16,7 +16,6 @@ struct SampleStreams {
   std::vector<std::string> warnings;  // what a person should know, a sentence each
   std::string name, provenance;       // as in Recording
   std::string spill_folder;           // where samples may lie while they are sorted; empty: in memory
-  bool keep_zero = false;             // the stamps already count from where they should
 
   SampleSpool& add_stream(std::vector<std::string> channels);
 };

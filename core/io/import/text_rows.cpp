@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;
 constexpr std::size_t kUsualLine = 1 << 12;
+constexpr std::int64_t kLatest_ns = 4'102'444'800'000'000'000;  // the year 2100
 
 }  // namespace
 
@@ -102,7 +103,6 @@ Error RowsLeftOut::error(const std::string& path, const std::string& expected) c
 }
 
 std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns) {
-  constexpr std::int64_t kLatest_ns = 7'258'118'400'000'000'000;  // the year 2200
   const bool negative = !text.empty() && text.front() == '-';
   std::string_view digits = text;
   if (!digits.empty() && (digits.front() == '-' || digits.front() == '+')) digits.remove_prefix(1);
@@ -136,8 +136,12 @@ std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns
   }
   // with an exponent
   const std::optional<double> value = number_from(text);
-  if (!value || std::abs(*value) * static_cast<double>(unit_ns) > static_cast<double>(kLatest_ns)) return std::nullopt;
-  return std::llround(*value * static_cast<double>(unit_ns));
+  return value ? whole_ns(*value * static_cast<double>(unit_ns)) : std::nullopt;
+}
+
+std::optional<std::int64_t> whole_ns(double ns) {
+  if (!(std::abs(ns) <= static_cast<double>(kLatest_ns))) return std::nullopt;
+  return std::llround(ns);
 }
 
 }  // namespace odolab

@@ -57,7 +57,8 @@ class RowsLeftOut {
 };
 
 // A stamp in decimal digits as whole nanoseconds, exact for as many digits as a file may have; `unit_ns` is 1, 1000,
-// ... of its unit. Nothing where it is no number, or beyond the year 2200.
+// ... of its unit. Nothing where it is no number, or beyond the year 2100.
 std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns);
+std::optional<std::int64_t> whole_ns(double ns);  // rounded; within the same bounds
 
 }  // namespace odolab

@@ -133,7 +133,7 @@ Result<Done> stream_kitti(const std::string& path, const ImportWishes& wishes, S
       }
       time_ns = stamp_ns(stamp_cells.front(), 1'000'000'000);
     } else {
-      time_ns = std::llround(static_cast<double>(row_number) * wishes.mapping.period_s * 1e9);
+      time_ns = whole_ns(static_cast<double>(row_number) * wishes.mapping.period_s * 1e9);
     }
     ++row_number;
     if (!time_ns) {

@@ -1,6 +1,7 @@
 #include "core/io/import/sample_streams.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/angles.h"
 #include "core/io/recording_csv.h"
@@ -62,6 +63,18 @@ TEST(SampleStreams, MakeAWrappedAngleContinuousAndLeaveAContinuousOneAlone) {
       EXPECT_NEAR(r->channels[0].values[static_cast<std::size_t>(i)], wrapped_in_file ? -0.5 * i : -5.0 * i, 1e-12);
     EXPECT_EQ(streams.warnings.size(), wrapped_in_file ? 1u : 0u);
   }
+}
+
+TEST(SampleStreams, LeaveOutTimesThatCannotBe) {
+  SampleStreams streams;
+  SampleSpool& spool = streams.add_stream({"truth_x_m"});
+  for (const std::int64_t ns : {std::numeric_limits<std::int64_t>::min(), std::int64_t{5}, std::int64_t{-5},
+                                std::numeric_limits<std::int64_t>::max()})
+    add(spool, ns, 1.0);
+  const Result<Recording> r = recording_of(streams);
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->time_s, (std::vector<double>{0.0, 1e-8}));
+  EXPECT_EQ(streams.warnings, std::vector<std::string>{"2 samples of truth_x_m left out: a time that cannot be"});
 }
 
 TEST(SampleStreams, RefuseTwoSourcesForOneChannel) {
