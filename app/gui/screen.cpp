@@ -270,12 +270,15 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   append(actions, centre_pane(session, state, shown, theme));
   ImGui::End();
 
-  // Over the floor and below its tools: a message moves nothing of what a person is looking at.
+  // Over the floor and below its tools, or over a guide's page and above its way on: a message moves nothing of what a
+  // person is looking at.
   const float message_height = ui::message_bar_height(session.messages(), l.centre_size.x, theme);
   if (message_height > 0.0f) {
     const float tools = ImGui::GetFrameHeight() + theme.px(11);
-    begin_pane("messages", {l.centre_low.x, l.centre_low.y + tools}, {l.centre_size.x, message_height}, false, false,
-               theme.panel, true);
+    const bool on_page = session.mode() == ui::Mode::calibrate && session.guide().shown();
+    const float y =
+        on_page ? l.centre_low.y + l.centre_size.y - message_height - tools - theme.px(11) : l.centre_low.y + tools;
+    begin_pane("messages", {l.centre_low.x, y}, {l.centre_size.x, message_height}, false, false, theme.panel, true);
     append(actions, ui::message_bar(session.messages(), theme));
     ImGui::End();
   }

@@ -87,9 +87,9 @@ std::string still_to_do(const GuideSession& session) {
   if (const GuideRound* round = round_on(session, task)) {
     const int cw = counted(*round, true), ccw = counted(*round, false);
     if (cw == 0 || ccw == 0)
-      return std::string("At least one run each way is needed; none is there ") + (cw == 0 && ccw == 0 ? "yet."
-                                                                                   : cw == 0           ? "clockwise."
-                                                                                             : "counter-clockwise.");
+      return cw == 0 && ccw == 0 ? "One run each way is needed at least."
+             : cw == 0           ? "A clockwise run is needed."
+                                 : "A counter-clockwise run is needed.";
     if (session.kind == GuideKind::extended_umbmark)
       for (const GuideRun& run : round->runs)
         if (!run.left_out && !run.has_heading)

@@ -38,13 +38,8 @@ std::vector<Setting> drive_settings(const DifferentialDrive& before, const Diffe
                  before.wheel_radius_left_m, after.wheel_radius_left_m, of_left * after.wheel_radius_left_m};
   settings[1] = {"radius of the right wheel", "wheel_radius_right_m",     "right_wheel_radius_multiplier",      "m",
                  before.wheel_radius_right_m, after.wheel_radius_right_m, of_right * after.wheel_radius_right_m};
-  settings[2] = {"wheelbase",
-                 "wheelbase_m",
-                 "wheel_separation_multiplier",
-                 "m",
-                 before.wheelbase_m,
-                 after.wheelbase_m,
-                 of_wheelbase * after.wheelbase_m};
+  settings[2] = {"wheelbase",        "wheelbase_m",     "wheel_separation_multiplier",   "m",
+                 before.wheelbase_m, after.wheelbase_m, of_wheelbase * after.wheelbase_m};
   settings[2].determined = squares.has_value();
   return settings;
 }
@@ -156,7 +151,8 @@ void internal_outcome(GuideOutcome& out, const InternalCalibration& internal) {
     determined += p.determined;
     std::string words = p.name;
     for (char& c : words)
-      if (c == '_' || c == '.') c = ' ';
+      if (c == '_' || c == '.' || c == '[') c = ' ';
+    if (const std::size_t at = words.find(']'); at != std::string::npos) words[at] = ',';  // "castor 1, offset"
     for (const char* unit : {" m", " rad"})
       if (words.size() > 4 && words.compare(words.size() - std::string(unit).size(), std::string::npos, unit) == 0)
         words.resize(words.size() - std::string(unit).size());
@@ -165,8 +161,9 @@ void internal_outcome(GuideOutcome& out, const InternalCalibration& internal) {
   out.sentences.push_back(
       text_of("%d of %d numbers were found from the encoders alone; no outside truth was looked at.", determined,
               static_cast<int>(internal.parameters.size())));
-  for (const std::string& sentence : internal.taken_as_known) out.sentences.push_back("Taken as known: " + sentence);
-  for (const std::string& sentence : internal.cannot_tell) out.warnings.push_back("Not to be told: " + sentence);
+  for (const std::string& sentence : internal.taken_as_known)
+    out.sentences.push_back("Taken as known: " + sentence + ".");
+  for (const std::string& sentence : internal.cannot_tell) out.warnings.push_back("Not to be told: " + sentence + ".");
   for (const std::string& sentence : internal.warnings) out.warnings.push_back(sentence);
   if (determined > 0) out.calibrated = internal.vehicle;
 }
