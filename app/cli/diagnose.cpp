@@ -36,6 +36,7 @@ std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle
   } else if (const std::string missing = missing_columns(recording, vehicle); !missing.empty()) {
     return Error{path, "no " + missing, "the encoders of a " + kind_name(vehicle)};
   }
+  if (units_of(vehicle).size() > 1) return std::nullopt;  // they judge each other
   const std::size_t truths = truth_samples(recording).size();
   if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
   return std::nullopt;

@@ -35,6 +35,7 @@ struct Stretch {
 struct Unknowns {
   std::vector<JointParameter> joints;
   int units = 0, runs = 0;
+  bool clock_is_held = false;
 
   int joint_count() const { return static_cast<int>(joints.size()); }
   int wheel(int unit, int k) const { return joint_count() + 3 * unit + k; }
@@ -42,7 +43,7 @@ struct Unknowns {
   int count() const { return joint_count() + 3 * units + runs; }
   double prior(int k) const {
     if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
-    return k < clock(0) ? kWheelPrior : kClockPrior_s;
+    return k < clock(0) ? kWheelPrior : clock_is_held ? 1e-7 : kClockPrior_s;
   }
 };
 
@@ -102,6 +103,14 @@ class Passage {
     return normal;
   }
 
+  DifferentialDrive drive_at(const VectorXd& x) const {
+    DifferentialDrive drive = drive_;
+    drive.wheel_radius_left_m *= 1.0 + x[unknowns_->wheel(unit_, 0)];
+    drive.wheel_radius_right_m *= 1.0 + x[unknowns_->wheel(unit_, 1)];
+    drive.wheelbase_m *= 1.0 + x[unknowns_->wheel(unit_, 2)];
+    return drive;
+  }
+
  private:
   std::vector<int> own_unknowns() const {
     std::vector<int> own;
@@ -153,11 +162,7 @@ class Passage {
     At result{nominal_, {}, 0.0};
     for (int k = 0; k < unknowns_->joint_count(); ++k)
       unknowns_->joints[static_cast<std::size_t>(k)].of(result.vehicle) += x[k];
-    DifferentialDrive drive = drive_;
-    drive.wheel_radius_left_m *= 1.0 + x[unknowns_->wheel(unit_, 0)];
-    drive.wheel_radius_right_m *= 1.0 + x[unknowns_->wheel(unit_, 1)];
-    drive.wheelbase_m *= 1.0 + x[unknowns_->wheel(unit_, 2)];
-    result.wheels = wheel_track(drive);
+    result.wheels = wheel_track(drive_at(x));
     result.offset_s = nominal_.truth.time_offset_s + x[unknowns_->clock(number_)];
     return result;
   }
@@ -263,6 +268,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
   Unknowns unknowns;
   for (JointParameter& p : joint_parameters(nominal))
     if (std::find(held.begin(), held.end(), p.name) == held.end()) unknowns.joints.push_back(std::move(p));
+  unknowns.clock_is_held = std::find(held.begin(), held.end(), kClockHeld) != held.end();
   unknowns.units = static_cast<int>(units_of(nominal).size());
   unknowns.runs = static_cast<int>(runs.size());
   std::vector<Passage> passages;
@@ -296,6 +302,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     if (e.determined) e.parameter.of(fit.vehicle) = e.value;
     fit.joints.push_back(std::move(e));
   }
+  for (int u = 0; u < unknowns.units; ++u) fit.drives.push_back(passages[static_cast<std::size_t>(u)].drive_at(x));
   for (int r = 0; r < unknowns.runs; ++r) {
     fit.clock_s.push_back(x[unknowns.clock(r)]);
     fit.clock_stderr_s.push_back(std::sqrt(covariance(unknowns.clock(r), unknowns.clock(r))));

@@ -22,11 +22,15 @@ struct JoinedRun {
 };
 
 struct GeometryFit {
-  Vehicle vehicle;  // with what is determined of the joints put in; wheels as they were
+  Vehicle vehicle;                        // with what is determined of the joints put in; wheels as they were
+  std::vector<DifferentialDrive> drives;  // of each unit, as fitted beside the joints
   std::vector<JointEstimate> joints;
   std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
   std::vector<double> clock_stderr_s;
 };
+
+// In the list of what is held: the clocks of all runs.
+inline constexpr const char* kClockHeld = "clock";
 
 // Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
 // own, robust against what slips here and there. `held`: joints that keep their nominal value.

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
@@ -39,20 +40,6 @@ bool is_event(const Finding& f) { return parameter_of(f, "at_s") != nullptr; }
 
 bool same_cause(const Finding& a, const Finding& b) {
   return a.effect == b.effect && is_common(a.effect) && same_zone(a, b) && (!is_event(a) || !is_event(b));
-}
-
-// Whether an encoder of the joint that goes on by one step would look the same.
-bool may_be_rounding(const Finding& f, const VehicleUnit& unit, const JointRounding& rounding) {
-  const auto size = [&](const char* name) {
-    const FoundParameter* p = parameter_of(f, name);
-    return p ? std::abs(p->value) : 0.0;
-  };
-  if (f.effect == "collision")
-    return std::hypot(size("dx_m"), size("dy_m")) <= rounding.position_m &&
-           size("dheading_rad") <= rounding.heading_rad;
-  if (f.effect != "bump") return false;
-  const double extra_m = size("extra_distance_m");
-  return 0.5 * extra_m <= rounding.position_m && extra_m / unit.drive.wheelbase_m <= rounding.heading_rad;
 }
 
 // What several units say of one cause: each parameter weighted by how well it is known.
@@ -139,10 +126,9 @@ std::vector<ParameterEstimate> in_file(const ParameterEstimate& p, const Vehicle
 
 LeastSquaresCalibration joined_calibration(const std::vector<Diagnosis>& diagnoses,
                                            LeastSquaresCalibration Diagnosis::*which, const GeometryFit& geometry,
-                                           const Vehicle& nominal) {
+                                           const std::vector<VehicleUnit>& units, const Vehicle& nominal) {
   LeastSquaresCalibration sum;
   sum.vehicle = geometry.vehicle;
-  const std::vector<VehicleUnit> units = units_of(nominal);
   bool truth_is_carried = false;
   for (std::size_t u = 0; u < units.size(); ++u) {
     const LeastSquaresCalibration& one = diagnoses[u].*which;
@@ -183,7 +169,7 @@ struct Bias {
 
 // The encoder whose bias turns a unit's whole truth.
 std::optional<Bias> bias_of(const VehicleUnit& unit) {
-  if (unit.carries_truth) return std::nullopt;
+  if (unit.carries_truth || unit.name == "truck_a" || unit.name.empty()) return std::nullopt;
   if (unit.name == "trailer") return Bias{"link_angle_bias", "trailer", -1.0};
   if (unit.name == "truck_b") return Bias{"link_angle_bias", "truck_b", 1.0};
   return Bias{"pivot_angle_bias", unit.name, 1.0};
@@ -200,7 +186,8 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
     const bool of_mounting =
         f.effect == "truth_mounting_offset" || (f.effect == "wheel_toe" && !f.alternatives.empty() &&
                                                 f.alternatives.front().effect == "truth_mounting_offset");
-    if (bias && (f.effect == "truth_time_offset" || f.effect == "truth_frozen")) continue;
+    if (!unit.carries_truth && (f.effect == "truth_time_offset" || f.effect == "truth_frozen")) continue;
+    if (!unit.carries_truth && of_mounting && !bias) continue;
     if (bias && of_mounting) {
       const FoundParameter* toe = parameter_of(f, "sideways_per_metre");
       const FoundParameter* heading = parameter_of(f, "heading_rad");
@@ -227,6 +214,26 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
     else
       put_together(*same, f);
   }
+}
+
+bool takes_place_in(const Finding& event, const WhereFound::Zone& zone) {
+  constexpr double kBeside_m = 0.2;
+  return event.where.zone && std::hypot(event.where.zone->x_m - zone.x_m, event.where.zone->y_m - zone.y_m) <
+                                 zone.radius_m + event.where.zone->radius_m + kBeside_m;
+}
+
+// A patch of floor that one unit names looks like pushes and bumps to units that only touch it.
+void put_events_into_their_zones(std::vector<Finding>& all) {
+  std::vector<Finding> rest;
+  for (const Finding& f : all) {
+    Finding* zone = nullptr;
+    for (Finding& g : all)
+      if ((f.effect == "collision" || f.effect == "bump") && g.effect == "slip_zone" && g.where.zone &&
+          takes_place_in(f, *g.where.zone))
+        zone = &g;
+    if (!zone) rest.push_back(f);
+  }
+  all = std::move(rest);
 }
 
 // Biased encoders by the geometry's fit.
@@ -349,12 +356,12 @@ std::optional<std::string> component_in_unit(const std::string& unit, const std:
 }
 
 Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geometry, const Vehicle& nominal,
-                 const std::vector<Recording>& recordings, double family_wise_error) {
-  (void)family_wise_error;
-  const std::vector<VehicleUnit> units = units_of(nominal);
+                 const std::vector<Recording>& recordings, bool from_outside) {
+  std::vector<VehicleUnit> units = units_of(nominal);
+  for (VehicleUnit& unit : units) unit.carries_truth = unit.carries_truth && from_outside;
   Diagnosis d;
-  d.calibration = joined_calibration(diagnoses, &Diagnosis::calibration, geometry, nominal);
-  d.calibration_alone = joined_calibration(diagnoses, &Diagnosis::calibration_alone, geometry, nominal);
+  d.calibration = joined_calibration(diagnoses, &Diagnosis::calibration, geometry, units, nominal);
+  d.calibration_alone = joined_calibration(diagnoses, &Diagnosis::calibration_alone, geometry, units, nominal);
   bool truth_is_carried = false;
   Vehicle fitted = geometry.vehicle;
   for (std::size_t u = 0; u < units.size(); ++u) {
@@ -385,11 +392,15 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     }
   }
   d.fitted_vehicle = fitted;
-  if (!truth_is_carried) {
+  put_events_into_their_zones(d.findings);
+  if (!truth_is_carried && from_outside) {
     add_truth(geometry, nominal, d.findings);
+  }
+  if (!truth_is_carried)
     for (std::size_t r = 0; r < recordings.size(); ++r)
       d.truth_clock_s.emplace_back(recordings[r].name, nominal.truth.time_offset_s + geometry.clock_s[r]);
-  }
+  if (!from_outside)
+    d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
   add_biases(geometry, units, d.findings);
   std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
     if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
@@ -411,6 +422,12 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   if (std::holds_alternative<EncoderTrailer>(nominal.kind))
     d.warnings.insert(d.warnings.begin(),
                       "the trailer is judged; its odometry does not look at the towing vehicle's own wheels or tracks");
+  if (std::holds_alternative<MultiCastor>(nominal.kind))
+    for (Finding& f : d.findings)
+      if (f.effect == "unknown")
+        f.sentence +=
+            "; castors whose lengths differ from the file's drag each other along: calibrate them first, and "
+            "drive by what was found";
   for (const Finding& f : d.findings) d.sentences.push_back(f.sentence);
   return d;
 }

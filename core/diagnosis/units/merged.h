@@ -17,8 +17,9 @@ std::optional<std::string> component_in_unit(const std::string& unit, const std:
                                              const std::vector<VehicleUnit>& all);
 
 // `diagnoses`: one for each unit of the vehicle, in their order. Effects that all units share become one finding; what
-// of a unit's truth seems to sit elsewhere is a biased encoder of its joint.
+// of a unit's truth seems to sit elsewhere is a biased encoder of its joint. `from_outside`: where there is a truth
+// that one of them may carry.
 Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geometry, const Vehicle& nominal,
-                 const std::vector<Recording>& recordings, double family_wise_error);
+                 const std::vector<Recording>& recordings, bool from_outside = true);
 
 }  // namespace odolab

@@ -13,31 +13,6 @@ namespace odolab {
 
 namespace {
 
-// What the units really did, as far as the effects are known: wheels as if they had rolled truly, and how far each unit
-// moved to its left in the interval that ends at each sample.
-struct TrueUnits {
-  std::vector<UnitSample> samples;
-  std::vector<std::vector<double>> sideways_m;  // [sample][unit]
-};
-
-TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,
-                          const std::vector<std::vector<BodyMotion>>& motions) {
-  TrueUnits result{samples, std::vector<std::vector<double>>(samples.size(), std::vector<double>(units.size(), 0.0))};
-  for (std::size_t u = 0; u < units.size(); ++u) {
-    const DifferentialDrive& drive = units[u].drive;
-    WheelRotation more;
-    for (std::size_t i = 1; i < samples.size() && i - 1 < motions[u].size(); ++i) {
-      const BodyMotion& m = motions[u][i - 1];
-      more.left_rad += (m.forward_m - 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_left_m;
-      more.right_rad += (m.forward_m + 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_right_m;
-      result.samples[i].wheels[u].left_rad += more.left_rad;
-      result.samples[i].wheels[u].right_rad += more.right_rad;
-      result.sideways_m[i][u] = m.sideways_m;
-    }
-  }
-  return result;
-}
-
 void move_left(Pose& pose, double by_m) {
   const Vec2 way = rotated({0.0, by_m}, pose.heading_rad);
   pose.x_m += way.x_m;

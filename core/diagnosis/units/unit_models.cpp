@@ -44,9 +44,28 @@ std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordin
     const std::vector<UnitSample> samples = unit_samples(recording, vehicle);
     const Track tracked = tracked_poses(recording);
     if (samples.size() < 2 || tracked.size() < 2) continue;
-    own.push_back(recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0));
+    own.push_back(
+        recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0, !units_of(vehicle)[unit].carries_truth));
   }
   return own;
+}
+
+TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,
+                          const std::vector<std::vector<BodyMotion>>& motions) {
+  TrueUnits result{samples, std::vector<std::vector<double>>(samples.size(), std::vector<double>(units.size(), 0.0))};
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const DifferentialDrive& drive = units[u].drive;
+    WheelRotation more;
+    for (std::size_t i = 1; i < samples.size() && i - 1 < motions[u].size(); ++i) {
+      const BodyMotion& m = motions[u][i - 1];
+      more.left_rad += (m.forward_m - 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_left_m;
+      more.right_rad += (m.forward_m + 0.5 * drive.wheelbase_m * m.turn_rad) / drive.wheel_radius_right_m;
+      result.samples[i].wheels[u].left_rad += more.left_rad;
+      result.samples[i].wheels[u].right_rad += more.right_rad;
+      result.sideways_m[i][u] = m.sideways_m;
+    }
+  }
+  return result;
 }
 
 }  // namespace odolab

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/calibration/innovations.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/recording/recording.h"
@@ -19,5 +20,14 @@ FittedModel model_of_unit(const FittedModel& model, std::size_t unit);
 // that has headings are left out.
 std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordings, const FittedModel& model,
                                           std::size_t unit);
+
+// What the units really did, as far as the effects are known: wheels as if they had rolled truly, and how far each unit
+// moved to its left in the interval that ends at each sample.
+struct TrueUnits {
+  std::vector<UnitSample> samples;
+  std::vector<std::vector<double>> sideways_m;  // [sample][unit]
+};
+TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,
+                          const std::vector<std::vector<BodyMotion>>& motions);
 
 }  // namespace odolab

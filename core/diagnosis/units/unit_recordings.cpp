@@ -62,10 +62,10 @@ Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle) {
 }
 
 Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
-                            const Vehicle& vehicle, std::size_t unit, double clock_s) {
+                            const Vehicle& vehicle, std::size_t unit, double clock_s, bool by_joints) {
   std::vector<Row> rows;
   for (const UnitSample& s : samples) rows.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
-  if (units_of(vehicle)[unit].carries_truth) {
+  if (!by_joints) {
     for (const TruthSample& t : truth_samples(recording))
       rows.push_back({t.time_s, kNone, kNone, t.position.x_m, t.position.y_m, t.heading_rad.value_or(kNone)});
     return recording_by(std::move(rows), recording);

@@ -14,9 +14,9 @@ Track tracked_poses(const Recording& recording);
 // The vehicle that a unit's recording is of: its drive, and the truth's mounting where the tracked point sits on it.
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);
 
-// A unit that carries the truth keeps it as it was recorded. For the others the joints say where the axle's middle was,
-// on the encoders' clock; `clock_s` is the truth's offset in this recording. `tracked`: see tracked_poses.
+// `by_joints`: they say where the axle's middle was, on the encoders' clock; `clock_s` is the truth's offset in this
+// recording. Else the truth stays as it was recorded, for the unit that carries it. `tracked`: see tracked_poses.
 Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
-                            const Vehicle& vehicle, std::size_t unit, double clock_s);
+                            const Vehicle& vehicle, std::size_t unit, double clock_s, bool by_joints);
 
 }  // namespace odolab

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/units/geometry_fit.h"
@@ -87,7 +89,7 @@ TEST(UnitRecordings, FollowTheUnitWithTheTruthsNoiseAndTheRoundingOfTheJoints) {
   actual.link_angle_resolution_rad = actual.link_length_resolution_m = 0.0;
   const Recording run = linked_run(actual, s, 1);
   const Vehicle vehicle = vehicle_of(actual);
-  const Recording of_b = recording_of_unit(run, unit_samples(run, vehicle), tracked_poses(run), vehicle, 1, 0.0);
+  const Recording of_b = recording_of_unit(run, unit_samples(run, vehicle), tracked_poses(run), vehicle, 1, 0.0, true);
   const Result<Track> reckoned = predicted_track(of_b, vehicle_of_unit(units_of(vehicle)[1], vehicle));
   ASSERT_TRUE(reckoned);
   const auto error = track_error(*reckoned, truth_track(of_b));
@@ -168,6 +170,23 @@ TEST(DiagnoseUnits, FindABiasedPivotAndSayThatToeWouldLookTheSame) {
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.015, 4.0 * d.findings[0].parameters[0].stderr_value);
   EXPECT_EQ(d.verdict, Verdict::ambiguous);
   EXPECT_EQ(d.findings[0].alternatives.at(0).effect, "wheel_toe");
+}
+
+// Nothing outside is known: what truck B's wheel does wrong shows in the link, and is not put on truck A.
+TEST(DiagnoseUnits, TellFromTheInsideWhichTruckErrs) {
+  LinkedRunSettings s;
+  s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
+  std::vector<Recording> runs = clapper_runs(crooked_clapper(), s, 95);
+  for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
+  ASSERT_TRUE(truth_samples(runs[0]).empty());
+  const Diagnosis d = diagnosed(runs, Clapper{});
+  ASSERT_FALSE(d.findings.empty()) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "encoder_missed_counts") << said(d);
+  EXPECT_EQ(d.findings[0].component, "truck_b.left_wheel");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, 0.04, 0.006);
+  const auto slope = std::find_if(d.not_testable.begin(), d.not_testable.end(),
+                                  [](const NotTestable& n) { return n.effect == "floor_slope_creep"; });
+  EXPECT_NE(slope, d.not_testable.end());
 }
 
 TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {
