@@ -1,6 +1,7 @@
 #include "core/diagnosis/units/diagnose_units.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/inside.h"
@@ -20,6 +21,29 @@ std::optional<Error> unusable(const Recording& r, const Vehicle& nominal) {
     return Error{where, "no " + missing, "the encoders of a " + kind_name(nominal)};
   if (unit_samples(r, nominal).size() < 2) return Error{where, "no two rows in which all encoders can be told", ""};
   return std::nullopt;
+}
+
+// A biased encoder must be so in runs that it was not fitted on.
+void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const GeometryFit& geometry,
+                  const Vehicle& nominal) {
+  bool dropped = false;
+  for (const JointEstimate& e : geometry.joints) {
+    const auto f = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& g) {
+      return !e.parameter.effect.empty() && e.parameter.component != "truth" && g.effect == e.parameter.effect &&
+             g.component == e.parameter.component;
+    });
+    if (f == d.findings.end() || runs.size() < 2) continue;
+    const double ratio = left_out_ratio(runs, nominal, e.parameter.name);
+    if (ratio < 1.0) {
+      char text[120];
+      std::snprintf(text, sizeof text, "; what the parts contradict in runs left out falls to %.0f %%", 100.0 * ratio);
+      f->sentence += text;
+    } else {
+      d.findings.erase(f);
+      dropped = true;
+    }
+  }
+  if (dropped && d.findings.empty()) d.verdict = Verdict::nothing_missing;
 }
 
 // Too little outside truth to say where each unit was.
@@ -81,7 +105,9 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     if (!units[u].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal.kind));
     diagnoses.push_back(std::move(*one));
   }
-  return merged(diagnoses, geometry, nominal, train);
+  Diagnosis d = merged(diagnoses, geometry, nominal, train);
+  prove_biases(d, runs, geometry, nominal);
+  return d;
 }
 
 }  // namespace odolab

@@ -111,6 +111,20 @@ class Passage {
     return drive;
   }
 
+  // Sum of squares in units of the deviations of another fit.
+  double squares_at(const VectorXd& x, const Vector3d& sigma) const {
+    double sum = 0.0;
+    for (const Vector3d& r : residuals_at(x))
+      for (int k = 0; k < 3; ++k) {
+        const double z = std::abs(r[k]) / sigma[k];
+        sum += z <= kHuber ? z * z : kHuber * (2.0 * z - kHuber);
+      }
+    return sum;
+  }
+  Vector3d deviations_at(const VectorXd& x) const {
+    return stretches_.empty() ? Vector3d::Ones() : deviations(residuals_at(x));
+  }
+
  private:
   std::vector<int> own_unknowns() const {
     std::vector<int> own;
@@ -261,6 +275,25 @@ Normal sum_of(const std::vector<Passage>& passages, const VectorXd& x, bool with
   return sum;
 }
 
+// One run as a fit to others sees it; its clock is its own.
+double squares_of(const JoinedRun& run, const GeometryFit& fit, double clock_s, std::vector<Vector3d>& sigma) {
+  Unknowns none;
+  none.units = static_cast<int>(fit.drives.size());
+  none.runs = 1;
+  VectorXd x = VectorXd::Zero(none.count());
+  x[none.clock(0)] = clock_s;
+  Vehicle vehicle = fit.vehicle;
+  for (std::size_t u = 0; u < fit.drives.size(); ++u) vehicle = with_drive(vehicle, u, fit.drives[u]);
+  const bool first = sigma.empty();
+  double sum = 0.0;
+  for (int u = 0; u < none.units; ++u) {
+    const Passage passage(run, vehicle, none, 0, u);
+    if (first) sigma.push_back(passage.deviations_at(x));
+    sum += passage.squares_at(x, sigma[static_cast<std::size_t>(u)]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
@@ -308,6 +341,23 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     fit.clock_stderr_s.push_back(std::sqrt(covariance(unknowns.clock(r), unknowns.clock(r))));
   }
   return fit;
+}
+
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
+                      const std::vector<std::string>& held) {
+  if (runs.size() < 2) return 1.0;
+  const GeometryFit all = fitted_geometry(runs, nominal, held);
+  std::vector<std::string> held_too = held;
+  held_too.push_back(joint);
+  double with = 0.0, without = 0.0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::vector<JoinedRun> others = runs;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
+    std::vector<Vector3d> sigma;
+    with += squares_of(runs[r], fitted_geometry(others, nominal, held), all.clock_s[r], sigma);
+    without += squares_of(runs[r], fitted_geometry(others, nominal, held_too), all.clock_s[r], sigma);
+  }
+  return without > 0.0 ? with / without : 1.0;
 }
 
 }  // namespace odolab

@@ -37,4 +37,10 @@ inline constexpr const char* kClockHeld = "clock";
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
                             const std::vector<std::string>& held = {});
 
+// How much a joint's offset takes off what the units contradict each other in runs that it was not fitted on: the sum
+// of squares with it over that without, each run by a fit to the others. Below 1: the offset is there in all of them. 1
+// where there is one run alone.
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
+                      const std::vector<std::string>& held = {});
+
 }  // namespace odolab
