@@ -100,6 +100,7 @@ Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, c
 int execute(const DiagnoseOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
+  if (const std::optional<Error> other = undiagnosed_kind(*nominal)) return bad_input(*other);
   for (const std::string& seen : options.recordings)
     for (const std::string& unseen : options.hold_out)
       if (is_same_file(seen, unseen))

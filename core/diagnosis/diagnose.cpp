@@ -242,10 +242,7 @@ ActiveEffect Finding::as_active() const {
 Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
   if (has_units(nominal)) return diagnose_units(train, held_out, nominal, options, progress);
-  if (std::holds_alternative<SynchroDrive>(nominal.kind))
-    return Error{
-        "kind", "'synchro_drive'",
-        "differential_drive or a vehicle made of such drives; the base of this one does not turn with its wheels"};
+  if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
     return Error{nominal.name, "", problems.front()};

@@ -100,6 +100,13 @@ bool has_units(const Vehicle& vehicle) {
          !std::holds_alternative<SynchroDrive>(vehicle.kind);
 }
 
+std::optional<Error> undiagnosed_kind(const Vehicle& vehicle) {
+  if (!std::holds_alternative<SynchroDrive>(vehicle.kind)) return std::nullopt;
+  return Error{
+      vehicle.name + ": kind", "'synchro_drive'",
+      "a differential_drive or a vehicle made of such drives: the base of this one does not turn with its wheels"};
+}
+
 std::vector<VehicleUnit> units_of(const Vehicle& vehicle) { return std::visit(UnitsOf{}, vehicle.kind); }
 
 Vehicle with_drive(Vehicle vehicle, std::size_t unit, const DifferentialDrive& drive) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct VehicleUnit {
 
 // Whether `diagnose` knows this kind by its units: all but a differential drive and a synchro drive.
 bool has_units(const Vehicle& vehicle);
+
+// Why a kind is not diagnosed; none where it is.
+std::optional<Error> undiagnosed_kind(const Vehicle& vehicle);
 
 // In the order of the recording's columns.
 std::vector<VehicleUnit> units_of(const Vehicle& vehicle);
