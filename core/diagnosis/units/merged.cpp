@@ -236,6 +236,19 @@ void put_events_into_their_zones(std::vector<Finding>& all) {
   all = std::move(rest);
 }
 
+// As with one drive: what is left without a name beside names that stand must be a fair part of the evidence.
+bool leave_out_small_rest(std::vector<Finding>& all) {
+  constexpr double kMostLeft = 0.15;
+  double named = 0.0;
+  for (const Finding& f : all) named += f.effect == "unknown" ? 0.0 : f.log_likelihood_gain;
+  const auto rest = std::remove_if(all.begin(), all.end(), [&](const Finding& f) {
+    return f.effect == "unknown" && f.log_likelihood_gain < kMostLeft * named;
+  });
+  const bool some = rest != all.end();
+  all.erase(rest, all.end());
+  return some;
+}
+
 // Biased encoders by the geometry's fit.
 void add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units, std::vector<Finding>& all) {
   int asked = 0;
@@ -326,7 +339,8 @@ Verdict verdict_of(const std::vector<Diagnosis>& diagnoses, const std::vector<Fi
   const auto any = [&](Verdict v) {
     return std::any_of(diagnoses.begin(), diagnoses.end(), [&](const Diagnosis& d) { return d.verdict == v; });
   };
-  if (any(Verdict::unknown_effect)) return Verdict::unknown_effect;
+  if (std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.effect == "unknown"; }))
+    return Verdict::unknown_effect;
   if (!findings.empty()) {
     const bool open =
         std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return !f.alternatives.empty(); });
@@ -402,6 +416,8 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   if (!from_outside)
     d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
   add_biases(geometry, units, d.findings);
+  if (leave_out_small_rest(d.findings))
+    d.warnings.push_back("beside the names given something small is left that no name describes");
   std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
     if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
     return a.log_likelihood_gain > b.log_likelihood_gain;
