@@ -186,7 +186,7 @@ void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel&
     for (const UnitSample& s : u.samples)
       run.wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
     run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
-    std::vector<Motions> motions(units.size());
+    std::vector<std::vector<BodyMotion>> motions(units.size());
     motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),
                                model.effects_in(u.recording->name));
     u.samples = without_effects(u.samples, units, motions).samples;
