@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/smooth_counts.h"
+#include "core/calibration/rests.h"
+#include "core/calibration/smoothed_readings.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -173,7 +174,17 @@ Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& 
                  "two or more of truth_x_m and truth_y_m"};
   run.set_aside.assign(run.truth.size(), 0);
   run.counts_show = lie_on_counts(run.wheels, drive);
-  if (run.counts_show) run.smooth = smoothed_counts(run.wheels, count_rad(run, drive));
+  run.smooth = smoothed(run.wheels);
+  if (run.counts_show) {
+    run.settles.assign(run.wheels.size() - 1, 0);
+    for (std::size_t i = 1; i + 1 < run.wheels.size(); ++i) {  // the first count behind a pause, however short
+      const WheelSample &before = run.wheels[i - 1], &here = run.wheels[i], &next = run.wheels[i + 1];
+      if (here.left_rad == before.left_rad && next.left_rad != here.left_rad) run.settles[i] |= 1;
+      if (here.right_rad == before.right_rad && next.right_rad != here.right_rad) run.settles[i] |= 2;
+    }
+    for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::left_rad)) run.settles[e.interval] |= 1;
+    for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::right_rad)) run.settles[e.interval] |= 2;
+  }
   return run;
 }
 
@@ -325,14 +336,13 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         body_noise.noalias() += by_turn * (way_m * by_turn.transpose());
       }
       if (counts_left_behind) carry_noise(count_noise);
-      if (count > 0.0 && i > 0 && now_s == w0.time_s) {
-        const WheelSample& before = run.wheels[i - 1];
-        if (w0.left_rad == before.left_rad && w1.left_rad != w0.left_rad) {
+      if (!run.settles.empty() && run.settles[i] && now_s == w0.time_s) {
+        if (run.settles[i] & 1) {
           const double m = count * drive.wheel_radius_left_m;
           count_noise += by_left * (m * m / 12.0 * by_left.transpose());
           counts_left_behind = true;
         }
-        if (w0.right_rad == before.right_rad && w1.right_rad != w0.right_rad) {
+        if (run.settles[i] & 2) {
           const double m = count * drive.wheel_radius_right_m;
           count_noise += by_right * (m * m / 12.0 * by_right.transpose());
           counts_left_behind = true;

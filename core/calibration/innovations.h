@@ -66,15 +66,17 @@ struct ExtraColumn {
 // One recording made ready for the filter.
 struct InnovationRun {
   std::string name;
-  std::vector<WheelSample> wheels;  // two or more, times strictly increasing
-  std::vector<WheelSample> smooth;  // the same without the steps of the counts, for derivatives; empty: as they are
-  std::vector<TruthSample> truth;   // two or more, times strictly increasing, within the time of the wheels
-  bool truth_has_heading = false;   // where not, the first heading is unknown and found with the path's shape
-  bool speeds_are_held = false;     // between wheel samples, as a command is; else wheels speed up smoothly
-  bool counts_show = false;         // the rotations lie on the grid of the encoder's counts
-  std::vector<char> set_aside;      // for each truth sample: not to be used
-  std::vector<ExtraColumn> extra;   // the same number in each run of a set
-  int frozen = 0;                   // truth samples left out since they repeat themselves while the wheels turn
+  std::vector<WheelSample> wheels;     // two or more, times strictly increasing
+  std::vector<WheelSample> smooth;     // the same smoothed, for derivatives; empty: as they are
+  std::vector<TruthSample> truth;      // two or more, times strictly increasing, within the time of the wheels
+  bool truth_has_heading = false;      // where not, the first heading is unknown and found with the path's shape
+  bool speeds_are_held = false;        // between wheel samples, as a command is; else wheels speed up smoothly
+  bool counts_show = false;            // the rotations lie on the grid of the encoder's counts
+  std::vector<char> set_aside;         // for each truth sample: not to be used
+  std::vector<unsigned char> settles;  // for each interval: 1 where the left wheel's count comes to rest or leaves it,
+                                       // 2 the right's; empty where counts do not show
+  std::vector<ExtraColumn> extra;  // the same number in each run of a set
+  int frozen = 0;                  // truth samples left out since they repeat themselves while the wheels turn
 };
 
 // Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock.
@@ -95,7 +97,7 @@ struct RelativeMotion {
   Pose motion;
   double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
   double body_noise[6] = {};   // the same for a body noise of 1 m per root metre; 0 where the model has none
-  double count_noise[6] = {};  // covariance of the count fractions that a wheel leaves behind when it starts from rest
+  double count_noise[6] = {};  // covariance of the count fractions that a wheel takes into a rest and leaves behind
 };
 struct SummedRun {
   std::vector<RelativeMotion> motions;  // [i] leads from truth sample i to i + 1

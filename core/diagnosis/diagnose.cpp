@@ -30,6 +30,7 @@ std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 
 
 InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset_s) {
   run.speeds_are_held = c.from_commands;
+  if (c.from_commands) run.smooth.clear();  // a command is what it is
   for (const auto& [from, to] : c.break_s) {
     bool behind = false;
     for (std::size_t i = 0; i < run.truth.size(); ++i) {

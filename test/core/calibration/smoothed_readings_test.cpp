@@ -1,4 +1,4 @@
-#include "core/calibration/smooth_counts.h"
+#include "core/calibration/smoothed_readings.h"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ std::vector<WheelSample> readings() {
   return all;
 }
 
-TEST(SmoothedCounts, KeepTimesAndEnds) {
-  const std::vector<WheelSample> raw = readings(), smooth = smoothed_counts(raw, kCount_rad);
+TEST(SmoothedReadings, KeepTimesAndEnds) {
+  const std::vector<WheelSample> raw = readings(), smooth = smoothed(raw);
   ASSERT_EQ(smooth.size(), raw.size());
   for (std::size_t i = 0; i < raw.size(); ++i) EXPECT_EQ(smooth[i].time_s, raw[i].time_s);
   EXPECT_EQ(smooth.front().left_rad, raw.front().left_rad);
@@ -36,18 +36,18 @@ TEST(SmoothedCounts, KeepTimesAndEnds) {
   EXPECT_NEAR(smooth.back().right_rad, raw.back().right_rad, 1e-12);
 }
 
-TEST(SmoothedCounts, FollowAnEvenWheelToATenthOfACount) {
-  const std::vector<WheelSample> smooth = smoothed_counts(readings(), kCount_rad);
+TEST(SmoothedReadings, FollowAnEvenWheelToATenthOfACount) {
+  const std::vector<WheelSample> smooth = smoothed(readings());
   // Rounding down is half a count low in the mean. 16 steps of the saw are averaged: 1/16 of a count at most, twice
   // that where they are not whole.
   for (const WheelSample& s : smooth)
     if (s.time_s > 2.5 && s.time_s < 4.5) {
-      EXPECT_NEAR(s.left_rad + 0.5 * kCount_rad, turned_rad(s.time_s), 0.125 * kCount_rad);
+      EXPECT_NEAR(s.left_rad + 0.5 * kCount_rad, turned_rad(s.time_s), 0.1 * kCount_rad);
     }
 }
 
-TEST(SmoothedCounts, DifferencesHardlyKnowTheRoundingErrorOfTheReadings) {
-  const std::vector<WheelSample> raw = readings(), smooth = smoothed_counts(raw, kCount_rad);
+TEST(SmoothedReadings, DifferencesHardlyKnowTheRoundingErrorOfTheReadings) {
+  const std::vector<WheelSample> raw = readings(), smooth = smoothed(raw);
   double with_raw = 0.0, with_smooth = 0.0;
   for (std::size_t i = 0; i + 1 < raw.size(); ++i) {
     const double wrong =
@@ -56,12 +56,14 @@ TEST(SmoothedCounts, DifferencesHardlyKnowTheRoundingErrorOfTheReadings) {
     with_smooth += wrong * (smooth[i + 1].left_rad - smooth[i].left_rad);
   }
   EXPECT_GT(with_raw, 0.0);
-  EXPECT_LT(std::abs(with_smooth), 0.1 * with_raw);  // about one in the sixteen counts that are averaged
+  EXPECT_LT(std::abs(with_smooth), 0.05 * with_raw);  // one in fifty readings, and chance
 }
 
-TEST(SmoothedCounts, LeaveReadingsAloneThatAreNotCounted) {
-  const std::vector<WheelSample> raw = readings(), same = smoothed_counts(raw, 0.0);
-  for (std::size_t i = 0; i < raw.size(); ++i) EXPECT_EQ(same[i].right_rad, raw[i].right_rad);
+TEST(SmoothedReadings, AreTheReadingsWhereTheseAreFarApart) {
+  std::vector<WheelSample> raw;
+  for (int i = 0; i < 10; ++i) raw.push_back({0.5 * i, 0.1 * i * i, -0.2 * i});
+  const std::vector<WheelSample> same = smoothed(raw);
+  for (std::size_t i = 0; i < raw.size(); ++i) EXPECT_EQ(same[i].left_rad, raw[i].left_rad);
 }
 
 }  // namespace

@@ -1,15 +1,12 @@
-#include "core/calibration/smooth_counts.h"
-
-#include <cmath>
+#include "core/calibration/smoothed_readings.h"
 
 namespace odolab {
 
 namespace {
 
-constexpr double kCounts = 16.0, kHalfWindow_s = 0.25;
+constexpr double kHalfWindow_s = 0.25;
 
-void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel, double count_rad,
-            std::vector<WheelSample>& out) {
+void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel, std::vector<WheelSample>& out) {
   const int n = static_cast<int>(readings.size());
   const double rad_0 = readings[0].*wheel, time_0_s = readings[0].time_s;
   std::vector<double> sum_rad(n + 1, 0.0), sum_s(n + 1, 0.0);
@@ -23,28 +20,25 @@ void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel
       return i - h >= 0 && i + h < n && readings[i].time_s - readings[i - h].time_s <= kHalfWindow_s &&
              readings[i + h].time_s - readings[i].time_s <= kHalfWindow_s;
     };
-    const auto spans = [&](int h) {
-      return std::abs(readings[i + h].*wheel - readings[i - h].*wheel) > (kCounts - 0.5) * count_rad;
-    };
-    while (half > 0 && (!allowed(half) || spans(half - 1))) --half;
-    while (allowed(half + 1) && !spans(half)) ++half;
+    while (half > 0 && !allowed(half)) --half;
+    while (allowed(half + 1)) ++half;
+    if (half == 0) continue;
     const int from = i - half, to = i + half + 1;
     const double mean_rad = (sum_rad[to] - sum_rad[from]) / (to - from);
     const double mean_s = (sum_s[to] - sum_s[from]) / (to - from);
-    const double slope = half == 0 ? 0.0
-                                   : (readings[to - 1].*wheel - readings[from].*wheel) /
-                                         (readings[to - 1].time_s - readings[from].time_s);
+    const double slope =
+        (readings[to - 1].*wheel - readings[from].*wheel) / (readings[to - 1].time_s - readings[from].time_s);
     out[i].*wheel = rad_0 + mean_rad + slope * (readings[i].time_s - time_0_s - mean_s);
   }
 }
 
 }  // namespace
 
-std::vector<WheelSample> smoothed_counts(const std::vector<WheelSample>& readings, double count_rad) {
+std::vector<WheelSample> smoothed(const std::vector<WheelSample>& readings) {
   std::vector<WheelSample> out = readings;
-  if (readings.empty() || count_rad <= 0.0) return out;
-  smooth(readings, &WheelSample::left_rad, count_rad, out);
-  smooth(readings, &WheelSample::right_rad, count_rad, out);
+  if (readings.empty()) return out;
+  smooth(readings, &WheelSample::left_rad, out);
+  smooth(readings, &WheelSample::right_rad, out);
   return out;
 }
 
