@@ -322,6 +322,18 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
   for (const AcceptedEffect& a : joint.accepted) ask(a.effect, a.shape);
   const std::size_t known_effects = questions.size();
   for (const Confusion& c : confused) ask(c.alternative, c.shape);
+  // Beaten in the form that fits best, a name would come back in another.
+  std::vector<std::pair<std::size_t, std::size_t>> other_forms;  // confusion, question
+  for (std::size_t k = 0; k < confused.size(); ++k) {
+    const AcceptedEffect& own = joint.accepted[static_cast<std::size_t>(confused[k].accepted)];
+    for (std::size_t form = 0; form < own.effect->forms.size(); ++form) {
+      std::vector<double> shape = own.shape;
+      if (shape.back() == static_cast<double>(form) || confused[k].value.empty()) continue;
+      shape.back() = static_cast<double>(form);
+      other_forms.emplace_back(k, questions.size());
+      ask(own.effect, shape);
+    }
+  }
   for (const Visible& v : dark) ask(v.effect, v.shape);
 
   const JointModel drives = imagined(joint, all, range);
@@ -369,10 +381,24 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
     decision.needed = std::sqrt(2.0 * kClearlyBeaten) + kPower;
     pairs.push_back(decision);
   }
+  // The alternative, were it the one, told from the fitted name in another form.
+  for (const auto& [k, question] : other_forms) {
+    const auto a = static_cast<std::size_t>(confused[k].accepted);
+    Decision decision = pairs[k];
+    decision.from = first_column[known_effects + k];
+    decision.value =
+        Eigen::Map<const VectorXd>(confused[k].value.data(), static_cast<Eigen::Index>(confused[k].value.size()));
+    decision.free = shared;
+    for (std::size_t other = 0; other < known_effects; ++other)
+      if (other != a)
+        for (int c : columns_of(other)) decision.free.push_back(c);
+    for (int c : columns_of(question)) decision.free.push_back(c);
+    pairs.push_back(decision);
+  }
   // An effect of medium size, told from none.
   std::vector<Decision> sights;
   for (std::size_t k = 0; k < dark.size(); ++k) {
-    const std::size_t question = known_effects + confused.size() + k;
+    const std::size_t question = known_effects + confused.size() + other_forms.size() + k;
     const Effect& e = *dark[k].effect;
     Decision decision;
     decision.from = first_column[question] + dark[k].weakest;
@@ -401,8 +427,9 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
     std::size_t least = 0;
     for (std::size_t k = 1; k < pairs.size(); ++k)
       if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
-    const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(confused[least].accepted)];
-    const std::string names = a.effect->name + " from " + confused[least].alternative->name;
+    const Confusion& between = confused[least < confused.size() ? least : other_forms[least - confused.size()].first];
+    const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(between.accepted)];
+    const std::string names = a.effect->name + " from " + between.alternative->name;
     if (plan.any && plan.reached[least] >= 0.7 * pairs[least].needed) {
       out.next_drive =
           in_words(plan, all) + ": tells " + names +

@@ -15,6 +15,7 @@ struct Confusion {
   int accepted = 0;
   const Effect* alternative = nullptr;
   std::vector<double> shape;  // of the alternative
+  std::vector<double> value;  // its amplitudes, were it the one
   double inflation = 1.0;     // of the evidence
 };
 

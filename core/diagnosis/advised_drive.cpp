@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/calibration/smoothed_readings.h"
+
 namespace odolab {
 
 namespace {
@@ -139,6 +141,7 @@ InnovationRun run_of(const AdvisedDrive& m, const DrivingRange& range, const Dif
     pose = {pose.x_m + v * dt * std::cos(middle), pose.y_m + v * dt * std::sin(middle), pose.heading_rad + w * dt};
   }
   run.set_aside.assign(run.truth.size(), 0);
+  run.smooth = smoothed(run.wheels);
   return run;
 }
 

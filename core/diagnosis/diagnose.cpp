@@ -408,8 +408,15 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
   std::vector<Confusion> confused;
   for (std::size_t k = 0; k < joint.accepted.size() && d.verdict == Verdict::ambiguous; ++k)
-    for (const ScoredCandidate& c : selected.alternatives[k])
-      confused.push_back({static_cast<int>(k), c.effect, c.test.shape, selected.evidence[k].test.inflation});
+    for (const ScoredCandidate& c : selected.alternatives[k]) {
+      // Beaten in the form that fits best, it would come back in another.
+      const std::size_t forms = std::max<std::size_t>(1, c.effect->forms.size());
+      for (std::size_t form = 0; form < forms; ++form) {
+        std::vector<double> shape = c.test.shape;
+        if (forms > 1) shape.back() = static_cast<double>(form);
+        confused.push_back({static_cast<int>(k), c.effect, shape, c.test.value, selected.evidence[k].test.inflation});
+      }
+    }
   const Advice next = advice(joint, confused, options.family_wise_error);
   d.not_testable = next.not_testable;
   int testable = 0, entries = 0;

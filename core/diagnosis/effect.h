@@ -82,6 +82,9 @@ struct Effect {
   std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
+  // Whether such amplitudes are more than whole counts can feign, given what a count of either wheel turns into; empty:
+  // anything is.
+  std::function<bool(const std::vector<double>& value, double count_m, double wheelbase_m)> beyond_counts;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
   bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement

@@ -135,13 +135,19 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
         std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
     best.test.cross_validated = best.test.statistic;
   }
+  if (e.beyond_counts && !best.test.value.empty()) {
+    const auto& run = joint.runs()[static_cast<std::size_t>(best.test.shape[0])];
+    const DifferentialDrive& drive = joint.model.drive;
+    const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+    best.beyond_counts = e.beyond_counts(best.test.value, count_rad(run, drive) * radius_m, drive.wheelbase_m);
+  }
   const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
   best.p_value = std::min(1.0, tail * std::exp(log_tests));
   return best;
 }
 
 bool stands(const ScoredCandidate& c, double family_wise_error) {
-  return c.p_value < family_wise_error && c.test.cross_validated > 0.0;
+  return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
 }
 
 bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {

@@ -12,7 +12,8 @@ namespace odolab {
 struct ScoredCandidate {
   const Effect* effect = nullptr;
   CandidateTest test;
-  double p_value = 1.0;  // family-wise
+  double p_value = 1.0;       // family-wise
+  bool beyond_counts = true;  // more than whole counts can feign
 };
 
 // Every entry's best shape, judged against the model as it is; best first.

@@ -20,6 +20,10 @@ std::vector<Effect> collision() {
   e.told_apart_by = "the same way driven again: a push does not come back";
   e.local = true;
   e.of_one_recording = true;
+  // Both wheels may stop half a count off, the other way than they set off.
+  e.beyond_counts = [](const std::vector<double>& value, double count_m, double wheelbase_m) {
+    return std::abs(value[2]) > 2.0 * count_m / wheelbase_m || std::hypot(value[0], value[1]) > 2.0 * count_m;
+  };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);
