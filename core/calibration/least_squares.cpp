@@ -135,13 +135,22 @@ class Fit {
     if (batches > 0) options.batch = std::max(1, truth_samples() / batches);
     const int n = static_cast<int>(runs_.size());
     std::vector<InnovationSums> of_run(n);
-    parallel_for(n, [&](int r) {
+    each(n, [&](int r) {
       const InnovationModel model = parameters.of(r);
       of_run[r] = filtered(runs_[r], summed_up(runs_[r], model), model, options);
     });
     Sums total = none();
     for (int r = 0; r < n; ++r) add(total, r, of_run[r]);
     return total;
+  }
+
+  // On all cores where that is worth starting threads for.
+  void each(int count, const std::function<void(int)>& work) const {
+    constexpr int kWorthThreads = 5000;
+    if (truth_samples() > kWorthThreads)
+      parallel_for(count, work);
+    else
+      for (int i = 0; i < count; ++i) work(i);
   }
 
   // Levenberg and Marquardt on sum nu' S^-1 nu plus the prior of the active parameters; `weight` 0 leaves the prior
@@ -206,7 +215,7 @@ class Fit {
     };
     const auto objective = [&](const std::vector<double>& logs) {
       std::vector<InnovationSums> of_stretch(stretches.size());
-      parallel_for(static_cast<int>(stretches.size()), [&](int i) {
+      each(static_cast<int>(stretches.size()), [&](int i) {
         const Stretch& s = stretches[i];
         InnovationModel model = now_.of(s.run);
         model.noise = noise_of(logs);

@@ -241,7 +241,7 @@ void JointModel::fit_noise() {
     const int runs = static_cast<int>(runs_.size());
     std::vector<double> sum_of(runs, 0.0);
     std::vector<int> scalars_of(runs, 0);
-    parallel_for(runs, [&](int r) {
+    const auto of_run = [&](int r) {
       InnovationModel m = model_of(r);
       m.noise = noise_of(logs);
       FilterOptions options;
@@ -255,7 +255,11 @@ void JointModel::fit_noise() {
         sum_of[r] += s.chi2 + s.log_determinant;
         scalars_of[r] += s.scalars;
       }
-    });
+    };
+    if (samples > kNoiseSamples)
+      parallel_for(runs, of_run);
+    else  // not worth starting threads for
+      for (int r = 0; r < runs; ++r) of_run(r);
     double sum = 0.0;
     int scalars = 0;
     for (int r = 0; r < runs; ++r) sum += sum_of[r], scalars += scalars_of[r];

@@ -49,8 +49,8 @@ struct ExperimentReport {
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   int cases = 0;  // how many are drawn, where the experiment draws; 0: its own number
-  std::string
-      recordings;  // the folder of real recordings, where the experiment reads such; empty: where they are by habit
+  // The folder of real recordings, where the experiment reads such; empty: where they are by habit.
+  std::string recordings = {};
 };
 
 // The result depends on the options alone, not on the number of threads. Where `progress` says stop the report holds
