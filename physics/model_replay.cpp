@@ -15,7 +15,7 @@ namespace odolab {
 
 namespace {
 
-// Against recordings of 10 to 200 samples a second; the figures move by less than their last digit at 1 ms.
+// Finer than the recordings are, of 10 to 200 samples a second; a simulation at 1 ms would take four times as long.
 constexpr double kStep_s = 0.004;
 
 bool has(const ActiveEffect& active, const std::string& name) {
