@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scenario/scenario.h"
+#include "physics/wheel_pair.h"
 
 namespace odolab {
 
@@ -15,6 +16,10 @@ class WheelDrive {
 
   // Advances by one step towards the set speed. Returns the mean speed over the step, which the tread then has.
   double advance(double set_speed_radps, double traction_n, double step_s);
+  // The same for two wheels that move one body: `shared_inertia_kgm2` is how much of it the one feels when the other
+  // is accelerated. Without it a body that is heavier to turn than to push makes its wheels chatter.
+  static WheelPair advance_together(WheelDrive& left, WheelDrive& right, double shared_inertia_kgm2,
+                                    WheelPair set_speed_radps, WheelPair traction_n, double step_s);
   // The wheel is turned from outside to a speed; the motor takes it as its own.
   void turn_at(double speed_radps, double step_s);
 
@@ -22,6 +27,9 @@ class WheelDrive {
   double rotation_rad() const { return rotation_rad_; }
 
  private:
+  double torque_nm(double set_speed_radps, double step_s);
+  double accelerated(double acceleration_radps2, double step_s);
+
   Motor motor_;
   double radius_m_;
   double carried_inertia_kgm2_;

@@ -2,6 +2,15 @@
 
 namespace odolab {
 
+namespace {
+
+// How much of the body a wheel moves when it is accelerated alone, as a mass at its rim.
+double carried_mass_kg(const ActualDrive& a) {
+  return 0.25 * a.mass_kg + a.moment_of_inertia_kgm2 / (a.wheelbase_m * a.wheelbase_m);
+}
+
+}  // namespace
+
 DrivenAxle::DrivenAxle(PlanarWorld& world, int body, Vec2 centre, const ActualDrive& a, const Motor& motor,
                        double step_s, const planar::Effects& effects, int number)
     : world_(&world),
@@ -11,16 +20,17 @@ DrivenAxle::DrivenAxle(PlanarWorld& world, int body, Vec2 centre, const ActualDr
       wheel_load_n_(0.5 * a.drive_wheel_load_share * a.mass_kg * kGravity_mps2),
       moment_of_inertia_kgm2_(a.moment_of_inertia_kgm2),
       wheelbase_m_(a.wheelbase_m),
+      shared_inertia_kgm2_((0.5 * a.mass_kg - carried_mass_kg(a)) * a.wheel_radius_left_m * a.wheel_radius_right_m),
       number_(number),
       wheels_{Wheel{WheelDrive(motor, a.wheel_radius_left_m,
-                               0.5 * a.mass_kg * a.wheel_radius_left_m * a.wheel_radius_left_m),
+                               carried_mass_kg(a) * a.wheel_radius_left_m * a.wheel_radius_left_m),
                     Side::left,
                     centre + Vec2{0.0, 0.5 * a.wheelbase_m},
                     a.wheel_radius_left_m,
                     a.toe_left_rad,
                     {std::cos(a.toe_left_rad), std::sin(a.toe_left_rad)}},
               Wheel{WheelDrive(motor, a.wheel_radius_right_m,
-                               0.5 * a.mass_kg * a.wheel_radius_right_m * a.wheel_radius_right_m),
+                               carried_mass_kg(a) * a.wheel_radius_right_m * a.wheel_radius_right_m),
                     Side::right,
                     centre + Vec2{0.0, -0.5 * a.wheelbase_m},
                     a.wheel_radius_right_m,
@@ -31,8 +41,11 @@ DrivenAxle::DrivenAxle(PlanarWorld& world, int body, Vec2 centre, const ActualDr
 }
 
 void DrivenAxle::turn_motors(WheelPair set) {
-  turn(wheels_[0], wheels_[0].drive.advance(set.left, wheels_[0].state.traction_n, step_s_));
-  turn(wheels_[1], wheels_[1].drive.advance(set.right, wheels_[1].state.traction_n, step_s_));
+  const WheelPair turned =
+      WheelDrive::advance_together(wheels_[0].drive, wheels_[1].drive, shared_inertia_kgm2_, set,
+                                   {wheels_[0].state.traction_n, wheels_[1].state.traction_n}, step_s_);
+  turn(wheels_[0], turned.left);
+  turn(wheels_[1], turned.right);
 }
 
 void DrivenAxle::turn_exactly(WheelPair speed) {

@@ -64,6 +64,7 @@ class DrivenAxle {
   double wheel_load_n_;
   double moment_of_inertia_kgm2_;
   double wheelbase_m_;
+  double shared_inertia_kgm2_;
   int number_;
   std::array<Wheel, 2> wheels_;
   const planar::Effects* effects_;

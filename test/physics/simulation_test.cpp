@@ -45,6 +45,33 @@ double largest_error_m(const Scenario& scenario, const std::vector<Vec2>& corner
   return std::max(largest, length(end - corners.back()));
 }
 
+// A body with far-out masses: at the wheel's rim it is four times as heavy to turn as to push.
+TEST(Simulation, WheelsOfABodyThatIsHeavyToTurnDoNotChatter) {
+  WheelSpeedPath path;
+  for (const double w : {3.0, -3.0, 2.0, -2.0}) path.phases.push_back({3.0, -w, w});
+  Scenario scenario;
+  scenario.path = path;
+  const double b = scenario.actual.wheelbase_m;
+  scenario.actual.moment_of_inertia_kgm2 = scenario.actual.mass_kg * b * b;
+  Simulation simulation(scenario, 1);
+  // A motor's torque at the rim, less than the grip: a wheel can only pull harder while it chatters.
+  const double rim_n = scenario.motor.torque_limit_nm / scenario.actual.wheel_radius_left_m;
+  ASSERT_LT(rim_n,
+            0.5 * scenario.floor.friction * scenario.actual.drive_wheel_load_share * scenario.actual.mass_kg * 9.81);
+  double largest_n = 0.0;
+  while (!simulation.state().finished) {
+    simulation.step();
+    largest_n = std::max(largest_n, std::abs(simulation.state().left.traction_n));
+  }
+  EXPECT_LT(largest_n, rim_n);
+  // Nothing slips, so the heading is that of the wheels; the solver works in single precision.
+  const SimulationState& s = simulation.state();
+  const double by_wheels_rad = (scenario.actual.wheel_radius_right_m * s.right.rotation_rad -
+                                scenario.actual.wheel_radius_left_m * s.left.rotation_rad) /
+                               b;
+  EXPECT_NEAR(wrapped(s.true_pose.heading_rad - by_wheels_rad), 0.0, 1e-6);
+}
+
 TEST(Simulation, StaysWithinFiftyMicrometresOfTheClosedFormOverASquare) {
   for (const double away_m : {0.0, 100.0}) {
     WheelSpeedPath path;
