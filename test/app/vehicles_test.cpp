@@ -122,6 +122,7 @@ TEST(EveryVehicle, ShowsChosenEstimatorsAsTracksAndCurvesAndTheirReturnErrorsInT
   session.execute(ui::Play{});
   for (int i = 0; i < 2000 && !session.run().finished(); ++i) session.advance(0.1, kAlways);
   ASSERT_TRUE(session.run().finished());
+  session.advance(0.1, kAlways);  // what is shown follows what was reckoned by a frame
   const ui::Theme theme = ui::make_theme(false, 1.0f);
   const SimulationState shown = session.run().shown();
   EXPECT_EQ(drive_scene(session, shown, theme).tracks.size(), 2u);
