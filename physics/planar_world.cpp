@@ -1,8 +1,10 @@
 #include "physics/planar_world.h"
 
-#include <box2d/box2d.h>
+#include "physics/planar_world_solver.h"
 
 namespace odolab {
+
+using namespace planar_world;
 
 namespace {
 
@@ -10,100 +12,113 @@ namespace {
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
-b2Vec2 single(Vec2 v) { return {static_cast<float>(v.x_m), static_cast<float>(v.y_m)}; }
-Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
-Vec2 turned(Vec2 v, double c, double s) { return {c * v.x_m - s * v.y_m, s * v.x_m + c * v.y_m}; }
-
-struct Body {
-  Pose pose;
-  Vec2 velocity_mps;
-  double yaw_rate_radps = 0.0;
-  Vec2 force_n;
-  double torque_nm = 0.0;
-  double mass_kg = 1.0;
-  double inertia_kgm2 = 1.0;
-  b2Body* solved = nullptr;
-  // In the frame of the solution, during a step:
-  Vec2 place;
-  double cos_turn = 1.0, sin_turn = 0.0;
-  double turn_rad = 0.0;
-  double middle_rad = 0.0;  // heading on the floor in the middle of the step, as it came out
-};
-
-// A rigid joint in double: where it is to be put right after each step.
-struct Rigid {
-  int a = 0, b = 1;
-  Vec2 anchor_a, anchor_b;
-  bool along_line = false;
-  double direction_rad = 0.0;
-};
-
-struct FreeWheel {
-  int body = 0;
-  Vec2 place;
-  double direction_rad = 0.0;
-  double force_n = 0.0;
-  b2Body* floor = nullptr;
-  b2WheelJoint* joint = nullptr;
-};
-
-struct Tread {
-  int body = 0;
-  Vec2 place;
-  Vec2 velocity_mps;
-  Vec2 force_n;
-  b2Body* floor = nullptr;
-  b2FrictionJoint* joint = nullptr;
-};
-
 }  // namespace
 
-struct PlanarWorld::Solver {
-  explicit Solver(double step) : step_s(step), world(b2Vec2(0.0f, 0.0f)) {
-    world.SetAllowSleeping(false);
-    world.SetContinuousPhysics(false);
+// Moves two bodies, each the less the heavier it is, so that point b of body b comes to lie on point a of body a, or
+// on the line through it. Linear in the small gap (README, Eq. 7).
+void PlanarWorld::Solver::close_gap(const Rigid& joint) {
+  Body& a = bodies[static_cast<std::size_t>(joint.a)];
+  Body& b = bodies[static_cast<std::size_t>(joint.b)];
+  const Vec2 ra = turned(joint.anchor_a, std::cos(a.pose.heading_rad), std::sin(a.pose.heading_rad));
+  const Vec2 rb = turned(joint.anchor_b, std::cos(b.pose.heading_rad), std::sin(b.pose.heading_rad));
+  const Vec2 gap = b.pose.position() + rb - a.pose.position() - ra;
+  const double ma = 1.0 / a.mass_kg, mb = 1.0 / b.mass_kg;
+  const double ia = 1.0 / a.inertia_kgm2, ib = 1.0 / b.inertia_kgm2;
+  Vec2 impulse;  // on b, against it on a
+  Vec2 arm_a = ra;
+  if (joint.along_line) {
+    const double across_rad = a.pose.heading_rad + joint.direction_rad + 0.5 * kPi;
+    const Vec2 across{std::cos(across_rad), std::sin(across_rad)};
+    arm_a = ra + gap;  // the line is fixed to a, and b's point lies somewhere on it
+    const double ka = cross(arm_a, across), kb = cross(rb, across);
+    impulse = (-dot(gap, across) / (ma + mb + ia * ka * ka + ib * kb * kb)) * across;
+  } else {
+    const double kxx = ma + mb + ia * ra.y_m * ra.y_m + ib * rb.y_m * rb.y_m;
+    const double kxy = -ia * ra.x_m * ra.y_m - ib * rb.x_m * rb.y_m;
+    const double kyy = ma + mb + ia * ra.x_m * ra.x_m + ib * rb.x_m * rb.x_m;
+    const double det = kxx * kyy - kxy * kxy;
+    impulse = {-(kyy * gap.x_m - kxy * gap.y_m) / det, -(kxx * gap.y_m - kxy * gap.x_m) / det};
   }
+  a.pose = {a.pose.x_m - ma * impulse.x_m, a.pose.y_m - ma * impulse.y_m,
+            a.pose.heading_rad - ia * cross(arm_a, impulse)};
+  b.pose = {b.pose.x_m + mb * impulse.x_m, b.pose.y_m + mb * impulse.y_m, b.pose.heading_rad + ib * cross(rb, impulse)};
+}
 
-  double step_s;
-  b2World world;
-  std::vector<Body> bodies;
-  std::vector<Tread> treads;
-  std::vector<FreeWheel> free_wheels;
-  std::vector<Rigid> rigid_joints;
+void PlanarWorld::Solver::add_spring(Spring spring, double frequency_hz, double damping_ratio) {
+  const double ma = bodies[static_cast<std::size_t>(spring.a)].mass_kg;
+  const double mb = bodies[static_cast<std::size_t>(spring.b)].mass_kg;
+  const double mass_kg = ma * mb / (ma + mb), rate = 2.0 * kPi * frequency_hz;
+  spring.stiffness_npm = mass_kg * rate * rate;
+  spring.damping_nspm = 2.0 * mass_kg * damping_ratio * rate;
+  springs.push_back(spring);
+}
 
-  // Moves two bodies, each the less the heavier it is, so that point b of body b comes to lie on point a of body a, or
-  // on the line through it. Linear in the small gap (README, Eq. 7).
-  void close_gap(const Rigid& joint) {
-    Body& a = bodies[static_cast<std::size_t>(joint.a)];
-    Body& b = bodies[static_cast<std::size_t>(joint.b)];
-    const Vec2 ra = turned(joint.anchor_a, std::cos(a.pose.heading_rad), std::sin(a.pose.heading_rad));
-    const Vec2 rb = turned(joint.anchor_b, std::cos(b.pose.heading_rad), std::sin(b.pose.heading_rad));
-    const Vec2 gap = b.pose.position() + rb - a.pose.position() - ra;
-    const double ma = 1.0 / a.mass_kg, mb = 1.0 / b.mass_kg;
-    const double ia = 1.0 / a.inertia_kgm2, ib = 1.0 / b.inertia_kgm2;
-    Vec2 impulse;  // on b, against it on a
-    Vec2 arm_a = ra;
-    if (joint.along_line) {
-      const double across_rad = a.pose.heading_rad + joint.direction_rad + 0.5 * kPi;
-      const Vec2 across{std::cos(across_rad), std::sin(across_rad)};
-      arm_a = ra + gap;  // the line is fixed to a, and b's point lies somewhere on it
-      const double ka = cross(arm_a, across), kb = cross(rb, across);
-      impulse = (-dot(gap, across) / (ma + mb + ia * ka * ka + ib * kb * kb)) * across;
-    } else {
-      const double kxx = ma + mb + ia * ra.y_m * ra.y_m + ib * rb.y_m * rb.y_m;
-      const double kxy = -ia * ra.x_m * ra.y_m - ib * rb.x_m * rb.y_m;
-      const double kyy = ma + mb + ia * ra.x_m * ra.x_m + ib * rb.x_m * rb.x_m;
-      const double det = kxx * kyy - kxy * kxy;
-      impulse = {-(kyy * gap.x_m - kxy * gap.y_m) / det, -(kxx * gap.y_m - kxy * gap.x_m) / det};
+void PlanarWorld::Solver::take_forces() {
+  solved_exactly = false;
+  const float inverse_step = 1.0f / static_cast<float>(step_s);
+  for (Tread& tread : treads) {
+    tread.change_mps = 0.0;
+    const Body& body = bodies[tread.body];
+    tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
+  }
+  for (FreeWheel& wheel : free_wheels) {
+    const Body& body = bodies[wheel.body];
+    const Vec2 force = turned(twice(wheel.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
+    wheel.force_n = dot(force, {-std::sin(wheel.direction_rad), std::cos(wheel.direction_rad)});
+  }
+}
+
+void PlanarWorld::Solver::solve_with_box2d() {
+  const double h = step_s;
+  // The frame of the solution: where body 0 will be at the middle of the step, moving with it (README, Eqs. 1, 2).
+  const Body& lead = bodies[0];
+  const double frame_rad = lead.pose.heading_rad + 0.5 * h * lead.yaw_rate_radps;
+  const double c = std::cos(frame_rad), s = std::sin(frame_rad);
+  const Vec2 frame_place = lead.pose.position() + (0.5 * h) * lead.velocity_mps;
+  const Vec2 frame_velocity = turned(lead.velocity_mps, c, -s);
+  const double frame_rate = lead.yaw_rate_radps;
+  const auto frame_velocity_at = [&](Vec2 p) {
+    return Vec2{frame_velocity.x_m - frame_rate * p.y_m, frame_velocity.y_m + frame_rate * p.x_m};
+  };
+
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (i > 0) {
+      const Vec2 middle = body.pose.position() + (0.5 * h) * body.velocity_mps;
+      body.place = turned(middle - frame_place, c, -s);
+      body.turn_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps - frame_rad;
+      body.cos_turn = std::cos(body.turn_rad);
+      body.sin_turn = std::sin(body.turn_rad);
     }
-    a.pose = {a.pose.x_m - ma * impulse.x_m, a.pose.y_m - ma * impulse.y_m,
-              a.pose.heading_rad - ia * cross(arm_a, impulse)};
-    b.pose = {b.pose.x_m + mb * impulse.x_m, b.pose.y_m + mb * impulse.y_m,
-              b.pose.heading_rad + ib * cross(rb, impulse)};
+    body.solved->SetTransform(single(body.place), static_cast<float>(body.turn_rad));
+    body.solved->SetLinearVelocity(single(turned(body.pushed_mps, c, -s) - frame_velocity_at(body.place)));
+    body.solved->SetAngularVelocity(static_cast<float>(body.pushed_radps - frame_rate));
   }
-};
+  for (Tread& tread : treads) {
+    const Body& body = bodies[tread.body];
+    const Vec2 place = body.place + turned(tread.place, body.cos_turn, body.sin_turn);
+    const Vec2 velocity = turned(tread.velocity_mps, body.cos_turn, body.sin_turn);
+    tread.floor->SetTransform(single(place), 0.0f);
+    tread.floor->SetLinearVelocity(single(velocity - frame_velocity_at(place)));
+  }
+  for (FreeWheel& wheel : free_wheels) {
+    const Body& body = bodies[wheel.body];
+    const Vec2 place = body.place + turned(wheel.place, body.cos_turn, body.sin_turn);
+    wheel.floor->SetTransform(single(place), static_cast<float>(body.turn_rad + wheel.direction_rad));
+    wheel.floor->SetLinearVelocity(single(-1.0 * frame_velocity_at(place)));
+  }
 
-PlanarWorld::PlanarWorld(double step_s) : solver_(std::make_unique<Solver>(step_s)) {}
+  world.Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
+
+  for (Body& body : bodies) {
+    const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
+    body.next_mps = turned(velocity, c, s);
+    body.next_radps = frame_rate + body.solved->GetAngularVelocity();
+    body.solved_at_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps;
+  }
+}
+
+PlanarWorld::PlanarWorld(double step_s, Friction exact) : solver_(std::make_unique<Solver>(step_s, exact)) {}
 PlanarWorld::~PlanarWorld() = default;
 PlanarWorld::PlanarWorld(PlanarWorld&&) noexcept = default;
 PlanarWorld& PlanarWorld::operator=(PlanarWorld&&) noexcept = default;
@@ -112,7 +127,7 @@ int PlanarWorld::add_body(const BodyDefinition& definition) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.allowSleep = false;
-  Body body;
+  Solver::Body body;
   body.pose = definition.pose;
   body.mass_kg = definition.mass_kg;
   body.inertia_kgm2 = definition.moment_of_inertia_kgm2;
@@ -130,7 +145,7 @@ int PlanarWorld::add_tread(int body, Vec2 place) {
   b2BodyDef def;
   def.type = b2_kinematicBody;
   def.allowSleep = false;
-  Tread tread;
+  Solver::Tread tread;
   tread.body = body;
   tread.place = place;
   tread.floor = solver_->world.CreateBody(&def);
@@ -161,6 +176,8 @@ void PlanarWorld::add_spring(const SpringDefinition& d) {
   b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz),
                     static_cast<float>(d.damping_ratio), a, b);
   solver_->world.CreateJoint(&joint);
+  Solver::Spring spring{d.body_a, d.body_b, d.anchor_a, d.anchor_b, false, 0.0, d.rest_length_m, 0.0, 0.0};
+  solver_->add_spring(spring, d.frequency_hz, d.damping_ratio);
 }
 
 void PlanarWorld::add_pin(const PinDefinition& d) {
@@ -188,13 +205,16 @@ void PlanarWorld::add_slider(const SliderDefinition& d) {
                       static_cast<float>(d.damping_ratio), joint.bodyA, joint.bodyB);
   solver_->world.CreateJoint(&joint);
   solver_->rigid_joints.push_back({d.body_a, d.body_b, d.anchor_a, d.anchor_b, true, d.direction_rad});
+  if (d.frequency_hz > 0.0)
+    solver_->add_spring({d.body_a, d.body_b, d.anchor_a, d.anchor_b, true, d.direction_rad, 0.0, 0.0, 0.0},
+                        d.frequency_hz, d.damping_ratio);
 }
 
 int PlanarWorld::add_free_wheel(int body, Vec2 place, double direction_rad) {
   b2BodyDef def;
   def.type = b2_kinematicBody;
   def.allowSleep = false;
-  FreeWheel wheel;
+  Solver::FreeWheel wheel;
   wheel.body = body;
   wheel.place = place;
   wheel.direction_rad = direction_rad;
@@ -212,8 +232,21 @@ int PlanarWorld::add_free_wheel(int body, Vec2 place, double direction_rad) {
 
 void PlanarWorld::set_tread(int tread, Vec2 velocity_mps, double grip_n) {
   solver_->treads[tread].velocity_mps = velocity_mps;
+  solver_->treads[tread].grip_n = grip_n;
+  solver_->treads[tread].inertia_kg = 0.0;
   solver_->treads[tread].joint->SetMaxForce(static_cast<float>(grip_n));
 }
+
+void PlanarWorld::set_tread_drive(int tread, Vec2 direction, double inertia_kg, double free_change_mps) {
+  Solver::Tread& t = solver_->treads[tread];
+  t.direction = direction;
+  t.inertia_kg = inertia_kg;
+  t.free_change_mps = free_change_mps;
+}
+
+double PlanarWorld::tread_change_mps(int tread) const { return solver_->treads[tread].change_mps; }
+void PlanarWorld::soften_friction(double slip_mps) { solver_->sliding.softness_mps = slip_mps; }
+bool PlanarWorld::solved_exactly() const { return solver_->solved_exactly; }
 
 void PlanarWorld::set_velocity(int body, Vec2 velocity_mps, double yaw_rate_radps) {
   solver_->bodies[body].velocity_mps = velocity_mps;
@@ -227,78 +260,42 @@ void PlanarWorld::apply_force(int body, Vec2 force_n, double torque_nm) {
 
 void PlanarWorld::step() {
   const double h = solver_->step_s;
-  std::vector<Body>& bodies = solver_->bodies;
-  std::vector<Tread>& treads = solver_->treads;
-
-  // The frame of the solution: where body 0 will be at the middle of the step, moving with it (README, Eqs. 1, 2).
-  const Body& lead = bodies[0];
-  const double frame_rad = lead.pose.heading_rad + 0.5 * h * lead.yaw_rate_radps;
-  const double c = std::cos(frame_rad), s = std::sin(frame_rad);
-  const Vec2 frame_place = lead.pose.position() + (0.5 * h) * lead.velocity_mps;
-  const Vec2 frame_velocity = turned(lead.velocity_mps, c, -s);
-  const double frame_rate = lead.yaw_rate_radps;
-  const auto frame_velocity_at = [&](Vec2 p) {
-    return Vec2{frame_velocity.x_m - frame_rate * p.y_m, frame_velocity.y_m + frame_rate * p.x_m};
-  };
-
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (i > 0) {
-      const Vec2 middle = body.pose.position() + (0.5 * h) * body.velocity_mps;
-      body.place = turned(middle - frame_place, c, -s);
-      body.turn_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps - frame_rad;
-      body.cos_turn = std::cos(body.turn_rad);
-      body.sin_turn = std::sin(body.turn_rad);
-    }
-    const Vec2 pushed = body.velocity_mps + (h / body.mass_kg) * body.force_n;
-    const double pushed_rate = body.yaw_rate_radps + h / body.inertia_kgm2 * body.torque_nm;
-    body.solved->SetTransform(single(body.place), static_cast<float>(body.turn_rad));
-    body.solved->SetLinearVelocity(single(turned(pushed, c, -s) - frame_velocity_at(body.place)));
-    body.solved->SetAngularVelocity(static_cast<float>(pushed_rate - frame_rate));
+  std::vector<Solver::Body>& bodies = solver_->bodies;
+  for (Solver::Body& body : bodies) {
+    body.pushed_mps = body.velocity_mps + (h / body.mass_kg) * body.force_n;
+    body.pushed_radps = body.yaw_rate_radps + h / body.inertia_kgm2 * body.torque_nm;
     body.force_n = {};
     body.torque_nm = 0.0;
   }
-  for (Tread& tread : treads) {
-    const Body& body = bodies[tread.body];
-    const Vec2 place = body.place + turned(tread.place, body.cos_turn, body.sin_turn);
-    const Vec2 velocity = turned(tread.velocity_mps, body.cos_turn, body.sin_turn);
-    tread.floor->SetTransform(single(place), 0.0f);
-    tread.floor->SetLinearVelocity(single(velocity - frame_velocity_at(place)));
+  if (solver_->exact == Friction::in_every_step) {
+    for (Solver::Body& body : bodies) {
+      body.next_mps = body.pushed_mps + body.inner_mps;
+      body.next_radps = body.pushed_radps + body.inner_radps;
+    }
+    solver_->solve_sliding();
+  } else {
+    // A wheel that begins to hold is given one step more, so that Box2D takes over a settled motion.
+    solver_->solve_with_box2d();
+    if (solver_->slides || solver_->any_wheel_slides())
+      solver_->solve_sliding();
+    else
+      solver_->take_forces();
   }
-  for (FreeWheel& wheel : solver_->free_wheels) {
-    const Body& body = bodies[wheel.body];
-    const Vec2 place = body.place + turned(wheel.place, body.cos_turn, body.sin_turn);
-    wheel.floor->SetTransform(single(place), static_cast<float>(body.turn_rad + wheel.direction_rad));
-    wheel.floor->SetLinearVelocity(single(-1.0 * frame_velocity_at(place)));
-  }
-
-  solver_->world.Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
-
-  for (Body& body : bodies) {
-    const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
-    const double rate = frame_rate + body.solved->GetAngularVelocity();
-    const double correction_rad =
-        0.5 * h * (rate - body.yaw_rate_radps);  // to the middle heading as it came out (Eq. 4)
-    body.velocity_mps = turned(velocity, c, s);
-    body.yaw_rate_radps = rate;
+  for (Solver::Body& body : bodies) {
+    body.inner_mps = body.next_mps - body.pushed_mps;
+    body.inner_radps = body.next_radps - body.pushed_radps;
+    body.velocity_mps = body.next_mps;
+    body.yaw_rate_radps = body.next_radps;
+    body.middle_rad = body.pose.heading_rad + 0.5 * h * body.yaw_rate_radps;
+    const double correction_rad = body.middle_rad - body.solved_at_rad;  // to the middle heading as it came out (Eq. 4)
     const Vec2 travel = h * turned(body.velocity_mps, 1.0, correction_rad);
-    body.middle_rad = body.pose.heading_rad + 0.5 * h * rate;
-    body.pose = {body.pose.x_m + travel.x_m, body.pose.y_m + travel.y_m, body.pose.heading_rad + h * rate};
-  }
-  const float inverse_step = 1.0f / static_cast<float>(h);
-  for (Tread& tread : treads) {
-    const Body& body = bodies[tread.body];
-    tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
-  }
-  for (FreeWheel& wheel : solver_->free_wheels) {
-    const Body& body = bodies[wheel.body];
-    const Vec2 force = turned(twice(wheel.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
-    wheel.force_n = dot(force, {-std::sin(wheel.direction_rad), std::cos(wheel.direction_rad)});
+    body.pose = {body.pose.x_m + travel.x_m, body.pose.y_m + travel.y_m,
+                 body.pose.heading_rad + h * body.yaw_rate_radps};
   }
   // Joints that share a body open each other's gaps a little; a second sweep closes those.
   const int sweeps = solver_->rigid_joints.size() > 1 ? 2 : 1;
   for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (const Rigid& joint : solver_->rigid_joints) solver_->close_gap(joint);
+    for (const Solver::Rigid& joint : solver_->rigid_joints) solver_->close_gap(joint);
 }
 
 const Pose& PlanarWorld::pose(int body) const { return solver_->bodies[body].pose; }
@@ -309,7 +306,7 @@ Vec2 PlanarWorld::tread_force_n(int tread) const { return solver_->treads[tread]
 double PlanarWorld::free_wheel_force_n(int free_wheel) const { return solver_->free_wheels[free_wheel].force_n; }
 
 Vec2 PlanarWorld::velocity_of_point_mps(int body, Vec2 place) const {
-  const Body& b = solver_->bodies[static_cast<std::size_t>(body)];
+  const Solver::Body& b = solver_->bodies[static_cast<std::size_t>(body)];
   const Vec2 v = rotated(b.velocity_mps, -b.middle_rad);
   return {v.x_m - b.yaw_rate_radps * place.y_m, v.y_m + b.yaw_rate_radps * place.x_m};
 }

@@ -44,9 +44,13 @@ struct SliderDefinition {
   double damping_ratio = 0.7;
 };
 
+// How steps are solved. Box2D does those in which every wheel holds, and where one slides, the step is solved again
+// with exact friction in double; where contacts slide in nearly every step (tracks), Box2D is not asked.
+enum class Friction { where_it_slides, in_every_step };
+
 class PlanarWorld {
  public:
-  explicit PlanarWorld(double step_s);
+  explicit PlanarWorld(double step_s, Friction exact = Friction::where_it_slides);
   ~PlanarWorld();
   PlanarWorld(PlanarWorld&&) noexcept;
   PlanarWorld& operator=(PlanarWorld&&) noexcept;
@@ -64,6 +68,15 @@ class PlanarWorld {
   // What the tread does in the next step: the velocity over the floor that the wheel would give the body's point above
   // it if it did not slip (in the body's frame), and the force at which it starts to slip.
   void set_tread(int tread, Vec2 velocity_mps, double grip_n);
+  // The wheel hangs on a motor that feels the floor. In a step that is solved with exact friction, to the velocity just
+  // set comes a change along the wheel's direction (in the body's frame): `free_change_mps` without the floor's force,
+  // which it yields to by this inertia. What came of it is told afterwards; 0 where the wheels held and Box2D solved.
+  void set_tread_drive(int tread, Vec2 direction, double inertia_kg, double free_change_mps);
+  double tread_change_mps(int tread) const;
+  bool solved_exactly() const;  // the last step
+  // Below this slip exact friction is softer than Coulomb's law (1 nm/s if not said). Wheels that quarrel rigidly
+  // without slipping have no one solution, and a model of their creep that looks at their forces wants one.
+  void soften_friction(double slip_mps);
   // Sets a body in motion, as at the start of a run that begins while it moves.
   void set_velocity(int body, Vec2 velocity_mps, double yaw_rate_radps);
   // Acts during the next step alone; in the floor's frame, at the centre of mass.

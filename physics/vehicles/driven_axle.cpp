@@ -61,7 +61,7 @@ void DrivenAxle::turn_exactly(WheelPair speed) {
 
 // From the motor to the encoder and to the wheel.
 void DrivenAxle::turn(Wheel& wheel, double motor_speed_radps) {
-  wheel.mean_speed_radps = motor_speed_radps;
+  wheel.mean_speed_radps = wheel.motor_speed_radps = motor_speed_radps;
   if (effects_->empty()) {
     wheel.state.rotation_rad = wheel.state.counted_rad = wheel.drive.rotation_rad();
     return;
@@ -93,15 +93,44 @@ void DrivenAxle::before_step(const Ground& ground, const Floor& floor) {
         {wheel.side, contact_place, heading_rad + wheel.toe_rad, wheel.radius_m, wheel.travelled_m, number_});
     const double tread_mps =
         wheel.rolling_radius_m * wheel.mean_speed_radps * contact.horizontal_share * (1.0 - contact.slip);
+    wheel.metres_per_rad = wheel.rolling_radius_m * contact.horizontal_share * (1.0 - contact.slip);
     wheel.travelled_m += tread_mps * step_s_;
     wheel.tread_mps = tread_mps;
     wheel.grip_n = contact.friction * wheel_load_n_ * std::cos(floor.tilt_rad);
-    if (plain) world_->set_tread(wheel.tread, tread_mps * wheel.rolling_direction, wheel.grip_n);
+    if (plain) {
+      world_->set_tread(wheel.tread, tread_mps * wheel.rolling_direction, wheel.grip_n);
+      let_yield(wheel);
+    }
     wheel.state.on_bump = contact.on_bump;
     wheel.state.in_slip_zone = contact.in_slip_zone;
     wheel.state.slip_speed_mps = tread_mps;  // less the floor's, after the step
   }
   if (!plain) creep_with_effects(heading_rad);
+}
+
+void DrivenAxle::let_yield(const Wheel& wheel) {
+  const WheelDrive::Unloaded unloaded = wheel.drive.unloaded();
+  const double gear = wheel.metres_per_rad;
+  if (unloaded.inertia_kgm2 > 0.0 && gear > 0.0)
+    world_->set_tread_drive(wheel.tread, wheel.rolling_direction, unloaded.inertia_kgm2 / (gear * gear),
+                            gear * (unloaded.speed_radps - wheel.motor_speed_radps));
+}
+
+// The wheel turned a little more or less than its motor had meant.
+void DrivenAxle::take_yield(Wheel& wheel) {
+  const double change_mps = world_->tread_change_mps(wheel.tread);
+  const double change_radps = change_mps / wheel.metres_per_rad;
+  wheel.drive.settle_at(wheel.motor_speed_radps + change_radps);
+  wheel.mean_speed_radps += change_radps;
+  wheel.tread_mps += change_mps;
+  wheel.travelled_m += change_mps * step_s_;
+  wheel.state.slip_speed_mps += change_mps;
+  if (effects_->empty()) {
+    wheel.state.rotation_rad = wheel.state.counted_rad = wheel.drive.rotation_rad();
+  } else {
+    wheel.state.rotation_rad += change_radps * step_s_;
+    wheel.state.counted_rad += change_radps * step_s_;
+  }
 }
 
 void DrivenAxle::after_step() {
@@ -110,6 +139,8 @@ void DrivenAxle::after_step() {
   const Vec2 velocity{c * v.x_m + s * v.y_m, -s * v.x_m + c * v.y_m};  // of the centre, in the body's frame at mid-step
   const double rate = world_->yaw_rate_radps(body_);
   for (Wheel& wheel : wheels_) {
+    if (world_->solved_exactly() && wheel.drive.unloaded().inertia_kgm2 > 0.0 && wheel.metres_per_rad > 0.0)
+      take_yield(wheel);
     const Vec2 above{velocity.x_m - rate * wheel.place.y_m, velocity.y_m + rate * wheel.place.x_m};
     wheel.state.slip_speed_mps -= dot(above, wheel.rolling_direction);
     wheel.state.traction_n = dot(world_->tread_force_n(wheel.tread), wheel.rolling_direction);
@@ -156,6 +187,7 @@ void DrivenAxle::creep_with_effects(double heading_rad) {
     const Vec2 turning{-creep.yaw_rate_radps * wheel.place.y_m, creep.yaw_rate_radps * wheel.place.x_m};
     const Vec2 rolling = (wheel.tread_mps - wheel.slip_in_effect_mps) * wheel.rolling_direction;
     world_->set_tread(wheel.tread, rolling + creep.velocity_mps + turning, wheel.grip_n);
+    let_yield(wheel);
   }
   world_->apply_force(body_, mass_kg_ * rotated(creep.push_mps2, heading_rad),
                       moment_of_inertia_kgm2_ * creep.push_radps2);

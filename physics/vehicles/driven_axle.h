@@ -44,7 +44,9 @@ class DrivenAxle {
     Vec2 rolling_direction;  // in the body's frame
     int tread = 0;
     double travelled_m = 0.0;
-    double mean_speed_radps = 0.0;  // of the wheel, over the step
+    double motor_speed_radps = 0.0;  // over the step, as the motor means it before the floor has its say
+    double mean_speed_radps = 0.0;   // of the wheel, over the step
+    double metres_per_rad = 0.0;
     double rolling_radius_m = radius_m;
     double tread_mps = 0.0;  // along the wheel
     double slip_in_effect_mps = 0.0;
@@ -53,6 +55,8 @@ class DrivenAxle {
   };
 
   void turn(Wheel& wheel, double motor_speed_radps);
+  void let_yield(const Wheel& wheel);
+  void take_yield(Wheel& wheel);
   planar::VehicleMotion motion(double heading_rad) const;
   void roll_with_effects(double heading_rad);
   void creep_with_effects(double heading_rad);

@@ -9,7 +9,6 @@ PairOfTracks::PairOfTracks(PlanarWorld& world, int body, const DifferentialDrive
     : world_(&world),
       body_(body),
       step_s_(step_s),
-      grip_(world, body, carried.mass_kg, carried.moment_of_inertia_kgm2, step_s),
       tracks_{Track{WheelDrive(motor, sprockets.wheel_radius_left_m,
                                0.5 * carried.mass_kg * sprockets.wheel_radius_left_m * sprockets.wheel_radius_left_m),
                     Side::left, sprockets.wheel_radius_left_m},
@@ -26,7 +25,7 @@ PairOfTracks::PairOfTracks(PlanarWorld& world, int body, const DifferentialDrive
       Pad pad;
       pad.place = {x_m - actual.centre_of_mass_x_m, (track.side == Side::left ? 0.5 : -0.5) * sprockets.wheelbase_m};
       pad.load_n = carried.mass_kg * kGravity_mps2 / (2.0 * actual.pads) * (1.0 + tilt);
-      pad.grip = grip_.add_pad(pad.place);
+      pad.tread = world_->add_tread(body_, pad.place);
       track.pads.push_back(pad);
     }
 }
@@ -54,20 +53,18 @@ void PairOfTracks::before_step(const Ground& ground, const Floor& floor) {
       const Contact contact =
           ground.under({track.side, centre + rotated(pad.place, heading_rad), heading_rad, track.radius_m, 0.0, 0});
       pad.rolled_mps = track.radius_m * track.speed_radps * (1.0 - contact.slip);
-      grip_.set_pad(pad.grip, {pad.rolled_mps, 0.0}, contact.friction * pad.load_n * std::cos(floor.tilt_rad));
+      world_->set_tread(pad.tread, {pad.rolled_mps, 0.0}, contact.friction * pad.load_n * std::cos(floor.tilt_rad));
       track.state.in_slip_zone = track.state.in_slip_zone || contact.in_slip_zone;
     }
   }
-  grip_.before_step();
 }
 
 void PairOfTracks::after_step() {
-  grip_.after_step();
   for (Track& track : tracks_) {
     double slip_mps = 0.0, traction_n = 0.0;
     for (const Pad& pad : track.pads) {
       slip_mps += pad.rolled_mps - world_->velocity_of_point_mps(body_, pad.place).x_m;
-      traction_n += grip_.pad_force_n(pad.grip).x_m;
+      traction_n += world_->tread_force_n(pad.tread).x_m;
     }
     track.state.rotation_rad = track.state.counted_rad = track.drive.rotation_rad();
     track.state.speed_radps = track.drive.speed_radps();

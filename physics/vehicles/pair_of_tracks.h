@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/scenario/scenario.h"
-#include "physics/floor_grip.h"
 #include "physics/ground.h"
 #include "physics/planar_world.h"
 #include "physics/vehicles/wheel_state.h"
@@ -19,7 +18,7 @@ class PairOfTracks {
  public:
   // `sprockets`: their radii, and the tracks' distance as the wheelbase. `carried` says mass and inertia. The body's
   // frame is its centre of mass's; the tracks' middle lies `tracks.centre_of_mass_x_m` behind it. The world must
-  // outlive this.
+  // outlive this, and had better solve friction exactly in every step.
   PairOfTracks(PlanarWorld& world, int body, const DifferentialDrive& sprockets, const ActualTracks& tracks,
                const ActualDrive& carried, const Motor& motor, double step_s);
 
@@ -37,7 +36,7 @@ class PairOfTracks {
   struct Pad {
     Vec2 place;  // in the body's frame
     double load_n = 0.0;
-    int grip = 0;
+    int tread = 0;
     double rolled_mps = 0.0;
   };
   struct Track {
@@ -52,7 +51,6 @@ class PairOfTracks {
   PlanarWorld* world_;
   int body_;
   double step_s_;
-  FloorGrip grip_;
   std::array<Track, 2> tracks_;
 };
 

@@ -33,7 +33,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
         contact_length_m_(setup.scenario.machine.tracks.contact_length_m),
         tracks_middle_{-setup.scenario.machine.tracks.centre_of_mass_x_m, 0.0, 0.0},
         step_s_(setup.scenario.step_s),
-        world_(step_s_),
+        world_(step_s_, Friction::in_every_step),
         body_(world_.add_body(
             {setup.start * inverse(tracks_middle_), tow_mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         towed_(world_.add_body({setup.start * Pose{-actual.hitch_offset_m, 0.0, -hitch_at_start_rad(setup, actual)} *

@@ -7,7 +7,6 @@
 
 #include "core/base/random.h"
 #include "core/odometry/synchro_step.h"
-#include "physics/floor_grip.h"
 #include "physics/sensors/encoder.h"
 #include "physics/vehicles/axle_commands.h"
 #include "physics/vehicles/planar_vehicle.h"
@@ -16,6 +15,7 @@ namespace odolab {
 
 namespace {
 
+constexpr double kSoftSlip_mps = 0.02e-3;    // creep follows forces, and rigid wheels have none of their own
 constexpr double kTurretInertia_kgm2 = 0.5;  // seen at the steering motor; it decides how soon, not what
 
 class PlanarSynchroDrive final : public PlanarVehicle {
@@ -26,13 +26,13 @@ class PlanarSynchroDrive final : public PlanarVehicle {
         wheels_as_built_(setup.scenario.machine.synchro),
         mass_kg_(setup.scenario.actual.mass_kg),
         step_s_(setup.scenario.step_s),
-        world_(step_s_),
+        world_(step_s_, Friction::in_every_step),
         body_(world_.add_body({setup.start, mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         start_heading_rad_(setup.start.heading_rad),
-        grip_(world_, body_, mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2, step_s_),
         drive_(setup.scenario.motor, actual.wheel_radius_m, mass_kg_ * actual.wheel_radius_m * actual.wheel_radius_m),
         steering_(setup.scenario.motor, 1.0, kTurretInertia_kgm2),
         believed_{setup.start, setup.start.heading_rad} {
+    world_.soften_friction(kSoftSlip_mps);
     Random phases(setup.sensor_seed);
     drive_encoder_ = Encoder(nominal.drive_counts_per_revolution, phases.uniform());
     steering_encoder_ = Encoder(nominal.steering_counts_per_revolution, phases.uniform());
@@ -42,7 +42,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
       Wheel& wheel = wheels_[i];
       wheel.side = kSides[i];
       wheel.place = rotated({wheels_as_built_.wheel_circle_radius_m, 0.0}, angle_rad);
-      wheel.pad = grip_.add_pad(wheel.place);
+      wheel.tread = world_.add_tread(body_, wheel.place);
     }
   }
 
@@ -74,10 +74,8 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   // `steered_rad` as it was before this step.
   void step(const Ground& ground, const Floor& floor, double rolling_radps, double steered_rad) {
     set_treads(ground, floor, rolling_radps, 0.5 * (steered_rad + steering_.rotation_rad()) / actual_.steering_ratio);
-    grip_.before_step();
     pull_downhill(world_, body_, mass_kg_, floor);
     world_.step();
-    grip_.after_step();
     look_at_treads(rolling_radps);
   }
 
@@ -135,7 +133,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   struct Wheel {
     Side side = Side::middle;
     Vec2 place;  // in the base's frame
-    int pad = 0;
+    int tread = 0;
     Vec2 direction{1.0, 0.0};  // in the base's frame
     double rolled_mps = 0.0;
     double travelled_m = 0.0;
@@ -164,8 +162,8 @@ class PlanarSynchroDrive final : public PlanarVehicle {
                         wheel.travelled_m, static_cast<int>(i)});
       wheel.rolled_mps = radius_m * rolling_radps * contact.horizontal_share * (1.0 - contact.slip);
       wheel.travelled_m += wheel.rolled_mps * step_s_;
-      grip_.set_pad(wheel.pad, wheel.rolled_mps * wheel.direction - wheel.creep_mps,
-                    contact.friction * wheel_load_n() * std::cos(floor.tilt_rad));
+      world_.set_tread(wheel.tread, wheel.rolled_mps * wheel.direction - wheel.creep_mps,
+                       contact.friction * wheel_load_n() * std::cos(floor.tilt_rad));
       wheel.state.on_bump = contact.on_bump;
       wheel.state.in_slip_zone = contact.in_slip_zone;
     }
@@ -176,7 +174,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   void look_at_treads(double rolling_radps) {
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
       Wheel& wheel = wheels_[i];
-      const Vec2 force_n = grip_.pad_force_n(wheel.pad);
+      const Vec2 force_n = world_.tread_force_n(wheel.tread);
       if (wheels_as_built_.creep_stiffness > 0.0) {
         const double speed_mps = std::abs(wheel.rolled_mps);
         const double settled = speed_mps / (wheels_as_built_.creep_stiffness * wheel_load_n());
@@ -198,7 +196,6 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   PlanarWorld world_;
   int body_;
   double start_heading_rad_;
-  FloorGrip grip_;
   WheelDrive drive_, steering_;
   std::array<Wheel, 3> wheels_;
   Encoder drive_encoder_{1.0, 0.0}, steering_encoder_{1.0, 0.0};

@@ -21,7 +21,7 @@ class PlanarTracked final : public PlanarVehicle {
         mass_kg_(setup.scenario.actual.mass_kg),
         tracks_middle_{-setup.scenario.machine.tracks.centre_of_mass_x_m, 0.0, 0.0},
         step_s_(setup.scenario.step_s),
-        world_(step_s_),
+        world_(step_s_, Friction::in_every_step),
         body_(world_.add_body(
             {setup.start * inverse(tracks_middle_), mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         tracks_(world_, body_, sprockets_, setup.scenario.machine.tracks, setup.scenario.actual, setup.scenario.motor,
