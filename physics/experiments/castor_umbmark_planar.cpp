@@ -120,14 +120,14 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       {.sentence = "least squares on two castors is nearly IPEC",
        .holds = std::abs(planar_mm[0] / planar_mm[1] - 1.0) < 0.1,
        .because = "they differ by " + number_text("%.1f", 100.0 * std::abs(planar_mm[0] / planar_mm[1] - 1.0)) + " %"}};
-  report.assumptions = {
-      castor_prototype_assumption(),
-      "wheels that turn exactly as the nominal geometry says, on a floor of friction 0.8; parameters off "
-      "as in castor-umbmark; one square each way"};
+  report.assumptions = {castor_prototype_assumption(),
+                        "wheels driven at the speeds of the nominal geometry by the LabMate's motors (8 N m), on a "
+                        "floor of friction 0.8; "
+                        "parameters off as in castor-umbmark; one square each way"};
   report.notes = {
       "Wheels of machines that are not as drawn contradict each other through the rigid frame and slip, which "
-      "kinematics does "
-      "not know. How much depends on the drives: these are stiff; yielding ones would slip less."};
+      "kinematics does not know. Motors without limits that turn exactly as told give the same within a tenth of the "
+      "spread (seed 1: 361, 361 and 379 mm as built): a speed controller's integral lets no wheel lag for long."};
   return report;
 }
 

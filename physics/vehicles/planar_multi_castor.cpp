@@ -28,15 +28,6 @@ ActualDrive axle_of(const Castor& castor, double carried_kg, const ActualCastors
   return axle;
 }
 
-// Six wheels for three freedoms push against each other through a rigid frame. Motors that feel their wheels' traction
-// from the step before would chatter between slipping one way and the other (260 mm of slip seen on a figure-eight of
-// 12.6 m); so these turn exactly as told, like wheel servos much stiffer than the grip.
-Motor servo() {
-  Motor motor;
-  motor.ideal = true;
-  return motor;
-}
-
 // An encoder without steps counts finely enough for doubles.
 double counts_per_turn(double resolution_rad) { return resolution_rad > 0.0 ? 2.0 * kPi / resolution_rad : 1e12; }
 
@@ -48,7 +39,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
         weight_(setup.scenario.machine.castors),
         platform_kg_(setup.scenario.actual.mass_kg),
         step_s_(setup.scenario.step_s),
-        world_(step_s_),
+        world_(step_s_, Friction::in_every_step),
         platform_(world_.add_body({setup.start, platform_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         believed_(setup.start) {
     Random phases(setup.sensor_seed);
@@ -70,7 +61,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
       const double counts = counts_per_turn(nominal.wheel_encoder_resolution_rad);
       const double left_phase = phases.uniform(), right_phase = phases.uniform();
       castors_.push_back(
-          {body, DrivenAxle(world_, body, axle_centre, axle, servo(), step_s_, effects_[i], static_cast<int>(i)),
+          {body, DrivenAxle(world_, body, axle_centre, axle, setup.scenario.motor, step_s_, effects_[i], static_cast<int>(i)),
            Encoder(counts, left_phase), Encoder(counts, right_phase)});
     }
   }
