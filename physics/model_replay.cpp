@@ -38,10 +38,15 @@ Vec2 wheel_at(const Pose& axle, const std::string& component, const Vehicle& veh
   return axle * Vec2{0.0, component == "left_wheel" ? half_m : component == "right_wheel" ? -half_m : 0.0};
 }
 
-// The effect with those of its parameters that a scenario knows. Mounting and clock of the truth are in the calibrated
-// vehicle already, and would act twice.
-std::optional<ActiveEffect> for_scenario(const ActiveEffect& fitted, const Recording& recording,
-                                         const Vehicle& vehicle) {
+bool is_of_the_truth(const ActiveEffect& active) {
+  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
+}
+
+}  // namespace
+
+std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
+                                                const Vehicle& vehicle) {
+  if (is_of_the_truth(fitted)) return std::nullopt;  // in the calibrated vehicle already, they would act twice
   const EffectEntry* entry = effect_entry(fitted.effect);
   if (!entry) return std::nullopt;
   ActiveEffect active{fitted.effect, fitted.component, {}};
@@ -59,13 +64,8 @@ std::optional<ActiveEffect> for_scenario(const ActiveEffect& fitted, const Recor
   return active;
 }
 
-bool is_of_the_truth(const ActiveEffect& active) {
-  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
-}
-
-// Mean over all windows of all recordings.
-std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& errors,
-                                 const std::optional<FitFigures>& noise_floor) {
+std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackError>>& errors,
+                                         const std::optional<FitFigures>& noise_floor) {
   double position = 0.0, heading = 0.0;
   int windows = 0;
   for (const std::optional<TrackError>& e : errors) {
@@ -84,8 +84,6 @@ std::optional<FitFigures> joined(const std::vector<std::optional<TrackError>>& e
                               3.0;
   return figures;
 }
-
-}  // namespace
 
 // Each unit of a linked or castor vehicle driven alone by its own wheels: the joints say where it should come to.
 static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings, const FittedModel& before,
@@ -125,7 +123,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
       return (effect.recording.empty() || effect.recording == recording.name) &&
-             for_scenario(effect.active, recording, after.vehicle_in(recording.name));
+             effect_for_scenario(effect.active, recording, after.vehicle_in(recording.name));
     });
   };
   for (const FittedEffect& effect : after.effects)
@@ -140,14 +138,8 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const std::size_t i = static_cast<std::size_t>(job) % count;
     const FittedModel& model = static_cast<std::size_t>(job) < count ? before : after;
     const Recording& recording = recordings[i];
-    const Vehicle vehicle = model.vehicle_in(recording.name);
-    Scenario scenario = replay_scenario(vehicle, recording);
-    scenario.step_s = kStep_s;
-    for (const ActiveEffect& fitted : model.effects_in(recording.name))
-      if (const auto active = for_scenario(fitted, recording, vehicle); active && !is_of_the_truth(fitted))
-        scenario.effects.push_back(*active);
     const Result<Replay> replayed =
-        replay(scenario, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
+        replay_with(model, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
       errors[static_cast<std::size_t>(job)] = replayed->truth_has_headings ? replayed->simulated_error : std::nullopt;
     else
@@ -158,9 +150,21 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     return Error{"the simulation", "a stop by its user", "to come to the end"};
   for (const std::optional<Error>& failure : failures)
     if (failure) return *failure;
-  result.fit.calibrated = joined({errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count)}, noise_floor);
-  result.fit.with_findings = joined({errors.begin() + static_cast<std::ptrdiff_t>(count), errors.end()}, noise_floor);
+  result.fit.calibrated =
+      joined_figures({errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(count)}, noise_floor);
+  result.fit.with_findings =
+      joined_figures({errors.begin() + static_cast<std::ptrdiff_t>(count), errors.end()}, noise_floor);
   return result;
+}
+
+Result<Replay> replay_with(const FittedModel& model, const std::shared_ptr<const Recording>& recording,
+                           const Progress& progress) {
+  const Vehicle vehicle = model.vehicle_in(recording->name);
+  Scenario scenario = replay_scenario(vehicle, *recording);
+  scenario.step_s = kStep_s;
+  for (const ActiveEffect& fitted : model.effects_in(recording->name))
+    if (const auto active = effect_for_scenario(fitted, *recording, vehicle)) scenario.effects.push_back(*active);
+  return replay(scenario, recording, progress);
 }
 
 }  // namespace odolab

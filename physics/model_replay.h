@@ -1,6 +1,7 @@
 // A fitted model in the planar world: recordings driven with and without what was found, as a proof from other physics.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/recording/recording.h"
+#include "physics/replay.h"
 
 namespace odolab {
 
@@ -25,5 +27,19 @@ struct ModelReplay {
 Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
                                  const FittedModel& after, const std::optional<FitFigures>& noise_floor,
                                  const Progress& progress = {});
+
+// One recording driven by its own inputs with what of the model acts in it; of a linked vehicle the whole of it.
+Result<Replay> replay_with(const FittedModel& model, const std::shared_ptr<const Recording>& recording,
+                           const Progress& progress = {});
+
+// The effect as a scenario switches it on: with those of its parameters that a scenario knows, a bump that was found in
+// time laid on the floor. None where the planar world does not have it. Mounting and clock of the truth are the
+// vehicle's and none of a scenario's effects.
+std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
+                                                const Vehicle& vehicle);
+
+// Errors of several recordings as one: the mean over all their windows. None where none was judged.
+std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackError>>& errors,
+                                         const std::optional<FitFigures>& noise_floor = std::nullopt);
 
 }  // namespace odolab

@@ -8,10 +8,11 @@
 
 #include "core/guide/guide_session.h"
 #include "core/scenario/scenario.h"
+#include "ui/diagnosis_actions.h"
 
 namespace odolab::ui {
 
-enum class Mode { drive, calibrate, compare, learn };
+enum class Mode { drive, calibrate, compare, diagnose, learn };
 
 // The transport bar, of whatever the present mode plays.
 struct Play {};
@@ -107,6 +108,12 @@ struct ReplayWith {
 struct CalibrateFromRecording {};
 struct RecordSimulatedRun {};  // the present scenario, driven to its end, becomes the recording to compare
 
+// Diagnose.
+struct InDiagnosis {
+  DiagnosisAction what;
+};
+struct TakeDriveVehicle {};  // the vehicle of Drive is the one to diagnose
+
 // Files and the window.
 struct OpenFile {
   std::string path;
@@ -132,8 +139,8 @@ using Action =
                  DriveByHandInstead, DriveByHand, Push, Undo, Redo, StartBenchmark, ApplyCalibration, AdoptCalibration,
                  ClearBenchmark, CancelJob, ShowGuides, BeginGuide, ResumeGuide, LeaveGuide, ChangeGuide,
                  ChooseGuideVehicle, DriveGuide, ExportGuide, OpenLesson, LessonStepTo, AnswerLesson, AskMystery,
-                 LeaveLesson, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, OpenFile, SaveScenario,
-                 SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+                 LeaveLesson, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, InDiagnosis, TakeDriveVehicle,
+                 OpenFile, SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
 
 using Actions = std::vector<Action>;
 

@@ -34,7 +34,7 @@ struct Compare {
   std::size_t truth_samples = 0;
   std::string vehicle_name;
   std::string estimator = "dead reckoning";  // that the recording's own inputs were given to
-  double mass_kg = 0.0;  // that the simulation assumes
+  double mass_kg = 0.0;                      // that the simulation assumes
   ReplayVehicle vehicle = ReplayVehicle::nominal;
   std::optional<ReplayFigures> nominal, calibrated;
   const LeastSquaresCalibration* calibration = nullptr;

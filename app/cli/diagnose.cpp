@@ -5,6 +5,7 @@
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/io/diagnosis_html.h"
 #include "core/io/diagnosis_json.h"
@@ -12,8 +13,7 @@
 #include "core/io/import/imported_recording.h"
 #include "core/io/model_toml.h"
 #include "core/io/vehicle_toml.h"
-#include "core/recording/vehicle_samples.h"
-#include "physics/model_replay.h"
+#include "physics/confirmed_diagnosis.h"
 
 namespace odolab {
 
@@ -25,39 +25,6 @@ struct DiagnoseOptions {
   std::string json, model, html;
   bool skip_broken = false;
 };
-
-// What keeps a recording from being judged at all.
-std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
-  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
-    return Error{path + ": " + problems.front(), "", ""};
-  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
-    const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
-    if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
-  } else if (const std::string missing = missing_columns(recording, vehicle); !missing.empty()) {
-    return Error{path, "no " + missing, "the encoders of a " + kind_name(vehicle)};
-  }
-  if (units_of(vehicle).size() > 1) return std::nullopt;  // they judge each other
-  const std::size_t truths = truth_samples(recording).size();
-  if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
-  return std::nullopt;
-}
-
-// A recording's name stands for it in all that is said; where two files have one name, as much of the path as tells
-// them apart stands before it.
-void make_names_differ(std::vector<Recording>& recordings, const std::vector<std::string>& paths) {
-  std::vector<std::filesystem::path> rest(paths.begin(), paths.end());
-  for (bool changed = true; changed;) {
-    changed = false;
-    std::vector<std::string> names;
-    for (const Recording& r : recordings) names.push_back(r.name);
-    for (std::size_t i = 0; i < recordings.size(); ++i) {
-      rest[i] = rest[i].parent_path();
-      if (std::count(names.begin(), names.end(), names[i]) < 2 || rest[i].filename().empty()) continue;
-      recordings[i].name = rest[i].filename().string() + "/" + recordings[i].name;
-      changed = true;
-    }
-  }
-}
 
 struct Loaded {
   std::vector<Recording> recordings;
@@ -120,19 +87,12 @@ int execute(const DiagnoseOptions& options) {
   make_names_differ(all, paths);
   const auto first_held_out = all.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
 
-  Result<Diagnosis> diagnosis = diagnose({all.begin(), first_held_out}, {first_held_out, all.end()}, *nominal, {},
-                                         terminal_progress("diagnosing"));
+  const Result<Diagnosis> diagnosis = confirmed_diagnosis({all.begin(), first_held_out}, {first_held_out, all.end()},
+                                                          *nominal, terminal_progress("diagnosing"));
   if (!diagnosis) return bad_input(diagnosis.error());
-  const FittedModel model = model_of(*diagnosis);
-  const auto& noise_floor =
-      diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
-  const Result<ModelReplay> replayed = replay_model(all, calibrated_model_of(*diagnosis), model, noise_floor,
-                                                    terminal_progress("driving the simulator"));
-  if (!replayed) return bad_input(replayed.error());
-  diagnosis->simulation = replayed->fit;
-  for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);
 
-  if (Result<Done> written = write(options, *diagnosis, model); !written) return bad_input(written.error());
+  if (Result<Done> written = write(options, *diagnosis, model_of(*diagnosis)); !written)
+    return bad_input(written.error());
   for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
   for (const std::string& warning : diagnosis->warnings) print_message("warning: " + warning);
   for (const std::string* path : {&options.json, &options.model, &options.html})

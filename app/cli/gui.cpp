@@ -23,7 +23,10 @@ Command gui_command() {
     arguments.option("--height", options->height, "height of the window in pixels");
     arguments.option("--scale", options->scale,
                      "size of text and controls, 1 for an ordinary screen; 0: the monitor's");
-    arguments.option("--mode", options->mode, "drive, calibrate or compare");
+    arguments.option("--mode", options->mode, "drive, calibrate, compare, diagnose or learn");
+    arguments.option("--mystery", options->mystery,
+                     "in Diagnose: a robot whose missing physics is concealed, by number");
+    arguments.flag("--dark", options->dark, "with --screenshot: light on dark");
   };
   command.execute = [options] { return run_gui(*options); };
   return command;

@@ -30,6 +30,7 @@ std::optional<ui::Mode> mode_named(const std::string& name) {
   if (name == "drive") return ui::Mode::drive;
   if (name == "calibrate") return ui::Mode::calibrate;
   if (name == "compare") return ui::Mode::compare;
+  if (name == "diagnose") return ui::Mode::diagnose;
   if (name == "learn") return ui::Mode::learn;
   return std::nullopt;
 }
@@ -105,6 +106,16 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   }
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
     session.execute(ui::RecordSimulatedRun{});
+  if (session.mode() == ui::Mode::diagnose && !session.diagnosis().runs().empty()) {  // all that its buttons lead to
+    session.advance(0.0, [] { return false; });
+    session.execute(ui::InDiagnosis{ui::FindMissing{}});
+    session.advance(0.0, [] { return false; });
+    const std::size_t findings = session.diagnosis().switched_on().size();
+    for (std::size_t k = 0; k < findings; ++k) {
+      session.execute(ui::InDiagnosis{ui::SwitchFinding{k, true}});
+      session.advance(0.0, [] { return false; });
+    }
+  }
   session.advance(0.0, [] { return false; });  // takes in what opening the files has begun
   if (session.comparison().nominal() && session.comparison().can_be_calibrated()) {
     session.execute(ui::CalibrateFromRecording{});
@@ -123,7 +134,7 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
 int run_for_person(const GuiOptions& options, Session& session, Window& window, const Settings& settings) {
   ScreenState state = screen_state_of(settings);
   if (options.scale > 0.0) state.choices.scale = options.scale;
-  state.guide.export_folder = std::filesystem::current_path().string();
+  state.guide.export_folder = state.diagnosis.export_folder = std::filesystem::current_path().string();
   state.welcome.open = options.files.empty() && !settings.welcome_seen;
   state.example_files = example_files();
   std::size_t known_files = 0;
@@ -170,16 +181,21 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
 
 int run_gui(const GuiOptions& options) {
   const bool for_picture = !options.screenshot_path.empty();
-  const std::optional<ui::Mode> mode = mode_named(options.mode);
+  std::optional<ui::Mode> mode = mode_named(options.mode);
   if (!options.mode.empty() && !mode)
-    return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate, compare or learn"});
+    return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate, compare, diagnose or learn"});
   Session session(!for_picture, for_picture ? "" : guides_folder());
+  if (options.mystery >= 0) mode = ui::Mode::diagnose;
+  if (mode == ui::Mode::diagnose) session.execute(ui::SetMode{*mode});  // what is opened belongs to it
   for (const std::string& file : options.files)
     if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal
-      std::fprintf(stderr, "odolab: %s\n", session.messages().back().text.c_str());
+      std::fprintf(
+          stderr, "odolab: %s\n",
+          (mode == ui::Mode::diagnose ? session.diagnosis().problem() : session.messages().back().text).c_str());
       return 2;
     }
   if (mode) session.execute(ui::SetMode{*mode});
+  if (options.mystery >= 0) session.execute(ui::InDiagnosis{ui::DrawMystery{std::uint64_t(options.mystery)}});
 
   const Settings settings = for_picture ? Settings{} : read_settings(settings_path());
   Window::Options how;

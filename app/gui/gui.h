@@ -12,7 +12,8 @@ struct GuiOptions {
   int frames = 60;
   int width = 1280, height = 720;  // of the window in pixels of a 96 dpi screen; of the picture in its own pixels
   double scale = 0.0;              // 0: as the monitor says
-  std::string mode;                // "drive", "calibrate", "compare", "learn"; empty: as the files ask for
+  std::string mode;                // "drive", "calibrate", "compare", "diagnose", "learn"; empty: as the files ask for
+  int mystery = -1;                // 0 or more: the mystery robot of this number, in Diagnose
   bool dark = false;               // for pictures; a window remembers what was chosen
 };
 

@@ -65,6 +65,8 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
     case Key::three:
       return {SetMode{Mode::compare}};
     case Key::four:
+      return {SetMode{Mode::diagnose}};
+    case Key::five:
       return {SetMode{Mode::learn}};
     case Key::f:
       choices.fit_view = true;
@@ -80,6 +82,9 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
     case Key::escape:
       choices.show_keys = false;
       choices.hide_interface = false;
+      state.diagnosis.brush.clear();
+      state.diagnosis.lit.reset();
+      state.diagnosis_floor.tool = FloorTool::pointer;
       state.drive_floor.tool = FloorTool::pointer;
       state.drive_floor.selected.reset();
       return {};

@@ -5,7 +5,7 @@
 
 #include "core/io/diagnosis_text.h"
 #include "core/io/lesson_toml.h"
-#include "physics/driven_recording.h"
+#include "physics/confirmed_diagnosis.h"
 
 namespace odolab {
 
@@ -42,25 +42,13 @@ void LessonDesk::ask(Jobs& jobs) {
   const auto found = std::make_shared<std::optional<Result<Diagnosis>>>();
   jobs.start(
       "driving and diagnosing the mystery",
-      [mystery, found](const Progress& progress, const Jobs::Deliver&) {
-        std::vector<Recording> recordings;
-        const double all = static_cast<double>(mystery.drives.size());
-        for (const Scenario& drive : mystery.drives) {
-          const double before = static_cast<double>(recordings.size());
-          const auto recording = driven_recording(
-              drive, drive.seed, [&](double share) { return goes_on(progress, 0.3 * (before + share) / all); });
-          if (!recording) return;
-          recordings.push_back(*recording);
-        }
-        *found = diagnose(recordings, {}, mystery.drives.front().vehicle, {},
-                          [&](double share) { return goes_on(progress, 0.3 + 0.7 * share); });
-      },
+      [mystery, found](const Progress& progress, const Jobs::Deliver&) { *found = diagnosed(mystery, progress); },
       [this, found](bool cancelled) {
         if (cancelled || !lesson_ || !step().mystery) return;
         if (*found && **found)
           diagnosis_ = std::make_shared<const Diagnosis>(***found);
         else
-          problem_ = *found ? (*found)->error().message() : "A drive did not arrive.";
+          problem_ = (*found)->error().message();
       });
 }
 

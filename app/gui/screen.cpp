@@ -4,11 +4,17 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
+#include "app/gui/diagnosis_view.h"
 #include "app/gui/views.h"
+#include "core/io/import/imported_recording.h"
 #include "ui/look/widgets.h"
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/compare_panel.h"
+#include "ui/panels/diagnosis_findings_panel.h"
+#include "ui/panels/diagnosis_runs_panel.h"
+#include "ui/panels/diagnosis_time_panel.h"
 #include "ui/panels/error_panel.h"
 #include "ui/panels/guide_notes_panel.h"
 #include "ui/panels/guide_panel.h"
@@ -144,6 +150,10 @@ Actions left_pane(const Session& session, ScreenState& state, const Theme& theme
     case ui::Mode::compare:
       append(actions, ui::compare_panel(compare_of(session, state.example_files), state.choices.show_open, theme));
       break;
+    case ui::Mode::diagnose:
+      append(actions, ui::diagnosis_runs_panel(session.diagnosis().view(session.jobs()), state.diagnosis,
+                                               session.run().scenario().vehicle.name, state.choices.show_open, theme));
+      break;
     case ui::Mode::learn:
       append(actions, ui::lesson_panel(lesson_of(session), state.lesson, theme));
       break;
@@ -167,12 +177,28 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
     case ui::Mode::compare:
       ui::error_panel(compare_of(session, state.example_files), error_now(session), theme);
       break;
+    case ui::Mode::diagnose:
+      append(actions, ui::diagnosis_findings_panel(session.diagnosis().view(session.jobs()), state.diagnosis, theme));
+      break;
     case ui::Mode::learn:
       if (learns_by_squares(session))
         ui::calibration_result_panel(bench_of(session), theme);
       else
         append(actions, ui::readout_panel(readout_of(session, shown, theme), state.estimators, theme));
       break;
+  }
+  return actions;
+}
+
+Actions diagnosis_centre(const Session& session, ScreenState& state, const Theme& theme) {
+  const ui::DiagnosisView view = session.diagnosis().view(session.jobs());
+  if (view.runs.empty()) return ui::diagnosis_welcome(view, state.diagnosis, state.choices.show_open, theme);
+  Actions actions = ui::floor_view(diagnosis_scene(view, state.diagnosis, theme), state.diagnosis_floor, theme);
+  if (const auto corners = std::exchange(state.diagnosis_floor.brushed, std::nullopt)) {
+    const ui::DiagnosedRun& run = view.runs[std::min(state.diagnosis.run, view.runs.size() - 1)];
+    const ui::Trail* trail = run.mismatch_trail ? run.mismatch_trail : run.way;
+    state.diagnosis.brush = trail ? trail->inside(corners->first, corners->second) : std::vector<ui::Stretch>{};
+    state.diagnosis.lit.reset();
   }
   return actions;
 }
@@ -187,6 +213,8 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
       return {};
     case ui::Mode::compare:
       return ui::floor_view(compare_scene(session, theme), state.compare_floor, theme);
+    case ui::Mode::diagnose:
+      return diagnosis_centre(session, state, theme);
     case ui::Mode::learn:
       if (!learns_by_squares(session))
         return ui::floor_view(drive_scene(session, shown, theme, state.estimators.shown), state.drive_floor, theme);
@@ -213,7 +241,7 @@ Actions dialogs(const Session& session, ScreenState& state, const Theme& theme) 
       expanded(ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open,
                                state.open_dialog, entries, first_of(state.recent_files, 5), theme));
   std::error_code unknown;
-  if (!opened.empty() && std::filesystem::is_directory(opened, unknown)) {
+  if (!opened.empty() && std::filesystem::is_directory(opened, unknown) && !is_foreign_recording(opened)) {
     const std::string folder = opened.back() == '/' ? opened : opened + "/";
     std::snprintf(state.open_dialog.path, sizeof state.open_dialog.path, "%s", folder.c_str());
     choices.show_open = state.open_dialog.to_end = true;
@@ -253,7 +281,8 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   }
   if (state.choices.fit_view) {
     state.choices.fit_view = false;
-    state.drive_floor.fit_next = state.compare_floor.fit_next = true;
+    state.drive_floor.fit_next = state.compare_floor.fit_next = state.diagnosis_floor.fit_next = true;
+    state.diagnosis.time_view.fitted = state.diagnosis.response_view.fitted = true;
     state.clusters.view.fitted = true;
   }
   // A field that is being edited keeps its draft; anything else shows the scenario as it is.
@@ -298,19 +327,21 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     ImGui::GetWindowDrawList()->AddLine({0, l.top_size.y - 1}, {screen.x, l.top_size.y - 1}, theme.line);
     ImGui::End();
 
-    const char* left_names[] = {"left drive", "left calibrate", "left compare", "left learn"};
+    const char* left_names[] = {"left drive", "left calibrate", "left compare", "left diagnose", "left learn"};
     begin_pane(left_names[int(session.mode())], l.left_low, l.left_size, true, true, theme.panel);
     append(actions, left_pane(session, state, theme));
     ImGui::End();
 
-    const char* right_names[] = {"right drive", "right calibrate", "right compare", "right learn"};
+    const char* right_names[] = {"right drive", "right calibrate", "right compare", "right diagnose", "right learn"};
     begin_pane(right_names[int(session.mode())], l.right_low, l.right_size, true, true, theme.panel);
     append(actions, right_pane(session, state, shown, theme));
     ImGui::End();
 
     if (has_bottom) {
       begin_pane("bottom", l.bottom_low, l.bottom_size, true, false, theme.panel);
-      if (session.mode() != ui::Mode::compare)
+      if (session.mode() == ui::Mode::diagnose)
+        ui::diagnosis_time_panel(session.diagnosis().view(session.jobs()), state.diagnosis, theme);
+      else if (session.mode() != ui::Mode::compare)
         append(actions, ui::transport_bar(drive_transport(session, theme, state.estimators.shown),
                                           state.drive_transport, theme));
       else

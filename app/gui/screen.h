@@ -5,6 +5,7 @@
 
 #include "app/gui/folder_listing.h"
 #include "app/gui/session.h"
+#include "ui/diagnosis.h"
 #include "ui/panels/calibrate_panel.h"
 #include "ui/panels/cluster_panel.h"
 #include "ui/panels/estimator_panel.h"
@@ -24,7 +25,7 @@ struct ScreenState {
   ui::WindowChoices choices;
   double left_width = 316.0, right_width = 292.0, bottom_height = 186.0;  // at scale 1
   ui::Welcome welcome;
-  ui::FloorViewState drive_floor, compare_floor;
+  ui::FloorViewState drive_floor, compare_floor, diagnosis_floor;
   ui::FloorPanelState floor_panel;
   ui::EstimatorState estimators;
   ui::TransportState drive_transport, compare_transport;
@@ -32,6 +33,7 @@ struct ScreenState {
   ui::ClusterState clusters;
   ui::GuidePageState guide;
   ui::LessonPanelState lesson;
+  ui::DiagnosisState diagnosis;
   FolderListing folders;
   ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
   Scenario draft;  // of the parameters that a person is editing

@@ -135,8 +135,18 @@ struct Session::Executor {
       s.run_->drive_by_hand(a.speed_mps, a.yaw_rate_radps, a.sideways_mps);
   }
   void operator()(const ui::Push& a) const { s.run_->push(a.impulse_ns); }
-  void operator()(const ui::Undo&) const { swap_scenario(s.undo_, s.redo_); }
-  void operator()(const ui::Redo&) const { swap_scenario(s.redo_, s.undo_); }
+  void operator()(const ui::Undo&) const {
+    if (s.mode_ == ui::Mode::diagnose)
+      s.diagnosis_.undo();
+    else
+      swap_scenario(s.undo_, s.redo_);
+  }
+  void operator()(const ui::Redo&) const {
+    if (s.mode_ == ui::Mode::diagnose)
+      s.diagnosis_.redo();
+    else
+      swap_scenario(s.redo_, s.undo_);
+  }
   void remember_for_undo(bool floor_only) const {
     s.undo_.push_back({s.run_->scenario(), floor_only});
     if (s.undo_.size() > kMostUndo) s.undo_.erase(s.undo_.begin());
@@ -244,6 +254,17 @@ struct Session::Executor {
             session->compare(made, replay_scenario(scenario.vehicle, *made));
         });
   }
+  void operator()(const ui::InDiagnosis& a) const {
+    const auto* wanted = std::get_if<ui::ExportDiagnosis>(&a.what);
+    if (!wanted) {
+      s.diagnosis_.carry_out(a.what, s.jobs_);
+      return;
+    }
+    ui::ExportDiagnosis out = *wanted;
+    out.path = not_there_yet(out.path);
+    if (s.done_or_said(s.diagnosis_.write(out))) s.say("Written: " + out.path, false);
+  }
+  void operator()(const ui::TakeDriveVehicle&) const { s.diagnosis_.set_vehicle(s.run_->scenario().vehicle); }
   void operator()(const ui::OpenFile& a) const { s.open(a.path); }
   void operator()(const ui::SaveScenario& a) const {
     Scenario scenario = s.run_->scenario();
@@ -292,6 +313,7 @@ void Session::execute(const ui::Action& action) {
 void Session::advance(double wall_s, const std::function<bool()>& go_on) {
   jobs_.poll();
   guide_.advance(wall_s);
+  diagnosis_.advance(wall_s);
   for (ui::Message& m : messages_) m.left_s -= wall_s;
   messages_.erase(
       std::remove_if(messages_.begin(), messages_.end(), [](const ui::Message& m) { return m.left_s <= 0.0; }),
@@ -346,6 +368,14 @@ bool Session::take_picture_wish() {
   return wished;
 }
 
+bool Session::refused(const Error& error) {
+  if (mode_ == ui::Mode::diagnose)
+    diagnosis_.complain(error.message());
+  else
+    say(error.message(), true);
+  return false;
+}
+
 bool Session::done_or_said(const Result<Done>& done) {
   if (!done) say(done.error().message(), true);
   return done.ok();
@@ -394,6 +424,7 @@ void Session::change(const Scenario& scenario) {
 
 bool Session::open(const std::string& path) {
   bool opened = false;
+  if (mode_ == ui::Mode::diagnose) diagnosis_.complain("");
   switch (file_kind(path)) {
     case FileKind::scenario:
       opened = open_scenario(path);
@@ -443,9 +474,10 @@ bool Session::open_scenario(const std::string& path) {
 
 bool Session::open_vehicle(const std::string& path) {
   const Result<Vehicle> vehicle = read_vehicle(path);
-  if (!vehicle) {
-    say(vehicle.error().message(), true);
-    return false;
+  if (!vehicle) return refused(vehicle.error());
+  if (mode_ == ui::Mode::diagnose) {
+    diagnosis_.set_vehicle(*vehicle);
+    return true;
   }
   opened_vehicle_ = *vehicle;
   const Scenario scenario = with_vehicle(run_->scenario(), *vehicle);
@@ -460,11 +492,12 @@ bool Session::open_vehicle(const std::string& path) {
 bool Session::open_recording(const std::string& path) {
   if (refuse_while_busy("the recording")) return false;
   Result<ImportedRecording> imported = load_recording(path);
-  if (!imported) {
-    say(imported.error().message(), true);
-    return false;
-  }
+  if (!imported) return refused(imported.error());
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
+  if (mode_ == ui::Mode::diagnose) {
+    const Result<Done> added = diagnosis_.add(path, std::move(imported->recording));
+    return added || refused(added.error());
+  }
   if (guide_in_hand()) return done_or_said(guide_.take(path, imported->recording, jobs_));
   const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
   // With the vehicle that was opened, or else with the one that drives, if only that has such encoders.

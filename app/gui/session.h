@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/gui/comparison.h"
+#include "app/gui/diagnosis_desk.h"
 #include "app/gui/drive_run.h"
 #include "app/gui/guide_desk.h"
 #include "app/gui/jobs.h"
@@ -41,12 +42,13 @@ class Session {
   const Comparison& comparison() const { return comparison_; }
   const GuideDesk& guide() const { return guide_; }
   const LessonDesk& lesson() const { return lesson_; }
+  const DiagnosisDesk& diagnosis() const { return diagnosis_; }
   const Jobs& jobs() const { return jobs_; }
   const std::vector<ui::Message>& messages() const { return messages_; }
   // The scenario's name, and the file that it came from.
   std::string title() const;
-  bool can_undo() const { return !undo_.empty(); }
-  bool can_redo() const { return !redo_.empty(); }
+  bool can_undo() const { return mode_ == ui::Mode::diagnose ? diagnosis_.can_undo() : !undo_.empty(); }
+  bool can_redo() const { return mode_ == ui::Mode::diagnose ? diagnosis_.can_redo() : !redo_.empty(); }
   bool wants_to_quit() const { return wants_to_quit_; }
   // True once after a person has asked for a picture.
   bool take_picture_wish();
@@ -75,6 +77,7 @@ class Session {
   // A guide is on the screen: what is dropped belongs to it.
   bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
   bool done_or_said(const Result<Done>& done);
+  bool refused(const Error& error);  // said where it arose; false
   bool open_lesson(const std::string& path);
   void begin_lesson_step();
 
@@ -90,6 +93,7 @@ class Session {
   Comparison comparison_;
   GuideDesk guide_;
   LessonDesk lesson_;
+  DiagnosisDesk diagnosis_;
   std::optional<Scenario> before_lesson_;  // to come back to
   std::optional<Vehicle> opened_vehicle_;
   std::vector<ui::Message> messages_;

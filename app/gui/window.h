@@ -25,6 +25,7 @@ enum class Key {
   two,
   three,
   four,
+  five,
   erase,
   f1,
   f12,

@@ -8,6 +8,7 @@
 #include "core/diagnosis/intervals.h"
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
+#include "core/diagnosis/ready_run.h"
 #include "core/diagnosis/select.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -26,23 +27,6 @@ std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 
   char buffer[300];
   std::snprintf(buffer, sizeof buffer, format, a, b, c);
   return buffer;
-}
-
-InnovationRun run_of(const CheckedRecording& c, InnovationRun run, double offset_s) {
-  run.speeds_are_held = c.from_commands;
-  if (c.from_commands) run.smooth.clear();  // a command is what it is
-  for (const auto& [from, to] : c.break_s) {
-    bool behind = false;
-    for (std::size_t i = 0; i < run.truth.size(); ++i) {
-      const double t = run.truth[i].time_s - offset_s;
-      if (t >= from && t <= to) run.set_aside[i] = 1;
-      if (t > to && !behind) {
-        run.set_aside[i] = 2;
-        behind = true;
-      }
-    }
-  }
-  return run;
 }
 
 bool stands_out(const AcceptedEffect& a) {
@@ -190,7 +174,8 @@ const GenericTest* what_is_left(const JointModel& joint, const std::vector<Gener
   return nullptr;
 }
 
-Response response_of(const GenericTest& g) {
+// `left`: the same group with the findings let in; null where there are none.
+Response response_of(const GenericTest& g, const GenericTest* left) {
   Response r;
   r.variable = g.variable;
   r.channel = g.channel;
@@ -201,8 +186,24 @@ Response response_of(const GenericTest& g) {
     r.value.push_back(g.test.value[k]);
     r.low.push_back(g.test.value[k] - 2.0 * se);
     r.high.push_back(g.test.value[k] + 2.0 * se);
+    if (left && k < left->test.value.size()) r.after.push_back(left->test.value[k]);
   }
   return r;
+}
+
+// Of what calibration leaves to each variable that has an axis.
+std::vector<Response> responses_of(const JointModel& calibrated, const std::vector<GenericTest>& generic_now,
+                                   bool found) {
+  const std::vector<GenericTest> at_first = found ? generic_tests(calibrated) : generic_now;
+  std::vector<Response> responses;
+  for (const GenericTest& g : at_first) {
+    if (g.at.empty()) continue;
+    const auto left = std::find_if(generic_now.begin(), generic_now.end(), [&](const GenericTest& other) {
+      return other.variable == g.variable && other.channel == g.channel;
+    });
+    responses.push_back(response_of(g, found && left != generic_now.end() ? &*left : nullptr));
+  }
+  return responses;
 }
 
 std::vector<Residuals> residuals_of(const JointModel& joint) {
@@ -279,7 +280,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   for (const CheckedRecording& c : ready) {
     Result<InnovationRun> run = innovation_run(c.recording, nominal);
     if (!run) return run.error();
-    runs.push_back(run_of(c, std::move(*run), nominal.truth.time_offset_s));
+    runs.push_back(ready_run(c, std::move(*run), nominal.truth.time_offset_s));
     commands.push_back(c.from_commands);
   }
   JointModel joint(std::move(runs), commands, *calibration, nominal);
@@ -354,8 +355,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   for (const Finding& f : named)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
   const bool inadequate = (left && remaining > kMostLeft * (explained + of_toe)) || pieced_together;
-  for (std::size_t k = 0; k < std::min<std::size_t>(generic.size(), 3); ++k)
-    if (!generic[k].at.empty()) d.responses.push_back(response_of(generic[k]));
+  d.responses = responses_of(calibrated, generic, !joint.accepted.empty());
 
   if (!left) remaining = 0.0;
   const double all = std::max(1e-9, explained + (inadequate ? remaining : 0.0));

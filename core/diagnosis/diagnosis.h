@@ -80,10 +80,11 @@ struct NotTestable {
   std::string effect, because, drive_this;
 };
 
-// Something of a residual to draw: the response to the variable that explains it, with its band.
+// What the mismatch that calibration leaves depends on: its response to a variable of the motion, with its 95 % band.
 struct Response {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   std::vector<double> at, value, low, high;
+  std::vector<double> after;  // what is left of it with the findings; empty where nothing was found
 };
 
 // Innovations of one recording over time, for pictures.
@@ -108,7 +109,7 @@ struct Diagnosis {
   std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
   std::vector<std::string> sentences;  // the summary that a person reads in a minute
   std::vector<std::string> warnings;
-  std::vector<Response> responses;
+  std::vector<Response> responses;  // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
 };
 

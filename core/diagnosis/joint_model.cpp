@@ -84,6 +84,14 @@ InnovationRun JointModel::prepared(int r) const {
   sum.value = 1.0;
   sum.per_step.resize(run.wheels.size() - 1);
   bool any = false;
+  for (const ExtraColumn& given : run.extra) {
+    any = true;
+    for (std::size_t i = 0; i < sum.per_step.size(); ++i) {
+      sum.per_step[i].forward_m += given.value * given.per_step[i].forward_m;
+      sum.per_step[i].sideways_m += given.value * given.per_step[i].sideways_m;
+      sum.per_step[i].turn_rad += given.value * given.per_step[i].turn_rad;
+    }
+  }
   if (run.counts_show && (half_counts[0] != 0.0 || half_counts[1] != 0.0)) {
     const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
     for (int k = 0; k < 2; ++k) of_wheel[k].add_to(sum.per_step, half_counts[k]);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "core/diagnosis/mismatch.h"
 #include "core/geometry/angles.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/number_text.h"
@@ -17,61 +18,7 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostRecordings = 4;     // drawn; more make a page that nobody reads
-constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides: short enough for a bump, long enough for what is faint
-
-// The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
-double size_of(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
-  if (values.empty()) return 0.0;
-  for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
-}
-
-struct Sizes {
-  double along, across, heading;
-};
-
-Sizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
-
-// How many times larger than noise would leave it the residual is, gathered over a while around each sample. What lies
-// far below the noise of one sample shows here as soon as it keeps its direction.
-void gather(const Residuals& r, const Sizes& noise, double half_s, std::vector<double>& largest) {
-  std::vector<double> sum[3] = {{0.0}, {0.0}, {0.0}};
-  const std::vector<double>* channels[3] = {&r.along_m, &r.across_m, &r.heading_rad};
-  const double sizes[3] = {noise.along, noise.across, noise.heading};
-  for (int c = 0; c < 3; ++c)
-    for (double v : *channels[c]) sum[c].push_back(sum[c].back() + (std::isfinite(v) ? v : 0.0));
-  std::size_t from = 0, to = 0;
-  for (std::size_t i = 0; i < r.time_s.size(); ++i) {
-    while (to < r.time_s.size() && r.time_s[to] <= r.time_s[i] + half_s) ++to;
-    while (r.time_s[from] < r.time_s[i] - half_s) ++from;
-    double squares = 0.0;
-    int used = 0;
-    for (int c = 0; c < 3; ++c) {
-      if (!(sizes[c] > 0.0) || sum[c].size() != r.time_s.size() + 1) continue;
-      const double gathered = (sum[c][to] - sum[c][from]) / (sizes[c] * std::sqrt(static_cast<double>(to - from)));
-      squares += gathered * gathered;
-      ++used;
-    }
-    if (used > 0) largest[i] = std::max(largest[i], std::sqrt(squares / used));
-  }
-}
-
-std::vector<double> times_noise(const Residuals& r, const Sizes& noise) {
-  std::vector<double> result(r.time_s.size(), 0.0);
-  for (double half_s : kGathered_s) gather(r, noise, half_s, result);
-  return result;
-}
-
-double mean_square(const Residuals& r) {
-  double sum = 0.0;
-  int count = 0;
-  for (double s : r.squared)
-    if (std::isfinite(s)) sum += s, ++count;
-  return count > 0 ? sum / count : 0.0;
-}
+constexpr std::size_t kMostResponses = 3;      // the strongest
 
 // Where the mismatch is largest comes first.
 std::vector<const Residuals*> drawn_first(const std::vector<Residuals>& all) {
@@ -84,13 +31,7 @@ std::vector<const Residuals*> drawn_first(const std::vector<Residuals>& all) {
   return order;
 }
 
-const Residuals* of_recording(const std::vector<Residuals>& all, const std::string& recording) {
-  for (const Residuals& r : all)
-    if (r.recording == recording) return &r;
-  return nullptr;
-}
-
-std::string track_of(const Diagnosis& d, const Residuals& r, const Sizes& noise, const std::string& title,
+std::string track_of(const Diagnosis& d, const Residuals& r, const ResidualSizes& noise, const std::string& title,
                      bool with_discs) {
   ColouredTrackPicture picture;
   picture.title = title;
@@ -142,7 +83,7 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
                      number_text(" of %.0f are drawn.", static_cast<double>(d.residuals_before.size())));
   for (const Residuals* before : drawn) {
     const Residuals* after = of_recording(d.residuals_after, before->recording);
-    const Sizes noise = sizes_of(after ? *after : *before);
+    const ResidualSizes noise = sizes_of(after ? *after : *before);
     std::vector<std::string> tracks{track_of(d, *before, noise, before->recording + ": calibrated only", true)};
     if (after && !d.findings.empty())
       tracks.push_back(track_of(d, *after, noise, before->recording + ": with what was found", false));
@@ -157,9 +98,7 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
     line.lines.push_back({"calibrated only", before->time_s, times_noise(*before, noise), Look::estimate});
     if (after && !d.findings.empty())
       line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
-    for (const Finding& f : d.findings)
-      if (f.where.recording.empty() || f.where.recording == before->recording)
-        line.marked.insert(line.marked.end(), f.where.time_s.begin(), f.where.time_s.end());
+    for (const LocatedStretch& s : located_stretches(d, before->recording)) line.marked.emplace_back(s.from_s, s.to_s);
     line.marked_label = "located";
     line.height_px = 300.0;
     report.picture(line_picture(line));
@@ -169,13 +108,15 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
 void add_responses(HtmlReport& report, const Diagnosis& d) {
   if (d.responses.empty()) return;
   report.heading("What the mismatch depends on");
-  for (const Response& r : d.responses) {
+  for (std::size_t k = 0; k < std::min(d.responses.size(), kMostResponses); ++k) {
+    const Response& r = d.responses[k];
     LinePicture picture;
     picture.title = "Mismatch left by calibration against " + r.variable;
     picture.x_label = r.variable;
     picture.y_label = r.channel;
     picture.bands.push_back({"95 % band", r.at, r.low, r.high, Look::estimate});
     picture.lines.push_back({"mismatch", r.at, r.value, Look::estimate});
+    if (!r.after.empty()) picture.lines.push_back({"with what was found", r.at, r.after, Look::second});
     picture.height_px = 320.0;
     report.picture(line_picture(picture), "Where the band leaves zero, the mismatch follows this variable.");
   }

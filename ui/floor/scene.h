@@ -8,6 +8,7 @@
 #include "core/geometry/track.h"
 #include "core/scenario/scenario.h"
 #include "physics/vehicles/vehicle_shape.h"
+#include "ui/floor/trail.h"
 #include "ui/look/theme.h"
 
 namespace odolab::ui {
@@ -34,10 +35,28 @@ struct VehicleGlyph {
   ImU32 colour = 0;
 };
 
+// A way that is drawn under the tracks.
+struct FloorTrail {
+  const Trail* trail = nullptr;
+  bool by_mismatch = false;  // coloured by size, and the scale is shown; else in one colour
+  ImU32 colour = 0;
+  std::vector<Stretch> lit;  // these parts stand out
+};
+
+// A place that was located.
+struct FloorDisc {
+  Vec2 centre;
+  double radius_m = 0.0;
+  std::string label;
+};
+
 struct FloorScene {
   const Floor* floor = nullptr;  // null: nothing on it
   bool editable = false;
   std::vector<Vec2> planned;  // the path the driver means to follow
+  std::vector<FloorTrail> trails;
+  std::vector<FloorDisc> discs;
+  bool brushable = false;  // a rectangle can be drawn to choose what is in it
   std::vector<TrackLine> tracks;
   std::vector<VehicleGlyph> vehicles;
   // The two poses whose gap matters, for the gap line and the lens; the second deviates from the first.

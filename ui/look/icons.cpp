@@ -124,6 +124,15 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
       b.line(-0.5f, -0.5f, 0.5f, 0.5f);
       b.line(-0.5f, 0.5f, 0.5f, -0.5f);
       break;
+    case Icon::brush:  // a dashed frame about a way
+      for (const float side : {-0.75f, 0.75f})
+        for (const float from : {-0.75f, -0.15f, 0.45f}) {
+          b.line(from, side, from + 0.3f, side);
+          b.line(side, from, side, from + 0.3f);
+        }
+      b.line(-0.45f, 0.3f, 0.0f, -0.25f);
+      b.line(0.0f, -0.25f, 0.45f, 0.1f);
+      break;
   }
 }
 

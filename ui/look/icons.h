@@ -23,6 +23,7 @@ enum class Icon {
   exaggerate,
   layers,
   close,
+  brush,
 };
 
 // Drawn inside a square of side `size` about `centre`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/mismatch.h"
 #include "ui/floor/drawing.h"
 #include "ui/floor/lens.h"
 #include "ui/floor/vehicle_drawing.h"
@@ -12,6 +13,17 @@
 namespace odolab::ui {
 
 namespace {
+
+void brush_buttons(FloorViewState& state, const Theme& theme) {
+  ButtonLook pointer, brush;
+  pointer.toggled = state.tool != FloorTool::brush;
+  pointer.tip = "Move the view: drag the floor to pan; the wheel zooms.";
+  if (icon_button("pointer", Icon::pointer, theme, pointer)) state.tool = FloorTool::pointer;
+  ImGui::SameLine(0, theme.px(2));
+  brush.toggled = state.tool == FloorTool::brush;
+  brush.tip = "Choose a stretch: drag a rectangle over it (or hold Shift). It is lit in the plot below.";
+  if (icon_button("brush", Icon::brush, theme, brush)) state.tool = FloorTool::brush;
+}
 
 void tool_buttons(FloorViewState& state, bool editable, const Theme& theme) {
   struct Tool {
@@ -55,7 +67,10 @@ void layer_menu(FloorViewState& state, const Theme& theme) {
 
 void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme) {
   ImGui::SetCursorPos({theme.px(8), theme.px(5)});
-  tool_buttons(state, scene.editable, theme);
+  if (scene.brushable)
+    brush_buttons(state, theme);
+  else
+    tool_buttons(state, scene.editable, theme);
   ImGui::SameLine(0, theme.px(14));
   ButtonLook fit;
   fit.tip = "Fit everything into sight (F)";
@@ -98,6 +113,11 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
   // All along its path the vehicle stays in sight, without the view growing when it comes to an edge.
   const double reach_m = scene.vehicles.empty() ? 0.3 : reach_of(scene.vehicles.front());
   for (const Vec2 p : scene.planned) take(p, reach_m);
+  for (const FloorTrail& t : scene.trails)
+    if (t.trail && !t.trail->empty()) {
+      take(t.trail->lowest(), 0.1);
+      take(t.trail->highest(), 0.1);
+    }
   for (const TrackLine& line : scene.tracks)
     if (line.track)
       for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
@@ -150,6 +170,54 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
   }
 }
 
+// The scale of the mismatch, under the legend's lines.
+void mismatch_scale(ImDrawList& draw, const FloorViewState& state, float y, const Theme& theme) {
+  const float line = ImGui::GetTextLineHeight(), swatch = theme.px(20), gap = theme.px(12);
+  const char* title = "mismatch";
+  float total = ImGui::CalcTextSize(title).x + gap;
+  for (int k = 0; k < kMismatchLevels; ++k)
+    total += swatch + theme.px(5) + ImGui::CalcTextSize(mismatch_level_text(k)).x + (k + 1 < kMismatchLevels ? gap : 0);
+  float x = state.camera.low.x + theme.px(12);
+  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total + theme.px(6), y + line + theme.px(4)},
+                     faded(theme.paper, 0.85f), theme.px(4));
+  draw.AddText({x, y}, theme.muted, title);
+  x += ImGui::CalcTextSize(title).x + gap;
+  for (int k = 0; k < kMismatchLevels; ++k) {
+    const float middle = y + 0.5f * line;
+    draw.AddLine({x, middle}, {x + swatch, middle}, mismatch_colour(k, theme), mismatch_width(k, theme) + theme.px(1));
+    x += swatch + theme.px(5);
+    draw.AddText({x, y}, theme.ink, mismatch_level_text(k));
+    x += ImGui::CalcTextSize(mismatch_level_text(k)).x + gap;
+  }
+}
+
+void draw_disc(ImDrawList& draw, const Camera& camera, const FloorDisc& disc, const Theme& theme) {
+  const ImVec2 at = camera.screen(disc.centre);
+  const float radius = std::max(theme.px(8), float(disc.radius_m * camera.px_per_m));
+  std::vector<ImVec2> rim;
+  for (int i = 0; i <= 64; ++i) {
+    const float a = float(i) / 64.0f * 6.2831853f;
+    rim.push_back({at.x + radius * std::cos(a), at.y + radius * std::sin(a)});
+  }
+  dashed_line(draw, rim, theme.blue, theme.px(2), theme.px(6), theme.px(4));
+  const ImVec2 size = ImGui::CalcTextSize(disc.label.c_str());
+  const ImVec2 text{std::round(at.x - 0.5f * size.x), std::round(at.y - radius - size.y - theme.px(5))};
+  draw.AddRectFilled({text.x - theme.px(4), text.y - theme.px(1)}, {text.x + size.x + theme.px(4), text.y + size.y},
+                     faded(theme.paper, 0.85f), theme.px(3));
+  draw.AddText(text, theme.blue, disc.label.c_str());
+}
+
+void draw_trails(ImDrawList& draw, const FloorScene& scene, const Camera& camera, const Theme& theme) {
+  for (const FloorTrail& t : scene.trails) {
+    if (!t.trail) continue;
+    if (t.by_mismatch)
+      draw_mismatch(draw, camera, *t.trail, t.lit, theme);
+    else
+      draw_trail(draw, camera, *t.trail, t.colour, theme.px(1.4f), theme);
+  }
+  for (const FloorDisc& disc : scene.discs) draw_disc(draw, camera, disc, theme);
+}
+
 void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
   const Camera& camera = state.camera;
   const double factor = state.exaggerate ? state.exaggeration : 1.0;
@@ -165,6 +233,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
       draw_bump(draw, camera, scene.floor->bumps[i], state.selected == FloorThing{ThingKind::bump, i}, theme);
   }
   if (state.show_planned) draw_planned(draw, camera, scene.planned, theme);
+  if (state.show_tracks) draw_trails(draw, scene, camera, theme);
   if (state.show_tracks)
     for (const TrackLine& line : scene.tracks) {
       TrackLine drawn = line;
@@ -182,7 +251,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   }
   if (state.show_grid) draw_origin(draw, camera, theme);
   if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
-  if (scene.tracks.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
+  if (scene.tracks.empty() && scene.trails.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
     const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());
     const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)),
                     std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
@@ -191,6 +260,13 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
     draw.AddText(at, theme.muted, scene.empty_text.c_str());
   }
   legend(draw, scene, state, theme);
+  if (std::any_of(scene.trails.begin(), scene.trails.end(), [](const FloorTrail& t) { return t.by_mismatch; }))
+    mismatch_scale(
+        draw, state,
+        camera.low.y + theme.px(8) + (state.exaggerate ? 2.0f : 1.0f) * (ImGui::GetTextLineHeight() + theme.px(11)),
+        theme);
+  if (state.brushing)
+    draw.AddRectFilled(camera.screen(state.brush_from), ImGui::GetIO().MousePos, faded(theme.sky, 0.25f));
   draw_scale_bar(draw, camera, theme);
   if (state.show_lens) {
     const float side = lens_side(camera, theme);
@@ -261,7 +337,10 @@ Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme
   if (ImGui::IsItemActivated()) {
     state.grasp.reset();
     state.panning = false;
-    if (editable && state.tool != FloorTool::pointer) {
+    if (scene.brushable && (state.tool == FloorTool::brush || io.KeyShift)) {
+      state.brushing = true;
+      state.brush_from = camera.floor(mouse);
+    } else if (editable && state.tool != FloorTool::pointer) {
       append(actions, put_down(scene, state, state.tool, camera.floor(mouse)));
     } else {
       if (editable) state.grasp = grasp_at(*scene.floor, camera, mouse, reach, state.selected);
@@ -282,6 +361,8 @@ Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme
       state.follow = false;
     }
   } else {
+    if (state.brushing) state.brushed = {state.brush_from, camera.floor(mouse)};
+    state.brushing = false;
     state.grasp.reset();
     state.panning = false;
   }

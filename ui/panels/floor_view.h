@@ -8,7 +8,7 @@
 
 namespace odolab::ui {
 
-enum class FloorTool { pointer, bump, slip_disc, slip_rectangle };
+enum class FloorTool { pointer, bump, slip_disc, slip_rectangle, brush };
 
 struct FloorViewState {
   Camera camera;
@@ -29,6 +29,9 @@ struct FloorViewState {
   bool gesture_began = false;
   bool panning = false;
   Vec2 menu_at;
+  bool brushing = false;
+  Vec2 brush_from;
+  std::optional<std::pair<Vec2, Vec2>> brushed;  // two corners, once a person has let go; the caller takes it
 };
 
 Actions floor_view(const FloorScene& scene, FloorViewState& state, const Theme& theme);

@@ -115,7 +115,7 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 
-  const std::vector<std::string> modes{"Drive", "Calibrate", "Compare", "Learn"};
+  const std::vector<std::string> modes{"Drive", "Calibrate", "Compare", "Diagnose", "Learn"};
   float width = 0.0f;
   for (const std::string& m : modes) width += ImGui::CalcTextSize(m.c_str()).x + 2.0f * theme.px(12);
   const float modes_x = size.x - width - theme.px(12);

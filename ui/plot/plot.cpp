@@ -48,6 +48,12 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
         x.take(s.x[i]);
         y.take(s.y[i]);
       }
+  for (const PlotArea& a : what.areas)
+    for (std::size_t i = 0; i < a.count; ++i) {
+      x.take(a.x[i]);
+      y.take(a.low[i]);
+      y.take(a.high[i]);
+    }
   if (what.equal_scale) {
     if (x.empty()) x = y = {-0.1, 0.1};
     x.take(0.0);
@@ -158,6 +164,12 @@ void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool
       marker(draw, s.marker, {frame.x(s.x[i]), frame.y(s.y[i])}, s.colour, theme);
 }
 
+void draw_area(ImDrawList& draw, const PlotArea& a, const Frame& frame) {
+  for (std::size_t i = 1; i < a.count; ++i)
+    draw.AddQuadFilled({frame.x(a.x[i - 1]), frame.y(a.low[i - 1])}, {frame.x(a.x[i]), frame.y(a.low[i])},
+                       {frame.x(a.x[i]), frame.y(a.high[i])}, {frame.x(a.x[i - 1]), frame.y(a.high[i - 1])}, a.colour);
+}
+
 std::string axis_title(const PlotAxis& axis) {
   const std::string unit = axis.unit.name;
   return unit.empty() ? axis.label : axis.label.empty() ? unit : axis.label + " (" + unit + ")";
@@ -258,6 +270,7 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
       {outer.x + left, outer.y + top},
       {outer.x + std::max(size.x - right, left + 20.0f), outer.y + std::max(size.y - bottom, top + 10.0f)},
       false,
+      std::nullopt,
       std::nullopt};
   const Frame frame{result.low, result.high, view};
   if (view.fitted) fit(what, view, frame.width(), frame.height());
@@ -296,9 +309,13 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
       if (selecting && !what.equal_scale) {
         const double a = frame.x_of(std::max(result.low.x, std::min(from.x, mouse.x)));
         const double b = frame.x_of(std::min(result.high.x, std::max(from.x, mouse.x)));
-        view.x0 = a;
-        view.x1 = std::max(b, a + 1e-9);
-        view.fitted = false;
+        if (what.brushes) {
+          result.brushed = {a, b};
+        } else {
+          view.x0 = a;
+          view.x1 = std::max(b, a + 1e-9);
+          view.fitted = false;
+        }
       }
       view.drag_from.reset();
     }
@@ -309,6 +326,11 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   draw_axes(draw, what, frame, theme, outer);
   draw.PushClipRect(result.low, result.high, true);
   bool any = false;
+  for (const PlotBand& b : what.bands)
+    draw.AddRectFilled({std::max(frame.x(b.from) - 0.5f, result.low.x), result.low.y},
+                       {std::min(std::max(frame.x(b.to), frame.x(b.from) + theme.px(2)), result.high.x), result.high.y},
+                       b.colour);
+  for (const PlotArea& a : what.areas) draw_area(draw, a, frame);
   for (const PlotMark& m : what.marks) {
     const float x = std::round(frame.x(m.x));
     draw.AddLine({x, result.low.y}, {x, result.high.y}, faded(m.colour, 0.55f), theme.px(1));

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ui/look/theme.h"
@@ -34,6 +35,21 @@ struct PlotMark {
   ImU32 colour = 0;
 };
 
+// A stretch of the x axis.
+struct PlotBand {
+  double from = 0.0, to = 0.0;
+  ImU32 colour = 0;  // faded by the caller
+};
+
+// The area between two curves.
+struct PlotArea {
+  const double* x = nullptr;
+  const double* low = nullptr;
+  const double* high = nullptr;
+  std::size_t count = 0;
+  ImU32 colour = 0;
+};
+
 struct PlotAxis {
   std::string label;
   Unit unit = kCoefficient;
@@ -43,6 +59,9 @@ struct Plot {
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   std::vector<PlotMark> marks;
+  std::vector<PlotBand> bands;          // behind everything
+  std::vector<PlotArea> areas;          // behind the curves; they count for the range of the axes
+  bool brushes = false;                 // a drag chooses a stretch instead of zooming into it
   std::optional<double> cursor_x;       // e.g. the time that is shown
   std::optional<double> x_low, x_high;  // instead of the data's range where the plot is fitted
   bool equal_scale = false;             // one unit of x is as long as one of y; the origin is in sight
@@ -62,7 +81,8 @@ struct PlotView {
 struct PlotResult {
   ImVec2 low, high;  // the drawing area inside the axes, on the screen
   bool hovered = false;
-  std::optional<double> clicked_x;  // where a click without a drag landed
+  std::optional<double> clicked_x;                                  // where a click without a drag landed
+  std::optional<std::pair<double, double>> brushed = std::nullopt;  // once a person has let go
   double x_at(float screen_x, const PlotView& view) const;
   ImVec2 screen_at(double x, double y, const PlotView& view) const;
 };

@@ -6,28 +6,17 @@
 #include "app/cli/run/judge.h"
 #include "app/cli/run/outputs.h"
 #include "app/cli/terminal.h"
-#include "core/diagnosis/diagnosis.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/lesson_toml.h"
 #include "core/lesson/mystery.h"
-#include "physics/driven_recording.h"
+#include "physics/confirmed_diagnosis.h"
 
 namespace odolab {
 
 namespace {
 
 Result<RunOutputs> mystery_outputs(const Mystery& mystery, const Progress& progress) {
-  std::vector<Recording> recordings;
-  const double all = static_cast<double>(mystery.drives.size());
-  for (const Scenario& drive : mystery.drives) {
-    const double before = static_cast<double>(recordings.size());
-    const auto recording = driven_recording(
-        drive, drive.seed, [&](double share) { return goes_on(progress, 0.3 * (before + share) / all); });
-    if (!recording) return Error{drive.name, "a run that did not arrive", "one driven to the end"};
-    recordings.push_back(*recording);
-  }
-  const Result<Diagnosis> diagnosis = diagnose(recordings, {}, mystery.drives.front().vehicle, {},
-                                               [&](double share) { return goes_on(progress, 0.3 + 0.7 * share); });
+  const Result<Diagnosis> diagnosis = diagnosed(mystery, progress);
   if (!diagnosis) return diagnosis.error();
   const MysteryOutcome outcome = judged(mystery, *diagnosis);
   RunOutputs out;

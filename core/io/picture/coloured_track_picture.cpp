@@ -2,8 +2,8 @@
 
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "core/diagnosis/mismatch.h"
 #include "core/io/picture/floor_view.h"
 
 namespace odolab {
@@ -12,24 +12,13 @@ namespace {
 
 // From pale to dark, so that it can be read in grey too.
 struct Level {
-  double below;
   const char* colour;
   double width_px;
-  const char* label;
 };
-constexpr Level kLevels[] = {
-    {2.0, "#b9c4cc", 2.0, "noise"},
-    {3.0, "#F0C040", 3.0, "2\xE2\x80\x93" "3\xC3\x97"},
-    {5.0, "#E69F00", 3.6, "3\xE2\x80\x93" "5\xC3\x97"},
-    {8.0, "#D55E00", 4.2, "5\xE2\x80\x93" "8\xC3\x97"},
-    {std::numeric_limits<double>::infinity(), "#8B1A1A", 4.8, "over 8\xC3\x97"},
-};
+constexpr Level kLevels[kMismatchLevels] = {
+    {"#b9c4cc", 2.0}, {"#F0C040", 3.0}, {"#E69F00", 3.6}, {"#D55E00", 4.2}, {"#8B1A1A", 4.8}};
 
-std::size_t level_of(double value) {
-  std::size_t level = 0;
-  while (level + 1 < std::size(kLevels) && value >= kLevels[level].below) ++level;
-  return level;
-}
+std::size_t level_of(double value) { return static_cast<std::size_t>(mismatch_level(value)); }
 
 // The line from point to point at one level; every stretch begins where the one before it ended.
 void draw_level(Svg& svg, const ColouredTrack& track, const FloorView& view, std::size_t level) {
@@ -96,10 +85,11 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
 
   double x = kSide;
   const double y = picture.height_px - 18.0;
-  for (const Level& level : kLevels) {
-    svg.line({x, y - 4.0}, {x + 20.0, y - 4.0}, {level.colour, level.width_px + 1.0, ""});
-    svg.text({x + 25.0, y}, level.label, Anchor::start, 11.0);
-    x += 36.0 + 6.0 * static_cast<double>(std::string(level.label).size());
+  for (int k = 0; k < kMismatchLevels; ++k) {
+    const std::string label = mismatch_level_text(k);
+    svg.line({x, y - 4.0}, {x + 20.0, y - 4.0}, {kLevels[k].colour, kLevels[k].width_px + 1.0, ""});
+    svg.text({x + 25.0, y}, label, Anchor::start, 11.0);
+    x += 36.0 + 6.0 * static_cast<double>(label.size());
   }
   view.draw_scale_bar(svg, {picture.width_px - kSide, y}, 8);
   return svg.finished();

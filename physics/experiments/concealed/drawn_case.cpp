@@ -138,10 +138,11 @@ std::vector<double> significance_in(const DrawnCase& c) {
 
 // Scales the effects until the fit that knows their form would find them at this level. False where that takes sizes
 // that the effects do not have.
-bool scaled_to(DrawnCase& c, const DrawnDrives& drives, double wanted) {
+bool scaled_to(DrawnCase& c, const DrawnDrives& drives, double wanted, const Progress& progress) {
   const bool a_place =
       std::any_of(c.effects.begin(), c.effects.end(), [](const DrawnEffect& e) { return e.at_a_place; });
   for (int pass = 0; pass < 4; ++pass) {
+    if (!goes_on(progress, 0.2 * (1 + pass))) return false;
     c.given = runs_of(c, drives.given, 0, a_place);
     c.significance = significance_in(c);
     bool near = true;
@@ -158,7 +159,7 @@ bool scaled_to(DrawnCase& c, const DrawnDrives& drives, double wanted) {
   return true;
 }
 
-bool drawn_once(Random& random, DrawnCase& c, const Wish& wish) {
+bool drawn_once(Random& random, DrawnCase& c, const Wish& wish, const Progress& progress) {
   const std::vector<std::string> names = drawn_names(random, c.kind, wish);
   const bool a_place = std::any_of(names.begin(), names.end(), acts_at_a_place);
   c.robot = drawn_robot(random, a_place);
@@ -168,7 +169,7 @@ bool drawn_once(Random& random, DrawnCase& c, const Wish& wish) {
     c.effects.push_back(drawn_effect(random, name, static_cast<int>(drives.given.size())));
   place_in_runs(random, c, drives);
   const double wanted = significance_of(c.level);
-  if (!c.effects.empty() && !scaled_to(c, drives, wanted)) return false;
+  if (!c.effects.empty() && !scaled_to(c, drives, wanted, progress)) return false;
   c.given = runs_of(c, drives.given, 0, true);
   if (!c.effects.empty()) {
     c.significance = significance_in(c);
@@ -196,7 +197,7 @@ InnovationModel DrawnCase::truth() const {
   return model;
 }
 
-DrawnCase drawn_case(std::uint64_t seed, int number, const Wish& wish) {
+DrawnCase drawn_case(std::uint64_t seed, int number, const Wish& wish, const Progress& progress) {
   DrawnCase c;
   c.number = number;
   const std::uint64_t own = seed_of_stream(seed, static_cast<std::uint64_t>(number));
@@ -208,12 +209,13 @@ DrawnCase drawn_case(std::uint64_t seed, int number, const Wish& wish) {
   if (wish.poor) c.poor = *wish.poor;
   for (c.thrown_away = 0; c.thrown_away < kMostDraws; ++c.thrown_away) {
     c.seed = seed_of_stream(own, static_cast<std::uint64_t>(c.thrown_away));
-    if (drawn_once(random, c, wish)) return c;
+    if (!goes_on(progress, 0.1)) return c;
+    if (drawn_once(random, c, wish, progress)) return c;
   }
   c.effects.clear();  // nothing that these drives can show
   c.significance.clear();
   c.kind = Kind::nothing;
-  drawn_once(random, c, Wish{});
+  if (goes_on(progress, 0.1)) drawn_once(random, c, Wish{}, progress);
   return c;
 }
 

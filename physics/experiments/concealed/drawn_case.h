@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/diagnosis/diagnosis.h"
 #include "physics/experiments/concealed/driven_run.h"
@@ -50,7 +51,8 @@ struct DrawnCase {
 };
 
 // Case `number` of a seed. Kinds and levels come in turn, so that every dozen has the same share of each.
-DrawnCase drawn_case(std::uint64_t seed, int number, const Wish& wish = {});
+// Where `progress` stops it, what comes back is unfinished.
+DrawnCase drawn_case(std::uint64_t seed, int number, const Wish& wish = {}, const Progress& progress = {});
 
 // Writes a case for inspection: vehicle.toml as diagnosis gets it, a scenario and a recording for each run (the given
 // ones by their names, the others with `held_out_` in front), and truth.txt, which says what is missing. Rolling noise

@@ -1,0 +1,87 @@
+#include "core/diagnosis/chosen_model.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/effect_motions.h"
+#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/ready_run.h"
+#include "core/diagnosis/units/vehicle_units.h"
+
+namespace odolab {
+
+namespace {
+
+// The runs with the effects of the model put in, each at the size that was found. A clock's rate is in the stamps.
+Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std::vector<CheckedRecording>& ready,
+                                             const LeastSquaresCalibration& alone, const Vehicle& nominal) {
+  std::vector<InnovationRun> runs;
+  std::vector<char> commands;
+  for (const CheckedRecording& c : ready) {
+    Result<InnovationRun> run = innovation_run(c.recording, nominal);
+    if (!run) return run.error();
+    const double offset_s = nominal.truth.time_offset_s;
+    for (const ActiveEffect& a : model.effects_in(c.recording.name)) {
+      if (a.effect != "clock_rate") continue;
+      const double t0 = run->truth.front().time_s - offset_s;
+      for (std::vector<WheelSample>* wheels : {&run->wheels, &run->smooth})
+        for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.parameter("rate"));
+    }
+    runs.push_back(ready_run(c, std::move(*run), offset_s));
+    commands.push_back(c.from_commands);
+  }
+  JointModel joint(runs, commands, alone, nominal);
+  joint.linearise();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const std::vector<ActiveEffect> effects = model.effects_in(ready[r].recording.name);
+    if (!effects.empty()) runs[r].extra = {{"effects", 1.0, motions_of(joint.views()[r], effects)}};
+  }
+  return runs;
+}
+
+}  // namespace
+
+bool can_be_switched_on(const Finding& f) {
+  return f.effect != "unknown" && f.effect != "truth_frozen" && f.effect != "encoder_data_fault" &&
+         f.effect != "truth_mounting_offset" && f.effect != "truth_time_offset" &&
+         f.effect.find("_bias") == std::string::npos;
+}
+
+Result<FittedModel> model_with(const Diagnosis& diagnosis, const std::vector<bool>& on,
+                               const std::vector<Recording>& train, const Vehicle& nominal) {
+  Diagnosis chosen = diagnosis;
+  chosen.findings.clear();
+  bool all = true, any = false;
+  for (std::size_t k = 0; k < diagnosis.findings.size(); ++k) {
+    const Finding& f = diagnosis.findings[k];
+    const bool is_on = k < on.size() && on[k];
+    if (is_on || !can_be_switched_on(f)) chosen.findings.push_back(f);
+    if (!can_be_switched_on(f)) continue;
+    all = all && is_on;
+    any = any || is_on;
+  }
+  if (!any) return calibrated_model_of(diagnosis);
+  FittedModel model = model_of(chosen);
+  if (all || has_units(nominal)) return model;
+
+  std::vector<CheckedRecording> ready;
+  std::vector<char> commands;
+  for (const Recording& r : train) {
+    ready.push_back(checked(r, nominal));
+    commands.push_back(ready.back().from_commands);
+  }
+  Result<std::vector<InnovationRun>> runs = runs_with(model, ready, diagnosis.calibration_alone, nominal);
+  if (!runs) return runs.error();
+  JointModel joint(std::move(*runs), commands, diagnosis.calibration_alone, nominal);
+  joint.linearise();
+  joint.gate();
+  joint.fit(3);
+  joint.fit_noise();
+  joint.fit(2);
+  model.vehicle.kind = joint.model.drive;
+  model.vehicle.truth = joint.model.truth;
+  model.truth_clock_s.clear();
+  for (std::size_t r = 0; r < train.size(); ++r) model.truth_clock_s.emplace_back(train[r].name, joint.clock_s[r]);
+  return model;
+}
+
+}  // namespace odolab

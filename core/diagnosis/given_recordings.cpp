@@ -1,0 +1,41 @@
+#include "core/diagnosis/given_recordings.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/diagnosis/units/vehicle_units.h"
+#include "core/recording/vehicle_samples.h"
+
+namespace odolab {
+
+std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
+  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
+    return Error{path + ": " + problems.front(), "", ""};
+  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
+    const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
+    if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
+  } else if (const std::string missing = missing_columns(recording, vehicle); !missing.empty()) {
+    return Error{path, "no " + missing, "the encoders of a " + kind_name(vehicle)};
+  }
+  if (units_of(vehicle).size() > 1) return std::nullopt;  // they judge each other
+  const std::size_t truths = truth_samples(recording).size();
+  if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
+  return std::nullopt;
+}
+
+void make_names_differ(std::vector<Recording>& recordings, const std::vector<std::string>& paths) {
+  std::vector<std::filesystem::path> rest(paths.begin(), paths.end());
+  for (bool changed = true; changed;) {
+    changed = false;
+    std::vector<std::string> names;
+    for (const Recording& r : recordings) names.push_back(r.name);
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      rest[i] = rest[i].parent_path();
+      if (std::count(names.begin(), names.end(), names[i]) < 2 || rest[i].filename().empty()) continue;
+      recordings[i].name = rest[i].filename().string() + "/" + recordings[i].name;
+      changed = true;
+    }
+  }
+}
+
+}  // namespace odolab

@@ -1,0 +1,21 @@
+// Recordings as they are given to a diagnosis: which can be judged, and by what names they are spoken of.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+// What keeps a recording from being judged at all; `path` stands for it in the error.
+std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path);
+
+// A recording's name stands for it in all that is said; where two files have one name, as much of the path as tells
+// them apart is put before it.
+void make_names_differ(std::vector<Recording>& recordings, const std::vector<std::string>& paths);
+
+}  // namespace odolab

@@ -1,0 +1,22 @@
+#include "core/diagnosis/ready_run.h"
+
+namespace odolab {
+
+InnovationRun ready_run(const CheckedRecording& c, InnovationRun run, double offset_s) {
+  run.speeds_are_held = c.from_commands;
+  if (c.from_commands) run.smooth.clear();  // a command is what it is
+  for (const auto& [from, to] : c.break_s) {
+    bool behind = false;
+    for (std::size_t i = 0; i < run.truth.size(); ++i) {
+      const double t = run.truth[i].time_s - offset_s;
+      if (t >= from && t <= to) run.set_aside[i] = 1;
+      if (t > to && !behind) {
+        run.set_aside[i] = 2;
+        behind = true;
+      }
+    }
+  }
+  return run;
+}
+
+}  // namespace odolab

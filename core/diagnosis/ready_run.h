@@ -1,0 +1,13 @@
+// A checked recording made ready for the joint model.
+#pragma once
+
+#include "core/calibration/innovations.h"
+#include "core/diagnosis/quality.h"
+
+namespace odolab {
+
+// The run with its faults set aside and, where commands stand in for wheels, held as commands are. `offset_s`: by which
+// the truth's clock is late.
+InnovationRun ready_run(const CheckedRecording& checked, InnovationRun run, double offset_s);
+
+}  // namespace odolab

@@ -1,0 +1,21 @@
+// A diagnosis with its confirmation: the simulator driven by the recordings' own inputs, without the findings and with
+// them.
+#pragma once
+
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/lesson/lesson.h"
+
+namespace odolab {
+
+// `Diagnosis::simulation` is filled in; what the planar world could not switch on is among the warnings.
+Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                                      const Vehicle& nominal, const Progress& progress = {});
+
+// A lesson's concealed robot drives all of its drives, and they are diagnosed; an error where one does not arrive.
+Result<Diagnosis> diagnosed(const Mystery& mystery, const Progress& progress = {});
+
+}  // namespace odolab

@@ -1,0 +1,141 @@
+#include "ui/panels/diagnosis_time_panel.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "ui/look/widgets.h"
+
+namespace odolab::ui {
+
+namespace {
+
+constexpr Unit kTimesNoise{"×", 1.0, 1, 0.0};
+
+std::string brush_words(const DiagnosedRun& run, const DiagnosisState& state) {
+  if (state.brush.empty()) return "Drag over the plot, or a rectangle on the floor, to light a stretch in both.";
+  double before = 0.0, after = 0.0, length_s = 0.0;
+  for (const Stretch& s : state.brush) {
+    before = std::max(before, run.mismatch->largest_before(s.first, s.second));
+    after = std::max(after, run.mismatch->largest_after(s.first, s.second));
+    length_s += s.second - s.first;
+  }
+  char text[160];
+  if (state.brush.size() == 1)
+    std::snprintf(text, sizeof text, "%.2f to %.2f s: up to %.1f× the noise", state.brush[0].first,
+                  state.brush[0].second, before);
+  else
+    std::snprintf(text, sizeof text, "%zu stretches, %.1f s: up to %.1f× the noise", state.brush.size(), length_s,
+                  before);
+  std::string all = text;
+  if (!run.mismatch->after.empty()) {
+    std::snprintf(text, sizeof text, ", with what was found %.1f×", after);
+    all += text;
+  }
+  return all;
+}
+
+void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisState& state, ImVec2 size,
+               const Theme& theme) {
+  Plot what;
+  what.x = {"time", kSeconds};
+  what.y = {"mismatch, times the noise", kTimesNoise};
+  what.from_zero = true;
+  what.brushes = true;
+  what.empty_text = !view.diagnosis ? "The mismatch over time, once it was diagnosed"
+                    : run.held_out  ? "Held out: not fitted, and only judged by the bars on the right"
+                                    : "This run was not part of the answer";
+  const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
+                             run.mismatch ? run.mismatch->time_s.back() : 0.0};
+  const double noise_y[2] = {1.0, 1.0};
+  if (run.mismatch) {
+    const MismatchOverTime& m = *run.mismatch;
+    what.series.push_back({"noise", noise_x, noise_y, 2, theme.green, Stroke::dotted, Marker::none});
+    what.series.push_back({"calibrated only", m.time_s.data(), m.before.data(), m.time_s.size(), theme.orange,
+                           Stroke::line, Marker::none});
+    if (!m.after.empty())
+      what.series.push_back({"with what was found", m.time_s.data(), m.after.data(), m.after.size(), theme.blue,
+                             Stroke::line, Marker::none});
+    what.x_low = m.time_s.front();
+    what.x_high = m.time_s.back();
+    for (const LocatedStretch& s : run.located) what.bands.push_back({s.from_s, s.to_s, faded(theme.purple, 0.30f)});
+    for (const Stretch& s : state.brush) what.bands.push_back({s.first, s.second, faded(theme.sky, 0.35f)});
+  }
+  const PlotResult result = plot("mismatch over time", size, what, state.time_view, theme);
+  if (!run.mismatch) return;
+  if (result.brushed) {
+    state.brush = {*result.brushed};
+    state.lit.reset();
+  } else if (result.clicked_x) {
+    state.brush.clear();
+    state.lit.reset();
+  }
+}
+
+void response(const DiagnosisView& view, DiagnosisState& state, ImVec2 size, const Theme& theme) {
+  const std::vector<Response>& all = view.diagnosis->responses;
+  Plot what;
+  what.empty_text = "No variable of the motion was tried";
+  if (!all.empty()) {
+    const Response& r = all[std::size_t(state.response)];
+    what.x = {r.variable, Unit{"", 1.0, 2, 0.0}};
+    what.y = {r.channel, Unit{"", 1.0, 5, 0.0}};
+    what.areas.push_back({r.at.data(), r.low.data(), r.high.data(), r.at.size(), faded(theme.orange, 0.22f)});
+    what.series.push_back(
+        {"calibrated only", r.at.data(), r.value.data(), r.at.size(), theme.orange, Stroke::line, Marker::disc});
+    if (!r.after.empty())
+      what.series.push_back({"with what was found", r.at.data(), r.after.data(), r.after.size(), theme.blue,
+                             Stroke::dashed, Marker::none});
+    what.legend = false;
+  }
+  plot("response", size, what, state.response_view, theme);
+}
+
+void response_choice(const DiagnosisView& view, DiagnosisState& state, float width) {
+  const std::vector<Response>& all = view.diagnosis->responses;
+  if (all.empty()) return;
+  state.response = std::clamp(state.response, 0, int(all.size()) - 1);
+  const auto label = [](const Response& r) {
+    return r.channel.substr(0, r.channel.find(" [")) + " against " + r.variable.substr(0, r.variable.find(" ["));
+  };
+  ImGui::SetNextItemWidth(width);
+  if (!ImGui::BeginCombo("##response", label(all[std::size_t(state.response)]).c_str())) return;
+  for (int k = 0; k < int(all.size()); ++k)
+    if (ImGui::Selectable(label(all[std::size_t(k)]).c_str(), k == state.response)) {
+      state.response = k;
+      state.response_view.fitted = true;
+    }
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, const Theme& theme) {
+  if (view.runs.empty()) {
+    note("The mismatch over time and what it depends on will stand here.", theme);
+    return;
+  }
+  const DiagnosedRun& run = view.runs[std::min(state.run, view.runs.size() - 1)];
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float gap = theme.px(16), line = ImGui::GetFrameHeight() + theme.px(4);
+  const bool two = view.diagnosis && !view.diagnosis->responses.empty() && room.x > theme.px(700);
+  const float left = two ? std::round(0.62f * room.x) : room.x, right = room.x - left - gap;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(fitted(run.name, 0.3f * left).c_str());
+  if (run.mismatch) {
+    ImGui::SameLine(0, theme.px(14));
+    ImGui::TextDisabled("%s", fitted(brush_words(run, state), left - ImGui::GetCursorPosX()).c_str());
+  }
+  if (two) {
+    ImGui::SameLine(left + gap + ImGui::GetStyle().WindowPadding.x);
+    response_choice(view, state, right);
+  }
+  const float height = std::max(theme.px(60), room.y - line);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  over_time(view, run, state, {left, height}, theme);
+  if (two) {
+    ImGui::SetCursorScreenPos({at.x + left + gap, at.y});
+    response(view, state, {right, height}, theme);
+  }
+}
+
+}  // namespace odolab::ui
