@@ -35,8 +35,8 @@ struct DiagnosedRun {
 // A finding as it is read.
 struct FindingCard {
   std::string title, sentence, where, evidence;
-  std::vector<std::pair<std::string, std::string>> parameters;  // name, value with error and unit
-  std::vector<std::string> alternatives;
+  std::vector<std::pair<std::string, std::string>> parameters;    // name, value with error and unit
+  std::vector<std::pair<std::string, std::string>> alternatives;  // which, and what would tell them apart
   bool can_be_switched = false;
   bool on = false;
 };
@@ -100,6 +100,7 @@ struct DiagnosisState {
   int response = 0;
   int seed = 1;
   int guess = -1;
+  bool fit_floor = false;   // another run was chosen
   bool show_advice = true;  // on the floor
   PlotView time_view, response_view;
   std::string export_folder;  // without a slash at its end; empty: where the program was started

@@ -180,8 +180,7 @@ Result<Done> DiagnosisDesk::add(const std::string& path, Recording recording) {
 
 void DiagnosisDesk::carry_out(const ui::DiagnosisAction& action, Jobs& jobs) {
   if (const auto* hold = std::get_if<ui::HoldOut>(&action); hold && hold->run < given_.runs.size()) {
-    remember();
-    given_.runs[hold->run].held_out = hold->on;
+    given_.runs[hold->run].held_out = hold->on;  // a tick is its own undo
     ++revision_;
   }
   if (const auto* remove = std::get_if<ui::RemoveRun>(&action); remove && remove->run < given_.runs.size()) {

@@ -36,15 +36,14 @@ ui::FindingCard card_of(const Finding& f, bool on) {
   ui::FindingCard card;
   card.title = capital(f.effect == "unknown" ? "something without a name" : effect_text(f.effect, f.component));
   card.sentence = capital(f.sentence);
-  card.where = where_text(f.where);
+  card.where = f.effect == "unknown" ? "" : where_text(f.where);  // an unknown's sentence says it
   card.evidence = evidence_words(f);
   for (const FoundParameter& p : f.parameters)
     card.parameters.emplace_back(name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit));
   for (const Alternative& a : f.alternatives) {
-    std::string words = (f.effect == "unknown" ? "resembles " : "or ") + effect_text(a.effect, a.component) +
-                        number_text(" (gain %.4g)", a.log_likelihood_gain);
-    if (!a.told_apart_by.empty()) words += "; told apart by " + a.told_apart_by;
-    card.alternatives.push_back(words);
+    card.alternatives.emplace_back((f.effect == "unknown" ? "resembles " : "or ") + effect_text(a.effect, a.component) +
+                                       number_text(" (gain %.4g)", a.log_likelihood_gain),
+                                   a.told_apart_by);
   }
   card.can_be_switched = can_be_switched_on(f);
   card.on = on;
@@ -159,12 +158,12 @@ ui::FloorScene diagnosis_scene(const ui::DiagnosisView& view, const ui::Diagnosi
   const std::size_t shown = std::min(state.run, view.runs.size() - 1);
   for (std::size_t r = 0; r < view.runs.size(); ++r)
     if (r != shown && view.runs[r].way)
-      scene.trails.push_back({view.runs[r].way, false, ui::faded(ui::run_colour(r, theme), 0.28f), {}});
+      scene.trails.push_back({view.runs[r].way, false, ui::faded(ui::run_colour(r, theme), 0.28f), {}, true});
   const ui::DiagnosedRun& run = view.runs[shown];
   if (run.mismatch_trail)
-    scene.trails.push_back({run.mismatch_trail, true, 0, state.brush});
+    scene.trails.push_back({run.mismatch_trail, true, 0, state.brush, false});
   else if (run.way)
-    scene.trails.push_back({run.way, false, ui::run_colour(shown, theme), {}});
+    scene.trails.push_back({run.way, false, ui::run_colour(shown, theme), {}, false});
   if (run.simulated_track) {
     ui::TrackLine line;
     line.label = "simulated";

@@ -112,6 +112,13 @@ void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& va
   ImGui::End();
 }
 
+std::string diagnosis_title(const Session& session) {
+  const std::size_t runs = session.diagnosis().runs().size();
+  if (runs == 0) return "no recordings yet";
+  const std::optional<Vehicle>& vehicle = session.diagnosis().vehicle();
+  return std::to_string(runs) + (runs == 1 ? " run" : " runs") + (vehicle ? " of " + vehicle->name : "");
+}
+
 // The lesson's step is a benchmark: clouds instead of a floor.
 bool learns_by_squares(const Session& session) {
   return session.mode() == ui::Mode::learn && session.lesson().is_open() && session.run().scenario().benchmark;
@@ -192,6 +199,7 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
 
 Actions diagnosis_centre(const Session& session, ScreenState& state, const Theme& theme) {
   const ui::DiagnosisView view = session.diagnosis().view(session.jobs());
+  state.diagnosis_floor.fit_next = std::exchange(state.diagnosis.fit_floor, false) || state.diagnosis_floor.fit_next;
   if (view.runs.empty()) return ui::diagnosis_welcome(view, state.diagnosis, state.choices.show_open, theme);
   Actions actions = ui::floor_view(diagnosis_scene(view, state.diagnosis, theme), state.diagnosis_floor, theme);
   if (const auto corners = std::exchange(state.diagnosis_floor.brushed, std::nullopt)) {
@@ -317,7 +325,8 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     bar.mode = session.mode();
     bar.title = session.mode() == ui::Mode::compare
                     ? (session.comparison().loaded() ? session.comparison().recording().name : "no recording yet")
-                    : session.title();
+                : session.mode() == ui::Mode::diagnose ? diagnosis_title(session)
+                                                       : session.title();
     bar.playing = session.playing();
     bar.can_undo = session.can_undo();
     bar.can_redo = session.can_redo();

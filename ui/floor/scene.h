@@ -41,6 +41,7 @@ struct FloorTrail {
   bool by_mismatch = false;  // coloured by size, and the scale is shown; else in one colour
   ImU32 colour = 0;
   std::vector<Stretch> lit;  // these parts stand out
+  bool aside = false;        // need not be in sight
 };
 
 // A place that was located.

@@ -24,6 +24,7 @@ void look_at(const DiagnosisView& view, std::size_t finding, DiagnosisState& sta
     const std::size_t r = (state.run + step) % view.runs.size();
     std::vector<Stretch> found = stretches_of(view.runs[r], finding);
     if (found.empty()) continue;
+    if (state.run != r) state.time_view.fitted = state.fit_floor = true;
     state.run = r;
     state.brush = std::move(found);
     return;
@@ -56,7 +57,10 @@ Actions card(const DiagnosisView& view, std::size_t k, DiagnosisState& state, co
   }
   if (!f.where.empty()) words(f.where, theme.muted, inner);
   if (!f.evidence.empty()) words(f.evidence, theme.muted, inner);
-  for (const std::string& a : f.alternatives) words(a, theme.orange, inner);
+  for (const auto& [which, told_apart_by] : f.alternatives) {
+    words(which, theme.orange, inner);
+    if (!told_apart_by.empty()) tooltip("Told apart by " + told_apart_by + ".", theme);
+  }
   ImGui::PopStyleVar();
   if (f.can_be_switched) {
     bool on = f.on;

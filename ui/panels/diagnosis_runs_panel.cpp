@@ -44,7 +44,7 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   ImGui::PushID(int(r));
   const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  const float pad = theme.px(6), tick = theme.px(74);
+  const float pad = theme.px(5), tick = theme.px(80);
   const float height = 2.0f * line + theme.px(2) + 2.0f * pad;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 #if IMGUI_VERSION_NUM >= 18970
@@ -55,7 +55,10 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   ImGui::SetItemAllowOverlap();
 #endif
   if (clicked) {
-    if (state.run != r) state.brush.clear();
+    if (state.run != r) {
+      state.brush.clear();
+      state.time_view.fitted = state.fit_floor = true;
+    }
     state.run = r;
     state.lit.reset();
   }
@@ -72,8 +75,8 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   draw.AddText({text_x, low.y + pad + line + theme.px(2)}, theme.muted,
                fitted(about, width - 2.0f * pad - theme.px(18) - theme.px(24)).c_str());
 
-  ImGui::SetCursorScreenPos({high.x - pad - tick, low.y + pad - theme.px(3)});
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(theme.px(2), theme.px(1)));
+  ImGui::SetCursorScreenPos({high.x - pad - tick, low.y + pad - theme.px(1)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(theme.px(2), 0.0f));
   bool held_out = run.held_out;
   ImGui::BeginDisabled(busy || !run.problem.empty());
   if (ImGui::Checkbox("hold out", &held_out)) actions.push_back(wish(HoldOut{r, held_out}));
@@ -87,7 +90,7 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   if (shown || hovered || on_cross)
     draw_icon(draw, Icon::close, {high.x - pad - theme.px(8), low.y + pad + 1.5f * line + theme.px(1)}, theme.px(10),
               on_cross ? theme.ink : theme.muted);
-  ImGui::SetCursorScreenPos({low.x, high.y + theme.px(2)});
+  ImGui::SetCursorScreenPos({low.x, high.y - theme.px(3)});
   ImGui::Dummy({0, 0});
   if (!run.problem.empty()) warning("Left out: " + run.problem, theme);
   if (shown)
@@ -196,6 +199,7 @@ ImU32 run_colour(std::size_t run, const Theme& theme) {
 Actions diagnosis_runs_panel(const DiagnosisView& view, DiagnosisState& state, const std::string& drive_vehicle,
                              bool& ask_for_file, const Theme& theme) {
   Actions actions = vehicle_part(view, drive_vehicle, ask_for_file, theme);
+  if (view.mystery) append(actions, mystery_part(view, theme));
   const float width = ImGui::GetContentRegionAvail().x;
   heading("Runs", theme);
   if (view.runs.empty()) note("None yet. Drop recordings here: CSV, ROS 2 bags, or what import knows.", theme);
@@ -212,10 +216,6 @@ Actions diagnosis_runs_panel(const DiagnosisView& view, DiagnosisState& state, c
     clear.tip = "Empty the list (Ctrl+Z brings it back)";
     if (text_button("Clear", theme, clear, half)) actions.push_back(wish(ClearRuns{}));
   }
-  if (!view.problem.empty()) {
-    ImGui::Dummy({1, theme.px(2)});
-    warning(view.problem, theme);
-  }
   ImGui::Dummy({1, theme.px(2)});
   if (view.busy) {
     progress_row(view, actions, theme);
@@ -229,7 +229,7 @@ Actions diagnosis_runs_panel(const DiagnosisView& view, DiagnosisState& state, c
       actions.push_back(wish(FindMissing{}));
     if (view.stale) note("The list has changed since the answer on the right.", theme);
   }
-  if (view.mystery) append(actions, mystery_part(view, theme));
+  if (!view.problem.empty()) warning(view.problem, theme);
   if (view.diagnosis) append(actions, export_part(state, theme));
   if (!view.runs.empty() && (!view.mystery || view.mystery->revealed)) {
     heading("Practise", theme);

@@ -40,6 +40,9 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   what.x = {"time", kSeconds};
   what.y = {"mismatch, times the noise", kTimesNoise};
   what.from_zero = true;
+  what.least_y_span = 3.0;
+  what.x_low = 0.0;
+  what.x_high = run.duration_s;
   what.brushes = true;
   what.empty_text = !view.diagnosis ? "The mismatch over time, once it was diagnosed"
                     : run.held_out  ? "Held out: not fitted, and only judged by the bars on the right"

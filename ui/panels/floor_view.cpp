@@ -114,7 +114,7 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
   const double reach_m = scene.vehicles.empty() ? 0.3 : reach_of(scene.vehicles.front());
   for (const Vec2 p : scene.planned) take(p, reach_m);
   for (const FloorTrail& t : scene.trails)
-    if (t.trail && !t.trail->empty()) {
+    if (t.trail && !t.trail->empty() && !t.aside) {
       take(t.trail->lowest(), 0.1);
       take(t.trail->highest(), 0.1);
     }
@@ -173,7 +173,7 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
 // The scale of the mismatch, under the legend's lines.
 void mismatch_scale(ImDrawList& draw, const FloorViewState& state, float y, const Theme& theme) {
   const float line = ImGui::GetTextLineHeight(), swatch = theme.px(20), gap = theme.px(12);
-  const char* title = "mismatch";
+  const char* title = "recorded, by its mismatch";
   float total = ImGui::CalcTextSize(title).x + gap;
   for (int k = 0; k < kMismatchLevels; ++k)
     total += swatch + theme.px(5) + ImGui::CalcTextSize(mismatch_level_text(k)).x + (k + 1 < kMismatchLevels ? gap : 0);
@@ -215,7 +215,6 @@ void draw_trails(ImDrawList& draw, const FloorScene& scene, const Camera& camera
     else
       draw_trail(draw, camera, *t.trail, t.colour, theme.px(1.4f), theme);
   }
-  for (const FloorDisc& disc : scene.discs) draw_disc(draw, camera, disc, theme);
 }
 
 void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
@@ -240,6 +239,8 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
       if (line.reference && line.end && scene.reference) drawn.end = exaggerated(*scene.reference, *line.end, factor);
       draw_track(draw, camera, drawn, factor, theme);
     }
+  if (state.show_things)
+    for (const FloorDisc& disc : scene.discs) draw_disc(draw, camera, disc, theme);
   for (const VehicleGlyph& vehicle : scene.vehicles) {
     VehicleGlyph drawn = vehicle;
     if (vehicle.outline && scene.reference) drawn.pose = exaggerated(*scene.reference, vehicle.pose, factor);

@@ -179,7 +179,7 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
   const float line_height = ImGui::GetTextLineHeight();
   const double sx = what.x.unit.per_si, sy = what.y.unit.per_si;
   const int most_x = std::max(2, int(frame.width() / theme.px(80))),
-            most_y = std::max(3, int(frame.height() / theme.px(36)));
+            most_y = std::max(4, int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
   double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
   if (what.equal_scale && sx == sy) {  // the same marks on both, as close as the numbers along x allow

@@ -1,0 +1,85 @@
+#include "core/diagnosis/mismatch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace odolab {
+namespace {
+
+// A minute of white residuals at 50 Hz, in all channels of their own size.
+Residuals white(std::uint64_t seed) {
+  Residuals r;
+  r.recording = "run.csv";
+  Random random(seed);
+  for (int i = 0; i < 3000; ++i) {
+    r.time_s.push_back(0.02 * i);
+    r.x_m.push_back(0.01 * i);
+    r.y_m.push_back(0.0);
+    r.along_m.push_back(0.001 * random.normal());
+    r.across_m.push_back(0.002 * random.normal());
+    r.heading_rad.push_back(0.003 * random.normal());
+    r.squared.push_back(1.0);
+  }
+  return r;
+}
+
+TEST(Mismatch, OfNoiseAloneIsAboutOne) {
+  const Residuals r = white(1);
+  const ResidualSizes sizes = sizes_of(r);
+  EXPECT_NEAR(sizes.along_m, 0.001, 1e-4);  // 3000 samples know a size to 2 %, by the median to 3 %
+  double sum = 0.0;
+  for (double v : times_noise(r, sizes)) sum += v;
+  // the larger of two that are each 0.9 in the mean, with a scatter of 0.4
+  EXPECT_NEAR(sum / 3000.0, 1.15, 0.15);
+}
+
+TEST(Mismatch, ThatKeepsItsDirectionStandsOutThoughItIsUnderTheNoiseOfASample) {
+  Residuals r = white(2);
+  for (int i = 1000; i < 1050; ++i) r.along_m[std::size_t(i)] += 0.0008;  // one second, 0.8 of the size of a sample
+  const std::vector<double> m = times_noise(r, {0.001, 0.002, 0.003});
+  // gathered over its 50 samples 0.8 * sqrt(50) = 5.7 in one of three channels: sqrt((32 + 3) / 3) = 3.4
+  EXPECT_NEAR(m[1025], 3.4, 1.0);
+}
+
+TEST(Mismatch, IsColouredByOneScale) {
+  EXPECT_EQ(mismatch_level(0.0), 0);
+  EXPECT_EQ(mismatch_level(2.0), 1);
+  EXPECT_EQ(mismatch_level(7.9), 3);
+  EXPECT_EQ(mismatch_level(1e9), kMismatchLevels - 1);
+}
+
+TEST(Mismatch, BeforeAndAfterStandAtTheSameTimes) {
+  Diagnosis d;
+  d.residuals_before = {white(3)};
+  d.residuals_after = {white(4)};
+  d.residuals_after[0].time_s.erase(d.residuals_after[0].time_s.begin() + 7);  // one that was set aside then
+  for (auto* channel :
+       {&d.residuals_after[0].along_m, &d.residuals_after[0].across_m, &d.residuals_after[0].heading_rad,
+        &d.residuals_after[0].x_m, &d.residuals_after[0].y_m, &d.residuals_after[0].squared})
+    channel->erase(channel->begin() + 7);
+  Finding f;
+  f.where.time_s = {{1.0, 2.0}};
+  f.where.recording = "another.csv";
+  d.findings = {f};
+  const MismatchOverTime m = mismatch_over_time(d, "run.csv");
+  EXPECT_EQ(m.time_s.size(), 3000u);
+  EXPECT_EQ(m.after.size(), m.time_s.size());
+  EXPECT_GE(m.largest_before(0.0, 60.0), m.largest_before(10.0, 20.0));
+  EXPECT_EQ(m.largest_before(70.0, 80.0), 0.0);
+  EXPECT_TRUE(located_stretches(d, "run.csv").empty());
+  EXPECT_EQ(located_stretches(d, "another.csv").size(), 1u);
+  EXPECT_TRUE(mismatch_over_time(d, "no.csv").time_s.empty());
+}
+
+TEST(Mismatch, OfAUnitIsFoundByTheRecording) {
+  Diagnosis d;
+  d.residuals_before = {white(5)};
+  d.residuals_before[0].recording = "run.csv, truck_a";
+  EXPECT_FALSE(mismatch_over_time(d, "run.csv").time_s.empty());
+}
+
+}  // namespace
+}  // namespace odolab
