@@ -73,6 +73,7 @@ struct DiagnosisView {
   std::vector<ProofBar> proof;
   std::string proof_title;
   std::vector<std::pair<std::string, std::string>> not_testable;  // what, and why with the drive that would show it
+  std::string next_drive;                                         // in words
   std::vector<Vec2> advised_way;                                  // of the next drive
   bool can_simulate_advice = false;
   std::string why_no_advice;

@@ -140,6 +140,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   for (const NotTestable& n : d->not_testable)
     v.not_testable.emplace_back(capital(with_blanks(n.effect)),
                                 capital(n.because) + ". " + capital(n.drive_this) + ".");
+  if (!d->next_drive.empty()) v.next_drive = capital(with_blanks(d->next_drive)) + ".";
   const auto* drive = std::get_if<DifferentialDrive>(&answer_->nominal.kind);
   if (drive && !d->next_legs.empty()) v.advised_way = advised_way_;
   v.can_simulate_advice = drive && !d->next_legs.empty() && !v.busy;

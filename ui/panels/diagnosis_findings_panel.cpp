@@ -128,9 +128,9 @@ void proof_part(const DiagnosisView& view, const Theme& theme) {
 
 Actions advice_part(const DiagnosisView& view, DiagnosisState& state, const Theme& theme) {
   Actions actions;
-  if (view.diagnosis->next_drive.empty()) return actions;
+  if (view.next_drive.empty()) return actions;
   heading("Drive next", theme);
-  words(view.diagnosis->next_drive, theme.ink);
+  words(view.next_drive, theme.ink);
   if (view.diagnosis->next_legs.empty()) return actions;
   const float width = ImGui::GetContentRegionAvail().x, half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
   ButtonLook show, drive;
