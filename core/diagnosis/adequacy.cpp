@@ -16,6 +16,7 @@ struct Group {
   std::string variable;
   std::vector<double> at;
   std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
+  std::vector<GenericWave> waves;
 };
 
 Group hats_of(const std::string& name, const std::vector<DriveView>& views,
@@ -92,6 +93,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       out[0][i] = std::cos(h), out[1][i] = std::sin(h), out[2][i] = std::cos(2 * h), out[3][i] = std::sin(2 * h);
     }
   };
+  heading.waves = {{"heading [rad]", {0, 2}, {1, 3}}};
   groups.push_back(heading);
   // Place: low polynomials of where it is, and of where it is against where it looks.
   double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
@@ -154,6 +156,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       out[3][i] = std::sin(s.right_rad);
     }
   };
+  phases.waves = {{"left wheel angle [rad]", {0}, {1}}, {"right wheel angle [rad]", {2}, {3}}};
   groups.push_back(phases);
   groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
 
@@ -191,6 +194,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     tests[i].variable = g.variable;
     tests[i].channel = kChannels[channel];
     tests[i].at = g.at;
+    tests[i].waves = g.waves;
     tests[i].test = joint.test(joint.columns_of(*term, {}), -1, true);
     tests[i].p_value = std::min(1.0, n * chi_square_tail(tests[i].test.judged(), tests[i].test.freedom));
   });

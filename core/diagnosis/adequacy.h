@@ -9,11 +9,18 @@
 
 namespace odolab {
 
+// Values of a group that are cosines and sines of an angle, of once, twice, ... that angle.
+struct GenericWave {
+  std::string variable;  // "left wheel angle [rad]"
+  std::vector<std::size_t> cosine, sine;
+};
+
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;
-  double p_value = 1.0;    // over all groups
-  std::vector<double> at;  // where the hats stand, in units of the variable; empty where it has no axis
+  double p_value = 1.0;            // over all groups
+  std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
+  std::vector<GenericWave> waves;  // where it is periodic instead
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 

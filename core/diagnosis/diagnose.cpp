@@ -191,17 +191,48 @@ Response response_of(const GenericTest& g, const GenericTest* left) {
   return r;
 }
 
+// Around the angle. The values are held for independent of each other, as they are where all angles are driven alike.
+Response response_of(const GenericTest& g, const GenericWave& wave, const GenericTest* left) {
+  constexpr int kPoints = 25;
+  Response r;
+  r.variable = wave.variable;
+  r.channel = g.channel;
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2.0 * kPi * i / (kPoints - 1);
+    double value = 0.0, variance = 0.0, after = 0.0;
+    const auto add = [&](std::size_t k, double basis) {
+      value += basis * g.test.value[k];
+      variance += basis * basis * g.test.stderr_value[k] * g.test.stderr_value[k] * g.test.inflation;
+      if (left) after += basis * left->test.value[k];
+    };
+    for (std::size_t n = 0; n < wave.cosine.size(); ++n) {
+      add(wave.cosine[n], std::cos(static_cast<double>(n + 1) * angle));
+      add(wave.sine[n], std::sin(static_cast<double>(n + 1) * angle));
+    }
+    const double se = std::sqrt(variance);
+    if (se > 1e3) return r;
+    r.at.push_back(angle);
+    r.value.push_back(value);
+    r.low.push_back(value - 2.0 * se);
+    r.high.push_back(value + 2.0 * se);
+    if (left) r.after.push_back(after);
+  }
+  return r;
+}
+
 // Of what calibration leaves to each variable that has an axis.
 std::vector<Response> responses_of(const JointModel& calibrated, const std::vector<GenericTest>& generic_now,
                                    bool found) {
   const std::vector<GenericTest> at_first = found ? generic_tests(calibrated) : generic_now;
   std::vector<Response> responses;
   for (const GenericTest& g : at_first) {
-    if (g.at.empty()) continue;
     const auto left = std::find_if(generic_now.begin(), generic_now.end(), [&](const GenericTest& other) {
       return other.variable == g.variable && other.channel == g.channel;
     });
-    responses.push_back(response_of(g, found && left != generic_now.end() ? &*left : nullptr));
+    const GenericTest* now = found && left != generic_now.end() && !left->test.value.empty() ? &*left : nullptr;
+    if (!g.at.empty()) responses.push_back(response_of(g, now));
+    if (g.test.value.empty()) continue;  // it could not be tested
+    for (const GenericWave& wave : g.waves) responses.push_back(response_of(g, wave, now));
   }
   return responses;
 }
