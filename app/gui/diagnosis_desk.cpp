@@ -85,7 +85,7 @@ void DiagnosisDesk::remember() {
   undo_.push_back(given_);
   if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
   redo_.clear();
-  problem_.clear();
+  if (!opening_) problem_.clear();
 }
 
 void DiagnosisDesk::changed() {
@@ -157,8 +157,10 @@ void DiagnosisDesk::set_vehicle(const Vehicle& vehicle) {
 
 Result<Done> DiagnosisDesk::add(const std::string& path, Recording recording) {
   for (const Run& run : given_.runs)
-    if (is_same_run(*run.recording, recording))
+    if (is_same_run(*run.recording, recording)) {
+      if (run.path != path) return Done{};  // the other file of a pair that is dropped with it
       return Error{path, "the same run as " + run.name, "one that is not in the list"};
+    }
   remember();
   Run run;
   run.path = path;
@@ -338,6 +340,7 @@ void DiagnosisDesk::move_to(const Choice& choice) {
 }
 
 void DiagnosisDesk::advance(double wall_s) {
+  opening_ = false;
   if (share_ >= 1.0 || wall_s <= 0.0) return;
   share_ = std::min(1.0, share_ + wall_s / kMove_s);
   const auto to = simulations_.find(on_);

@@ -37,11 +37,18 @@ class DiagnosisDesk {
   };
 
   void set_vehicle(const Vehicle& vehicle);
-  // An error where the list has this run already.
+  // An error where this file is in the list. What the list has from another file, as with the second of a pair, is
+  // left.
   Result<Done> add(const std::string& path, Recording recording);
   void carry_out(const ui::DiagnosisAction& action, Jobs& jobs);
   // Says it in the panel until something else is done.
   void complain(const std::string& words) { problem_ = words; }
+  // Files that are dropped together are opened between two pictures, and what is wrong with one of them stays to be
+  // read.
+  void begin_opening() {
+    if (!opening_) problem_.clear();
+    opening_ = true;
+  }
   // Moves the simulated tracks on towards where they belong.
   void advance(double wall_s);
 
@@ -106,6 +113,7 @@ class DiagnosisDesk {
   double share_ = 1.0;  // of the way from `from_` to where the switches say
   std::vector<Vec2> advised_way_;
   std::string problem_;
+  bool opening_ = false;
 };
 
 }  // namespace odolab

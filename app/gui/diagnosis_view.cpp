@@ -39,7 +39,8 @@ ui::FindingCard card_of(const Finding& f, bool on) {
   card.where = f.effect == "unknown" ? "" : where_text(f.where);  // an unknown's sentence says it
   card.evidence = evidence_words(f);
   for (const FoundParameter& p : f.parameters)
-    card.parameters.emplace_back(name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit));
+    card.parameters.emplace_back(p.name.rfind("per_", 0) == 0 ? "amount" : name_text(p.name),
+                                 quantity_text(p.value, p.stderr_value, p.unit));
   for (const Alternative& a : f.alternatives) {
     card.alternatives.emplace_back((f.effect == "unknown" ? "resembles " : "or ") + effect_text(a.effect, a.component) +
                                        number_text(" (gain %.4g)", a.log_likelihood_gain),
@@ -178,6 +179,7 @@ ui::FloorScene diagnosis_scene(const ui::DiagnosisView& view, const ui::Diagnosi
     for (const Finding& f : view.diagnosis->findings)
       if (f.where.zone)
         scene.discs.push_back({{f.where.zone->x_m, f.where.zone->y_m}, f.where.zone->radius_m, with_blanks(f.effect)});
+  scene.planned_name = "advised";
   if (state.show_advice) scene.planned = view.advised_way;
   return scene;
 }

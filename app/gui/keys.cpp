@@ -27,7 +27,7 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
         choices.show_open = true;
         return {};
       case Key::s:
-        choices.show_save_recording = true;
+        choices.show_save_recording = session.mode() != Mode::diagnose;  // there it is taken away by buttons
         return {};
       case Key::q:
         return {Quit{}};

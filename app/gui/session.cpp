@@ -35,6 +35,12 @@ std::string not_there_yet(const std::string& path) {
   return free.string();
 }
 
+bool plays(const ui::Action& action) {
+  return std::holds_alternative<ui::Play>(action) || std::holds_alternative<ui::StepForward>(action) ||
+         std::holds_alternative<ui::StepBack>(action) || std::holds_alternative<ui::ToStart>(action) ||
+         std::holds_alternative<ui::ToEnd>(action) || std::holds_alternative<ui::Restart>(action);
+}
+
 }  // namespace
 
 // Carries out one action each.
@@ -306,6 +312,7 @@ Session::Session(bool threaded, const std::string& guide_folder) : guide_(guide_
 }
 
 void Session::execute(const ui::Action& action) {
+  if (mode_ == ui::Mode::diagnose && plays(action)) return;  // nothing plays there
   std::visit(Executor{*this}, action);
   jobs_.poll();
 }
@@ -424,7 +431,7 @@ void Session::change(const Scenario& scenario) {
 
 bool Session::open(const std::string& path) {
   bool opened = false;
-  if (mode_ == ui::Mode::diagnose) diagnosis_.complain("");
+  if (mode_ == ui::Mode::diagnose) diagnosis_.begin_opening();
   switch (file_kind(path)) {
     case FileKind::scenario:
       opened = open_scenario(path);

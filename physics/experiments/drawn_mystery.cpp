@@ -86,6 +86,7 @@ Recording advised_run(const concealed::RunPlan& robot, const std::vector<DriveLe
   plan.drive = {name, wheel_speeds(plan.robot.nominal(), legs), {}, start};
   std::erase_if(plan.effects, [](const concealed::DrawnEffect& e) { return e.only_in_run >= 0; });
   plan.noise = true;
+  plan.longest_s = 2.0 * AdvisedDrive{"", legs}.duration_s();
   plan.seed = seed;
   concealed::DrivenRun run = concealed::driven(plan);
   run.recording.name = name;

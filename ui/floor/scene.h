@@ -55,6 +55,7 @@ struct FloorScene {
   const Floor* floor = nullptr;  // null: nothing on it
   bool editable = false;
   std::vector<Vec2> planned;  // the path the driver means to follow
+  std::string planned_name = "planned";
   std::vector<FloorTrail> trails;
   std::vector<FloorDisc> discs;
   bool brushable = false;  // a rectangle can be drawn to choose what is in it

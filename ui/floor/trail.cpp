@@ -83,14 +83,14 @@ std::vector<Stretch> Trail::inside(Vec2 a, Vec2 b, double join_s) const {
 void draw_trail(ImDrawList& draw, const Camera& camera, const Trail& trail, ImU32 colour, float width,
                 const Theme& theme) {
   std::vector<ImVec2> line;
-  for (const Trail::Point& p : trail.points(theme.px(1.5f) / camera.px_per_m)) line.push_back(camera.screen(p.at));
+  for (const Trail::Point& p : trail.points(theme.px(4) / camera.px_per_m)) line.push_back(camera.screen(p.at));
   solid_line(draw, line, colour, width);
 }
 
 ImU32 mismatch_colour(int level, const Theme& theme) {
   // From pale to dark on paper, to light on a dark ground, so that it can be read in grey too.
   static constexpr unsigned kLight[kMismatchLevels] = {0xB9C4CC, 0xF0C040, 0xE69F00, 0xD55E00, 0x8B1A1A};
-  static constexpr unsigned kDark[kMismatchLevels] = {0x4B5661, 0x9A7B12, 0xD08A00, 0xFF8A3D, 0xFFE0B8};
+  static constexpr unsigned kDark[kMismatchLevels] = {0x4B5661, 0xB8961E, 0xE8A21A, 0xFF7A2E, 0xFFDCC4};
   assert(level >= 0 && level < kMismatchLevels);
   return rgb(theme.dark ? kDark[level] : kLight[level]);
 }

@@ -71,7 +71,7 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   draw.AddCircleFilled(dot, theme.px(5), run.problem.empty() ? run_colour(r, theme) : theme.muted);
   const float text_x = low.x + pad + theme.px(18), room = width - 2.0f * pad - theme.px(18) - tick;
   draw.AddText({text_x, low.y + pad}, theme.ink, fitted(run.name, room).c_str());
-  const std::string about = clock(run.duration_s) + "  " + (run.simulated ? "simulated, " : "") + run.truth;
+  const std::string about = clock(run.duration_s) + "  " + (run.simulated ? "simulated" : run.truth);
   draw.AddText({text_x, low.y + pad + line + theme.px(2)}, theme.muted,
                fitted(about, width - 2.0f * pad - theme.px(18) - theme.px(24)).c_str());
 

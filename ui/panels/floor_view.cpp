@@ -141,7 +141,7 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
   const float y = camera.low.y + theme.px(8);
   float total = 0.0f;
   const bool planned = state.show_planned && scene.planned.size() > 1;
-  const char* planned_label = "planned";
+  const char* planned_label = scene.planned_name.c_str();
   for (const TrackLine& t : scene.tracks)
     if (!t.label.empty()) total += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
   if (planned) total += swatch + theme.px(6) + ImGui::CalcTextSize(planned_label).x + gap;

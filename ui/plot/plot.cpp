@@ -165,9 +165,12 @@ void draw_series(ImDrawList& draw, const PlotSeries& s, const Frame& frame, bool
 }
 
 void draw_area(ImDrawList& draw, const PlotArea& a, const Frame& frame) {
+  const ImDrawListFlags flags = draw.Flags;
+  draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // else seams show between the pieces
   for (std::size_t i = 1; i < a.count; ++i)
     draw.AddQuadFilled({frame.x(a.x[i - 1]), frame.y(a.low[i - 1])}, {frame.x(a.x[i]), frame.y(a.low[i])},
                        {frame.x(a.x[i]), frame.y(a.high[i])}, {frame.x(a.x[i - 1]), frame.y(a.high[i - 1])}, a.colour);
+  draw.Flags = flags;
 }
 
 std::string axis_title(const PlotAxis& axis) {

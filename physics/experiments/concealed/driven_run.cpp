@@ -11,7 +11,6 @@ namespace odolab::concealed {
 
 namespace {
 
-constexpr double kLongest_s = 150.0;  // a run that has not arrived by then is cut off
 enum Stream : std::uint64_t { kWheelStream = 11, kStampStream = 12 };
 
 std::vector<std::shared_ptr<planar::Effect>> own_effects(const RunPlan& plan) {
@@ -112,7 +111,7 @@ DrivenRun driven(const RunPlan& plan) {
     out.counted.push_back({s.time_s, s.left.counted_rad, s.right.counted_rad});
   };
   keep();
-  while (!simulation.state().finished && simulation.state().time_s < kLongest_s) {
+  while (!simulation.state().finished && simulation.state().time_s < plan.longest_s) {
     simulation.step();
     keep();
   }

@@ -20,6 +20,7 @@ struct RunPlan {
   std::vector<DrawnEffect> effects;
   bool noise = true;  // of floor and wheels; the truth's stays
   std::uint64_t seed = 1;
+  double longest_s = 150.0;  // a run that has not arrived by then is cut off
 
   Scenario scenario() const;  // without what no scenario can name
   double clock_rate() const;  // of the robot's stamps
