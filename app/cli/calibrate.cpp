@@ -4,8 +4,8 @@
 #include "app/cli/command.h"
 #include "app/cli/internal_calibration.h"
 #include "app/cli/terminal.h"
+#include "core/calibration/external.h"
 #include "core/calibration/internal.h"
-#include "core/calibration/least_squares.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "core/odometry/prediction.h"
@@ -47,7 +47,7 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
   for (std::size_t left_out = 0; left_out < recordings.size() && !interrupted(); ++left_out) {
     std::vector<Recording> others = recordings;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-    const Result<LeastSquaresCalibration> fitted = calibrate_least_squares(others, nominal);
+    const Result<ExternalCalibration> fitted = calibrate_externally(others, nominal);
     if (fitted) held_out.add(recordings[left_out], fitted->vehicle);
   }
   return interrupted() ? "stopped" : held_out.text();
@@ -80,13 +80,16 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
   for (const std::string& sentence : calibration.cannot_tell) std::printf("cannot tell: %s\n", sentence.c_str());
 }
 
+bool has_truth(const Recording& recording) { return truth_samples(recording).size() > 1; }
+
 int execute(const CalibrateOptions& options) {
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
-  const bool from_inside = can_calibrate_internally(*nominal);
-  if (!from_inside)
-    if (const auto other = other_than_differential_drive(*nominal, "can be calibrated against a truth"))
-      return bad_input(*other);
+  const bool from_outside = can_calibrate_externally(*nominal), from_inside = can_calibrate_internally(*nominal);
+  if (!from_outside && !from_inside)
+    return bad_input({"kind", "'" + kind_name(*nominal) + "'",
+                      "a kind that can be calibrated: not a synchro drive, which "
+                      "`reproduce k2a-calibration` shows by its squares"});
   std::vector<Recording> recordings;
   for (const std::string& path : options.recordings) {
     Result<ImportedRecording> loaded = load_recording(path);
@@ -94,26 +97,32 @@ int execute(const CalibrateOptions& options) {
     for (const std::string& warning : loaded->warnings) print_message("warning: " + path + ": " + warning);
     recordings.push_back(std::move(loaded->recording));
   }
-  for (std::size_t i = 0; i < recordings.size(); ++i)
-    if (!from_inside && wheel_samples(recordings[i], std::get<DifferentialDrive>(nominal->kind)).empty() &&
-        !command_samples(recordings[i]).empty())
-      return bad_input({options.recordings[i], "commands alone",
-                        "wheel rotation: how a base follows its commands is not calibrated yet"});
+  if (const auto* drive = std::get_if<DifferentialDrive>(&nominal->kind))
+    for (std::size_t i = 0; i < recordings.size(); ++i)
+      if (wheel_samples(recordings[i], *drive).empty() && !command_samples(recordings[i]).empty())
+        return bad_input({options.recordings[i], "commands alone",
+                          "wheel rotation: how a base follows its commands is not calibrated yet"});
   for (std::size_t i = 0; i < recordings.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (same_run(recordings[i], recordings[k]))
         return bad_input({options.recordings[i], "the same run as in " + options.recordings[k], "each run once"});
-  if (from_inside) return calibrate_from_inside(recordings, *nominal, options.out);
-  const Result<LeastSquaresCalibration> calibration =
-      calibrate_least_squares(recordings, *nominal, {}, terminal_progress("calibrating"));
+  // What both ways can calibrate is calibrated by the truth, where there is one.
+  const bool by_truth = from_outside && (!from_inside || std::all_of(recordings.begin(), recordings.end(), has_truth));
+  if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);
+  const Result<ExternalCalibration> calibration =
+      calibrate_externally(recordings, *nominal, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());
-  const bool anything = std::any_of(calibration->parameters.begin(), calibration->parameters.end(),
-                                    [](const ParameterEstimate& p) { return p.determined; });
+  bool anything = false;
+  for (const CalibratedPart& part : calibration->parts)
+    for (const ParameterEstimate& p : part.calibration.parameters) anything = anything || p.determined;
   if (!options.out.empty() && anything)
     if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written)
       return bad_input(written.error());
 
-  print_calibration(*calibration);
+  for (const CalibratedPart& part : calibration->parts) {
+    if (!part.name.empty()) std::printf("%s%s\n", &part == &calibration->parts.front() ? "" : "\n", part.name.c_str());
+    print_calibration(part.calibration);
+  }
   if (!anything) {
     std::printf("\nNothing could be determined, and no vehicle was written.\n");
     return kDone;
@@ -128,7 +137,9 @@ int execute(const CalibrateOptions& options) {
   if (recordings.size() > 1)
     rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal)});
   print_table(rows);
-  for (const std::string& warning : calibration->warnings) print_message("warning: " + warning);
+  for (const CalibratedPart& part : calibration->parts)
+    for (const std::string& warning : part.calibration.warnings)
+      print_message("warning: " + part.name + (part.name.empty() ? "" : ": ") + warning);
   if (!options.out.empty()) std::printf("\nwritten: %s\n", options.out.c_str());
   return kDone;
 }

@@ -19,10 +19,10 @@ struct InternalCalibration {
   std::vector<std::string> warnings;
 };
 
-// True for the kinds that calibrate_internally knows: clapper, omnimate, multi_castor.
+// True for the kinds that calibrate_internally knows: clapper, omnimate, multi_castor, smart_encoder_trailer.
 bool can_calibrate_internally(const Vehicle& vehicle);
 
-// By the kind's own method: calibrate_castors or calibrate_linked.
+// By the kind's own method: calibrate_castors, calibrate_linked or calibrate_trailer.
 Result<InternalCalibration> calibrate_internally(const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                  const Progress& progress = {});
 

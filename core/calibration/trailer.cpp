@@ -1,0 +1,187 @@
+#include "core/calibration/trailer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/calibration/stretch_fit.h"
+#include "core/geometry/angles.h"
+#include "core/odometry/differential_drive.h"
+#include "core/recording/vehicle_samples.h"
+
+namespace odolab {
+
+namespace {
+
+// Departures from the vehicle file, relative but for the last.
+enum Unknown {
+  kDifferenceTow,
+  kWheelbaseTow,
+  kScaleTrailer,
+  kDifferenceTrailer,
+  kWheelbaseTrailer,
+  kDrawbar,
+  kHitch,
+  kUnknowns
+};
+const std::vector<double> kPrior = {0.03, 0.05, 0.03, 0.03, 0.05, 0.05, 0.05};
+constexpr double kStretch_m = 0.25, kStretch_rad = 0.25;
+
+SmartEncoderTrailer with(const SmartEncoderTrailer& nominal, const std::vector<double>& x) {
+  SmartEncoderTrailer v = nominal;
+  v.tow.wheel_radius_left_m *= 1.0 - 0.5 * x[kDifferenceTow];
+  v.tow.wheel_radius_right_m *= 1.0 + 0.5 * x[kDifferenceTow];
+  v.tow.wheelbase_m *= 1.0 + x[kWheelbaseTow];
+  v.trailer.wheel_radius_left_m *= (1.0 + x[kScaleTrailer]) * (1.0 - 0.5 * x[kDifferenceTrailer]);
+  v.trailer.wheel_radius_right_m *= (1.0 + x[kScaleTrailer]) * (1.0 + 0.5 * x[kDifferenceTrailer]);
+  v.trailer.wheelbase_m *= 1.0 + x[kWheelbaseTrailer];
+  v.drawbar_length_m *= 1.0 + x[kDrawbar];
+  v.hitch_angle_offset_rad += x[kHitch];
+  return v;
+}
+
+struct Stretch {
+  const std::vector<TrailerSample>* samples = nullptr;
+  std::size_t first = 0, last = 0;
+};
+
+Pose moved(const Pose& pose, const WheelRotation& from, const WheelRotation& to, const DifferentialDrive& drive) {
+  return dead_reckoned(pose, to.left_rad - from.left_rad, to.right_rad - from.right_rad, drive);
+}
+
+void add_stretches(const std::vector<TrailerSample>& samples, const SmartEncoderTrailer& v,
+                   std::vector<Stretch>& stretches) {
+  double travel_m = 0.0, turn_rad = 0.0;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Pose tow = moved({}, samples[i - 1].tow, samples[i].tow, v.tow);
+    const Pose trailer = moved({}, samples[i - 1].trailer, samples[i].trailer, v.trailer);
+    travel_m += std::max(length(tow.position()), length(trailer.position()));
+    turn_rad += std::max(std::abs(tow.heading_rad), std::abs(trailer.heading_rad));
+    if (travel_m < kStretch_m && turn_rad < kStretch_rad) continue;
+    stretches.push_back({&samples, first, i});
+    first = i;
+    travel_m = turn_rad = 0.0;
+  }
+}
+
+// The hitch angle, and the hitch's place along and across the drawbar: what is read or known less what is predicted.
+std::vector<double> contradictions(const Stretch& stretch, const SmartEncoderTrailer& v) {
+  const std::vector<TrailerSample>& s = *stretch.samples;
+  Pose tow;
+  Pose trailer = Pose{0.0, 0.0, -(s[stretch.first].hitch_angle_rad - v.hitch_angle_offset_rad)} *
+                 Pose{-v.drawbar_length_m, 0.0, 0.0};
+  for (std::size_t i = stretch.first + 1; i <= stretch.last; ++i) {
+    tow = moved(tow, s[i - 1].tow, s[i].tow, v.tow);
+    trailer = moved(trailer, s[i - 1].trailer, s[i].trailer, v.trailer);
+  }
+  const Vec2 hitch = inverse(trailer) * tow.position();
+  const double read_rad = s[stretch.last].hitch_angle_rad - v.hitch_angle_offset_rad;
+  return {wrapped(read_rad - (tow.heading_rad - trailer.heading_rad)), v.drawbar_length_m - hitch.x_m, -hitch.y_m};
+}
+
+StretchProblem problem_of(const std::vector<Stretch>& stretches, const SmartEncoderTrailer& nominal) {
+  StretchProblem problem;
+  problem.stretches = static_cast<int>(stretches.size());
+  problem.prior = kPrior;
+  const double step_rad = nominal.hitch_angle_resolution_rad;
+  const double aside_m = kStretch_m * step_rad / std::sqrt(12.0);  // a way in a direction that is rounded
+  problem.least_deviation = {step_rad / std::sqrt(6.0), aside_m, aside_m};
+  problem.contradictions = [&stretches, nominal](int stretch, const std::vector<double>& x) {
+    return contradictions(stretches[static_cast<std::size_t>(stretch)], with(nominal, x));
+  };
+  problem.encoders = {{0, kHitch, step_rad, [&stretches](int stretch, bool at_end) {
+                         const Stretch& s = stretches[static_cast<std::size_t>(stretch)];
+                         return (*s.samples)[at_end ? s.last : s.first].hitch_angle_rad;
+                       }}};
+  return problem;
+}
+
+struct Parameter {
+  const char* name;
+  const char* unit;
+  double (*value)(const SmartEncoderTrailer& v);
+  std::vector<int> from;
+};
+
+const std::vector<Parameter>& parameters() {
+  using V = SmartEncoderTrailer;
+  static const std::vector<Parameter> list = {
+      {"tow.wheel_radius_left_m", "m", [](const V& v) { return v.tow.wheel_radius_left_m; }, {kDifferenceTow}},
+      {"tow.wheel_radius_right_m", "m", [](const V& v) { return v.tow.wheel_radius_right_m; }, {kDifferenceTow}},
+      {"tow.wheelbase_m", "m", [](const V& v) { return v.tow.wheelbase_m; }, {kWheelbaseTow}},
+      {"trailer.wheel_radius_left_m",
+       "m",
+       [](const V& v) { return v.trailer.wheel_radius_left_m; },
+       {kScaleTrailer, kDifferenceTrailer}},
+      {"trailer.wheel_radius_right_m",
+       "m",
+       [](const V& v) { return v.trailer.wheel_radius_right_m; },
+       {kScaleTrailer, kDifferenceTrailer}},
+      {"trailer.wheelbase_m", "m", [](const V& v) { return v.trailer.wheelbase_m; }, {kWheelbaseTrailer}},
+      {"drawbar_length_m", "m", [](const V& v) { return v.drawbar_length_m; }, {kDrawbar}},
+      {"hitch_angle_offset_rad", "rad", [](const V& v) { return v.hitch_angle_offset_rad; }, {kHitch}},
+  };
+  return list;
+}
+
+ParameterEstimate estimate_of(const Parameter& p, const SmartEncoderTrailer& nominal, const StretchFit& fit) {
+  bool known = true;
+  std::vector<double> slope(kUnknowns, 0.0);
+  for (int unknown : p.from) {
+    known = known && fit.determined(unknown);
+    const std::size_t k = static_cast<std::size_t>(unknown);
+    std::vector<double> more = fit.x, less = fit.x;
+    more[k] += 1e-6;
+    less[k] -= 1e-6;
+    slope[k] = (p.value(with(nominal, more)) - p.value(with(nominal, less))) / 2e-6;
+  }
+  return {p.name, p.unit, p.value(nominal), p.value(with(nominal, fit.x)), std::sqrt(fit.variance_along(slope)), known};
+}
+
+}  // namespace
+
+Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                              const Progress& progress) {
+  const SmartEncoderTrailer& before = std::get<SmartEncoderTrailer>(nominal.kind);
+  std::vector<std::vector<TrailerSample>> samples;
+  for (const Recording& recording : recordings) {
+    if (const std::string missing = missing_columns(recording, nominal); !missing.empty())
+      return Error{recording.name.empty() ? "recording" : recording.name, "no " + missing,
+                   "the encoders of a " + kind_name(nominal)};
+    samples.push_back(trailer_samples(recording));
+  }
+  std::vector<Stretch> stretches;
+  for (const std::vector<TrailerSample>& s : samples) add_stretches(s, before, stretches);
+  if (stretches.size() < 8)
+    return Error{"recordings", std::to_string(stretches.size()) + " stretches of travel", "two metres or more"};
+
+  const StretchProblem problem = problem_of(stretches, before);
+  std::vector<int> free = {kDifferenceTow,    kWheelbaseTow, kScaleTrailer, kDifferenceTrailer,
+                           kWheelbaseTrailer, kDrawbar,      kHitch};
+  InternalCalibration result;
+  StretchFit found = fit_stretches(problem, free, progress);
+  if (!found.determined(kHitch)) {
+    free.pop_back();
+    found = fit_stretches(problem, free, progress);
+    result.cannot_tell.push_back(
+        "a biased hitch encoder from unequal wheels: hitch_angle_offset_rad is taken as in the vehicle file; turn on "
+        "the "
+        "spot by a quarter turn or more, and drive on with the trailer at that angle");
+  }
+  if (!goes_on(progress, 1.0)) return Error{"calibration", "stopped before its end", ""};
+  if (!found.determined(kWheelbaseTow) || !found.determined(kWheelbaseTrailer))
+    result.cannot_tell.push_back("a wheelbase: drive turns");
+  if (!found.determined(kDrawbar)) result.cannot_tell.push_back("drawbar_length_m: drive with the trailer at an angle");
+
+  for (int unknown = 0; unknown < kUnknowns; ++unknown)
+    if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;
+  for (const Parameter& p : parameters()) result.parameters.push_back(estimate_of(p, before, found));
+  result.vehicle = nominal;
+  result.vehicle.kind = with(before, found.x);
+  result.taken_as_known = {
+      "the towing vehicle's mean wheel radius, the scale of all lengths: no encoder inside measures the floor",
+      "a smooth floor; stretches over bumps count less"};
+  return result;
+}
+
+}  // namespace odolab
