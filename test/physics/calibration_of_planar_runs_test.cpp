@@ -153,11 +153,11 @@ TEST(PlanarCalibration, ATrackedVehicleShowsItsSprocketsAndHowMuchWiderItTurns) 
   ASSERT_TRUE(found);
   expect_found(found->parts.front().calibration.parameters,
                {{"sprocket_radius_left_m", 0.1005}, {"sprocket_radius_right_m", 0.1002}}, 3.5);
-  for (const ParameterEstimate& p : found->parts.front().calibration.parameters)
-    if (p.name == "slip_factor")
-      EXPECT_NEAR(p.value, 1.45, 0.15);  // corrections on the way turn it wider than on the spot
-}
-expect_better(run, scenario.vehicle, found->vehicle, 10.0);
+  // Corrections on the way turn it wider than on the spot.
+  for (const ParameterEstimate& p : found->parts.front().calibration.parameters) {
+    if (p.name == "slip_factor") EXPECT_NEAR(p.value, 1.45, 0.15);
+  }
+  expect_better(run, scenario.vehicle, found->vehicle, 10.0);
 }
 
 TEST(PlanarCalibration, ATrailerNeedsATruthWithHeadings) {
