@@ -43,11 +43,10 @@ void solve_in_place(std::vector<double>& a, std::vector<double>& b, std::size_t 
 
 }  // namespace
 
-// After the bodies' numbers come those of the contacts' drives.
-Vec2 CoulombSolve::slip_mps(const std::vector<double>& v, std::size_t contact) const {
-  const CoulombContact& c = contacts[contact];
-  return point_mps(&v[3 * static_cast<std::size_t>(c.body)], c.arm) - c.surface_mps -
-         v[3 * bodies.size() + contact] * c.direction;
+// After the bodies' numbers come those of the drives.
+Vec2 CoulombSolve::slip_mps(const std::vector<double>& v, const CoulombContact& c) const {
+  const Vec2 slip = point_mps(&v[3 * static_cast<std::size_t>(c.body)], c.arm) - c.surface_mps;
+  return c.drive < 0 ? slip : slip - v[3 * bodies.size() + static_cast<std::size_t>(c.drive)] * c.direction;
 }
 
 double CoulombSolve::cost(const std::vector<double>& v, double soft_mps) const {
@@ -57,11 +56,13 @@ double CoulombSolve::cost(const std::vector<double>& v, double soft_mps) const {
     const double dr = v[3 * i + 2] - before_[3 * i + 2];
     sum += 0.5 * (bodies[i].mass_kg * (dx * dx + dy * dy) + bodies[i].inertia_kgm2 * dr * dr);
   }
-  for (std::size_t m = 0; m < contacts.size(); ++m) {
-    const Vec2 slip = slip_mps(v, m);
-    sum += contacts[m].grip_ns * std::sqrt(dot(slip, slip) + soft_mps * soft_mps);
-    const double yielded = v[3 * bodies.size() + m] - contacts[m].free_mps;
-    sum += 0.5 * contacts[m].inertia_kg * yielded * yielded;
+  for (const CoulombContact& c : contacts) {
+    const Vec2 slip = slip_mps(v, c);
+    sum += c.grip_ns * std::sqrt(dot(slip, slip) + soft_mps * soft_mps);
+  }
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const double yielded = v[3 * bodies.size() + d] - drives[d].free_mps;
+    sum += 0.5 * drives[d].inertia_kg * yielded * yielded;
   }
   for (const CoulombLink& link : links) {
     const double u = speed_along(link, v);
@@ -85,29 +86,19 @@ void CoulombSolve::newton_step(const std::vector<double>& v, double soft_mps) {
       g[k] = weight[k - 3 * i] * (v[k] - before_[k]);
     }
   }
+  for (std::size_t d = 0; d < drives.size(); ++d)
+    drive_rows_[d] = {drives[d].inertia_kg * (v[n + d] - drives[d].free_mps), drives[d].inertia_kg, {}};
   for (std::size_t m = 0; m < contacts.size(); ++m) {
     const CoulombContact& c = contacts[m];
     const Vec2 pull = pulls_[m];
     const std::size_t at = 3 * static_cast<std::size_t>(c.body);
-    const Vec2 slip = slip_mps(v, m);
+    const Vec2 slip = slip_mps(v, c);
     const double size = std::sqrt(dot(slip, slip) + soft_mps * soft_mps);
     const double k = c.grip_ns / size;
     const double ux = slip.x_m / size, uy = slip.y_m / size;
-    Vec2 impulse = k * slip;
-    double axx = k * (1.0 - pull.x_m * ux), ayy = k * (1.0 - pull.y_m * uy);
-    double axy = -0.5 * k * (pull.x_m * uy + pull.y_m * ux);
-    Yield& yield = yields_[m];
-    if (c.inertia_kg > 0.0) {
-      // The drive's own unknown is eliminated: change = at_rest + along . (change of the body's point).
-      const Vec2 stiff{axx * c.direction.x_m + axy * c.direction.y_m, axy * c.direction.x_m + ayy * c.direction.y_m};
-      const double whole = c.inertia_kg + dot(c.direction, stiff);
-      const double gradient = c.inertia_kg * (v[n + m] - c.free_mps) - dot(c.direction, impulse);
-      yield = {-gradient / whole, (1.0 / whole) * stiff};
-      impulse = impulse + (gradient / whole) * stiff;
-      axx -= stiff.x_m * stiff.x_m / whole;
-      axy -= stiff.x_m * stiff.y_m / whole;
-      ayy -= stiff.y_m * stiff.y_m / whole;
-    }
+    const Vec2 impulse = k * slip;
+    const double axx = k * (1.0 - pull.x_m * ux), ayy = k * (1.0 - pull.y_m * uy);
+    const double axy = -0.5 * k * (pull.x_m * uy + pull.y_m * ux);
     const double px = -c.arm.y_m, py = c.arm.x_m;  // the point's velocity for a turn rate of one
     g[at] += impulse.x_m;
     g[at + 1] += impulse.y_m;
@@ -119,6 +110,23 @@ void CoulombSolve::newton_step(const std::vector<double>& v, double soft_mps) {
     h[(at + 1) * n + at + 1] += ayy;
     h[(at + 1) * n + at + 2] += ayr;
     h[(at + 2) * n + at + 2] += px * axr + py * ayr;
+    if (c.drive < 0) continue;
+    const Vec2 stiff{axx * c.direction.x_m + axy * c.direction.y_m, axy * c.direction.x_m + ayy * c.direction.y_m};
+    DriveRow& row = drive_rows_[static_cast<std::size_t>(c.drive)];
+    row.gradient -= dot(c.direction, impulse);
+    row.curvature += dot(c.direction, stiff);
+    row.with_body[0] -= stiff.x_m;
+    row.with_body[1] -= stiff.y_m;
+    row.with_body[2] -= px * stiff.x_m + py * stiff.y_m;
+  }
+  for (std::size_t d = 0; d < drives.size(); ++d) {  // eliminated
+    const DriveRow& row = drive_rows_[d];
+    const std::size_t at = 3 * static_cast<std::size_t>(drives[d].body);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double factor = row.with_body[i] / row.curvature;
+      g[at + i] -= factor * row.gradient;
+      for (std::size_t j = i; j < 3; ++j) h[(at + i) * n + at + j] -= factor * row.with_body[j];
+    }
   }
   for (const CoulombLink& link : links) {
     const double impulse = link.resistance_kg * speed_along(link, v) + link.bias_ns;
@@ -142,11 +150,11 @@ void CoulombSolve::newton_step(const std::vector<double>& v, double soft_mps) {
   }
   solve_in_place(h, g, n);
   for (std::size_t k = 0; k < n; ++k) g[k] = -g[k];
-  for (std::size_t m = 0; m < contacts.size(); ++m) {
-    const CoulombContact& c = contacts[m];
-    if (c.inertia_kg == 0.0) continue;
-    const Vec2 change = point_mps(&g[3 * static_cast<std::size_t>(c.body)], c.arm);
-    g[n + m] = yields_[m].at_rest_mps + dot(yields_[m].along, change);
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    const DriveRow& row = drive_rows_[d];
+    double sum = row.gradient;
+    for (std::size_t i = 0; i < 3; ++i) sum += row.with_body[i] * g[3 * static_cast<std::size_t>(drives[d].body) + i];
+    g[n + d] = -sum / row.curvature;
   }
 }
 
@@ -155,8 +163,10 @@ void CoulombSolve::take_pulls(double share, double soft_mps) {
   for (std::size_t m = 0; m < contacts.size(); ++m) {
     const CoulombContact& c = contacts[m];
     const std::size_t at = 3 * static_cast<std::size_t>(c.body);
-    const Vec2 slip = slip_mps(now_, m);
-    const Vec2 change = share * (point_mps(&step_[at], c.arm) - step_[3 * bodies.size() + m] * c.direction);
+    const Vec2 slip = slip_mps(now_, c);
+    Vec2 change = point_mps(&step_[at], c.arm);
+    if (c.drive >= 0) change = change - step_[3 * bodies.size() + static_cast<std::size_t>(c.drive)] * c.direction;
+    change = share * change;
     const double size = std::sqrt(dot(slip, slip) + soft_mps * soft_mps);
     const Vec2 pull = (1.0 / size) * (slip + change - (dot(slip, change) / size) * pulls_[m]);
     const double much = length(pull);
@@ -191,10 +201,10 @@ bool CoulombSolve::settle(double soft_mps) {
 void CoulombSolve::solve() {
   const std::size_t n = 3 * bodies.size();
   before_.resize(n);
-  now_.resize(n + contacts.size());
-  next_.resize(n + contacts.size());
-  step_.assign(n + contacts.size(), 0.0);
-  yields_.resize(contacts.size());
+  now_.resize(n + drives.size());
+  next_.resize(n + drives.size());
+  step_.assign(n + drives.size(), 0.0);
+  drive_rows_.resize(drives.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     before_[3 * i] = bodies[i].velocity_mps.x_m;
     before_[3 * i + 1] = bodies[i].velocity_mps.y_m;
@@ -205,7 +215,7 @@ void CoulombSolve::solve() {
     now_[3 * i + 1] = bodies[i].guess_mps.y_m;
     now_[3 * i + 2] = bodies[i].guess_radps;
   }
-  for (std::size_t m = 0; m < contacts.size(); ++m) now_[n + m] = contacts[m].free_mps;
+  for (std::size_t d = 0; d < drives.size(); ++d) now_[n + d] = drives[d].free_mps;
   if (!settle(softness_mps)) {
     for (const double softer_mps : kSofter_mps)
       if (softer_mps > softness_mps) settle(softer_mps);
@@ -215,12 +225,11 @@ void CoulombSolve::solve() {
     bodies[i].velocity_mps = {now_[3 * i], now_[3 * i + 1]};
     bodies[i].yaw_rate_radps = now_[3 * i + 2];
   }
-  for (std::size_t m = 0; m < contacts.size(); ++m) {
-    CoulombContact& c = contacts[m];
-    const Vec2 slip = slip_mps(now_, m);
+  for (CoulombContact& c : contacts) {
+    const Vec2 slip = slip_mps(now_, c);
     c.impulse_ns = (-c.grip_ns / std::sqrt(dot(slip, slip) + softness_mps * softness_mps)) * slip;
-    c.driven_mps = now_[n + m];
   }
+  for (std::size_t d = 0; d < drives.size(); ++d) drives[d].added_mps = now_[n + d];
   for (CoulombLink& link : links) link.impulse_ns = -(link.resistance_kg * speed_along(link, now_) + link.bias_ns);
 }
 

@@ -26,13 +26,18 @@ struct CoulombContact {
   Vec2 arm;
   Vec2 surface_mps;      // the body's point would move so if it did not slip
   double grip_ns = 0.0;  // the largest impulse of the step
-  // A driven wheel under a motor that feels the floor: to `surface_mps` comes `driven_mps` along a direction, which
-  // would be `free_mps` without the floor and yields to it by its inertia.
+  // To `surface_mps` comes what a drive adds, times this direction.
+  int drive = -1;  // -1: the surface moves as given
   Vec2 direction;
-  double inertia_kg = 0.0;  // 0: the surface moves as given
-  double free_mps = 0.0;
-  double driven_mps = 0.0;  // comes out
-  Vec2 impulse_ns;          // comes out: of the floor on the body
+  Vec2 impulse_ns;  // comes out: of the floor on the body
+};
+
+// A motor that feels the floor through the contacts of one body that it drives.
+struct CoulombDrive {
+  int body = 0;
+  double inertia_kg = 1.0;  // by which it yields to the floor
+  double free_mps = 0.0;    // what it would add without the floor
+  double added_mps = 0.0;   // comes out
 };
 
 // Something that resists the speed u at which point b leaves point a along a direction: impulse on b
@@ -54,6 +59,7 @@ class CoulombSolve {
  public:
   std::vector<CoulombBody> bodies;
   std::vector<CoulombContact> contacts;
+  std::vector<CoulombDrive> drives;
   std::vector<CoulombLink> links;
 
   // Below this slip the law is softer than Coulomb's: a contact that holds half its grip creeps at 0.6 of it.
@@ -62,17 +68,18 @@ class CoulombSolve {
   void solve();
 
  private:
-  struct Yield {
-    double at_rest_mps = 0.0;
-    Vec2 along;
+  // A drive's row of the curvature: with itself, and with the three numbers of its body.
+  struct DriveRow {
+    double gradient = 0.0, curvature = 0.0;
+    double with_body[3] = {};
   };
-  Vec2 slip_mps(const std::vector<double>& v, std::size_t contact) const;
+  Vec2 slip_mps(const std::vector<double>& v, const CoulombContact& contact) const;
   double cost(const std::vector<double>& v, double soft_mps) const;
   void newton_step(const std::vector<double>& v, double soft_mps);
   bool settle(double soft_mps);
   void take_pulls(double share, double soft_mps);
 
-  std::vector<Yield> yields_;
+  std::vector<DriveRow> drive_rows_;
   std::vector<Vec2> pulls_;  // of each contact, as a share of its grip
   std::vector<double> before_, now_, next_, step_, hessian_;
 };

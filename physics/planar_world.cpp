@@ -55,9 +55,9 @@ void PlanarWorld::Solver::add_spring(Spring spring, double frequency_hz, double 
 
 void PlanarWorld::Solver::take_forces() {
   solved_exactly = false;
+  for (CoulombDrive& drive : drives) drive.added_mps = 0.0;
   const float inverse_step = 1.0f / static_cast<float>(step_s);
   for (Tread& tread : treads) {
-    tread.change_mps = 0.0;
     const Body& body = bodies[tread.body];
     tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
   }
@@ -233,18 +233,28 @@ int PlanarWorld::add_free_wheel(int body, Vec2 place, double direction_rad) {
 void PlanarWorld::set_tread(int tread, Vec2 velocity_mps, double grip_n) {
   solver_->treads[tread].velocity_mps = velocity_mps;
   solver_->treads[tread].grip_n = grip_n;
-  solver_->treads[tread].inertia_kg = 0.0;
+  solver_->treads[tread].drive = -1;
   solver_->treads[tread].joint->SetMaxForce(static_cast<float>(grip_n));
 }
 
-void PlanarWorld::set_tread_drive(int tread, Vec2 direction, double inertia_kg, double free_change_mps) {
-  Solver::Tread& t = solver_->treads[tread];
-  t.direction = direction;
-  t.inertia_kg = inertia_kg;
-  t.free_change_mps = free_change_mps;
+int PlanarWorld::add_drive(int body) {
+  CoulombDrive drive;
+  drive.body = body;
+  solver_->drives.push_back(drive);
+  return static_cast<int>(solver_->drives.size()) - 1;
 }
 
-double PlanarWorld::tread_change_mps(int tread) const { return solver_->treads[tread].change_mps; }
+void PlanarWorld::set_drive(int drive, double inertia_kg, double free_change_mps) {
+  solver_->drives[drive].inertia_kg = inertia_kg;
+  solver_->drives[drive].free_mps = free_change_mps;
+}
+
+void PlanarWorld::set_tread_drive(int tread, int drive, Vec2 direction) {
+  solver_->treads[tread].drive = drive;
+  solver_->treads[tread].drive_direction = direction;
+}
+
+double PlanarWorld::drive_change_mps(int drive) const { return solver_->drives[drive].added_mps; }
 void PlanarWorld::soften_friction(double slip_mps) { solver_->sliding.softness_mps = slip_mps; }
 bool PlanarWorld::solved_exactly() const { return solver_->solved_exactly; }
 

@@ -68,11 +68,14 @@ class PlanarWorld {
   // What the tread does in the next step: the velocity over the floor that the wheel would give the body's point above
   // it if it did not slip (in the body's frame), and the force at which it starts to slip.
   void set_tread(int tread, Vec2 velocity_mps, double grip_n);
-  // The wheel hangs on a motor that feels the floor. In a step that is solved with exact friction, to the velocity just
-  // set comes a change along the wheel's direction (in the body's frame): `free_change_mps` without the floor's force,
-  // which it yields to by this inertia. What came of it is told afterwards; 0 where the wheels held and Box2D solved.
-  void set_tread_drive(int tread, Vec2 direction, double inertia_kg, double free_change_mps);
-  double tread_change_mps(int tread) const;
+  // A motor that feels the floor through the treads of one body. In a step that is solved with exact friction the
+  // velocities just set for them change by what the motor adds, times a direction of each (in the body's frame):
+  // `free_change_mps` without the floor's forces, to which it yields by this inertia. What came of it is told
+  // afterwards; 0 where all wheels held and Box2D solved.
+  int add_drive(int body);
+  void set_drive(int drive, double inertia_kg, double free_change_mps);  // holds for the next step
+  void set_tread_drive(int tread, int drive, Vec2 direction);            // likewise, after set_tread
+  double drive_change_mps(int drive) const;
   bool solved_exactly() const;  // the last step
   // Below this slip exact friction is softer than Coulomb's law (1 nm/s if not said). Wheels that quarrel rigidly
   // without slipping have no one solution, and a model of their creep that looks at their forces wants one.

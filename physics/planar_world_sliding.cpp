@@ -37,6 +37,7 @@ void PlanarWorld::Solver::solve_sliding() {
   sliding.bodies.clear();
   sliding.contacts.clear();
   sliding.links.clear();
+  sliding.drives = drives;
   for (Body& body : bodies) {
     const Vec2 velocity = body.pushed_mps + body.inner_mps;
     body.solved_at_rad = body.pose.heading_rad + 0.5 * h * (body.pushed_radps + body.inner_radps);
@@ -53,10 +54,11 @@ void PlanarWorld::Solver::solve_sliding() {
     contact.arm = at(tread.body).of(tread.place);
     contact.surface_mps = at(tread.body).of(tread.velocity_mps);
     contact.grip_ns = kNew * h * tread.grip_n;
-    if (tread.inertia_kg > 0.0) {
-      contact.direction = at(tread.body).of(tread.direction);
-      contact.inertia_kg = tread.inertia_kg;
-      contact.free_mps = tread.free_change_mps - kOld * h * dot(tread.force_n, tread.direction) / tread.inertia_kg;
+    if (tread.drive >= 0) {
+      CoulombDrive& drive = sliding.drives[static_cast<std::size_t>(tread.drive)];
+      contact.drive = tread.drive;
+      contact.direction = at(tread.body).of(tread.drive_direction);
+      drive.free_mps -= kOld * h * dot(tread.force_n, tread.drive_direction) / drive.inertia_kg;
     }
     sliding.contacts.push_back(contact);
   }
@@ -113,9 +115,9 @@ void PlanarWorld::Solver::solve_sliding() {
     const CoulombContact& contact = sliding.contacts[i];
     treads[i].force_n =
         kOld * treads[i].force_n + turned((1.0 / h) * contact.impulse_ns, body.cos_heading, -body.sin_heading);
-    treads[i].change_mps = contact.driven_mps;
     slides = slides || length(contact.impulse_ns) > kAllOfTheGrip * contact.grip_ns;
   }
+  for (std::size_t i = 0; i < drives.size(); ++i) drives[i].added_mps = sliding.drives[i].added_mps;
   for (std::size_t i = 0; i < free_wheels.size(); ++i)
     free_wheels[i].force_n = kOld * free_wheels[i].force_n + sliding.links[i].impulse_ns / h;
 }

@@ -75,10 +75,8 @@ struct PlanarWorld::Solver {
     Vec2 place;
     Vec2 velocity_mps;
     double grip_n = 0.0;
-    Vec2 direction;
-    double inertia_kg = 0.0;
-    double free_change_mps = 0.0;
-    double change_mps = 0.0;
+    int drive = -1;
+    Vec2 drive_direction;
     Vec2 force_n;  // in the body's frame
     b2Body* floor = nullptr;
     b2FrictionJoint* joint = nullptr;
@@ -96,6 +94,7 @@ struct PlanarWorld::Solver {
   b2World world;
   std::vector<Body> bodies;
   std::vector<Tread> treads;
+  std::vector<CoulombDrive> drives;
   std::vector<FreeWheel> free_wheels;
   std::vector<Rigid> rigid_joints;
   std::vector<Spring> springs;

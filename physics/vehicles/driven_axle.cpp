@@ -37,7 +37,10 @@ DrivenAxle::DrivenAxle(PlanarWorld& world, int body, Vec2 centre, const ActualDr
                     a.toe_right_rad,
                     {std::cos(a.toe_right_rad), std::sin(a.toe_right_rad)}}},
       effects_(&effects) {
-  for (Wheel& wheel : wheels_) wheel.tread = world_->add_tread(body_, wheel.place);
+  for (Wheel& wheel : wheels_) {
+    wheel.tread = world_->add_tread(body_, wheel.place);
+    wheel.motor = world_->add_drive(body_);
+  }
 }
 
 void DrivenAxle::turn_motors(WheelPair set) {
@@ -111,14 +114,15 @@ void DrivenAxle::before_step(const Ground& ground, const Floor& floor) {
 void DrivenAxle::let_yield(const Wheel& wheel) {
   const WheelDrive::Unloaded unloaded = wheel.drive.unloaded();
   const double gear = wheel.metres_per_rad;
-  if (unloaded.inertia_kgm2 > 0.0 && gear > 0.0)
-    world_->set_tread_drive(wheel.tread, wheel.rolling_direction, unloaded.inertia_kgm2 / (gear * gear),
-                            gear * (unloaded.speed_radps - wheel.motor_speed_radps));
+  if (unloaded.inertia_kgm2 == 0.0 || gear <= 0.0) return;
+  world_->set_drive(wheel.motor, unloaded.inertia_kgm2 / (gear * gear),
+                    gear * (unloaded.speed_radps - wheel.motor_speed_radps));
+  world_->set_tread_drive(wheel.tread, wheel.motor, wheel.rolling_direction);
 }
 
 // The wheel turned a little more or less than its motor had meant.
 void DrivenAxle::take_yield(Wheel& wheel) {
-  const double change_mps = world_->tread_change_mps(wheel.tread);
+  const double change_mps = world_->drive_change_mps(wheel.motor);
   const double change_radps = change_mps / wheel.metres_per_rad;
   wheel.drive.settle_at(wheel.motor_speed_radps + change_radps);
   wheel.mean_speed_radps += change_radps;

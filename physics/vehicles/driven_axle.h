@@ -43,6 +43,7 @@ class DrivenAxle {
     double toe_rad;
     Vec2 rolling_direction;  // in the body's frame
     int tread = 0;
+    int motor = 0;  // in the world
     double travelled_m = 0.0;
     double motor_speed_radps = 0.0;  // over the step, as the motor means it before the floor has its say
     double mean_speed_radps = 0.0;   // of the wheel, over the step

@@ -44,6 +44,7 @@ class PairOfTracks {
     Side side;
     double radius_m;
     std::vector<Pad> pads{};
+    int motor = 0;             // in the world
     double speed_radps = 0.0;  // mean over the step
     WheelState state{};
   };

@@ -119,6 +119,7 @@ TEST(PlanarCalibration, TheTruthTellsTheBasicTrailersWheelsThoughItsTowSkids) {
   actual.tow.wheel_radius_left_m = actual.tow.wheel_radius_right_m = 0.1;
   actual.tow.wheelbase_m = 0.5;
   scenario.vehicle.kind = actual;
+  scenario.motor.ideal = true;  // a LabMate's could not make tracks skid
   actual.drawbar_length_m = 0.42;
   actual.hitch_angle_offset_rad = -0.015;
   actual.trailer.wheel_radius_left_m = 0.0501;
@@ -144,6 +145,7 @@ TEST(PlanarCalibration, ATrackedVehicleShowsItsSprocketsAndHowMuchWiderItTurns) 
   Scenario scenario;
   Tracked actual;
   scenario.vehicle.kind = actual;
+  scenario.motor.ideal = true;
   actual.sprocket_radius_left_m = 0.1005;
   actual.sprocket_radius_right_m = 0.1002;
   scenario.machine.lengths = actual;
@@ -153,11 +155,12 @@ TEST(PlanarCalibration, ATrackedVehicleShowsItsSprocketsAndHowMuchWiderItTurns) 
   ASSERT_TRUE(found);
   expect_found(found->parts.front().calibration.parameters,
                {{"sprocket_radius_left_m", 0.1005}, {"sprocket_radius_right_m", 0.1002}}, 3.5);
-  // Corrections on the way turn it wider than on the spot.
+  // Its turns are nearly all on the spot; corrections on the way turn it wider.
   for (const ParameterEstimate& p : found->parts.front().calibration.parameters) {
-    if (p.name == "slip_factor") EXPECT_NEAR(p.value, 1.45, 0.15);
+    if (p.name != "slip_factor") continue;
+    EXPECT_NEAR(p.value, 1.45, 0.02);
   }
-  expect_better(run, scenario.vehicle, found->vehicle, 10.0);
+  expect_better(run, scenario.vehicle, found->vehicle, 5.0);
 }
 
 TEST(PlanarCalibration, ATrailerNeedsATruthWithHeadings) {

@@ -18,7 +18,8 @@ struct Residual {
 Vec2 slip_of(const CoulombSolve& solved, const CoulombContact& c) {
   const CoulombBody& b = solved.bodies[static_cast<std::size_t>(c.body)];
   const Vec2 above = b.velocity_mps + Vec2{-b.yaw_rate_radps * c.arm.y_m, b.yaw_rate_radps * c.arm.x_m};
-  return above - c.surface_mps - c.driven_mps * c.direction;
+  const Vec2 slip = above - c.surface_mps;
+  return c.drive < 0 ? slip : slip - solved.drives[static_cast<std::size_t>(c.drive)].added_mps * c.direction;
 }
 
 Residual residual_of(const CoulombSolve& solved, const std::vector<CoulombBody>& before) {
@@ -39,6 +40,12 @@ Residual residual_of(const CoulombSolve& solved, const std::vector<CoulombBody>&
     }
     worst.momentum_mps =
         std::max(worst.momentum_mps, std::max(length(push) / b.mass_kg, std::abs(spin) / b.inertia_kgm2));
+  }
+  for (std::size_t d = 0; d < solved.drives.size(); ++d) {
+    double push = solved.drives[d].inertia_kg * (solved.drives[d].added_mps - solved.drives[d].free_mps);
+    for (const CoulombContact& c : solved.contacts)
+      if (c.drive == static_cast<int>(d)) push += dot(c.direction, c.impulse_ns);
+    worst.momentum_mps = std::max(worst.momentum_mps, std::abs(push) / solved.drives[d].inertia_kg);
   }
   for (const CoulombContact& c : solved.contacts) {
     const Vec2 slip = slip_of(solved, c);
@@ -77,8 +84,15 @@ TEST(CoulombSolve, MeetsTheEquationsOfMotionWhateverSticksAndSlips) {
         c.grip_ns = 1e-3 * random.uniform(10.0, 140.0);
         if (k % 2 == 0) {
           c.direction = {std::cos(heading_rad), std::sin(heading_rad)};
-          c.inertia_kg = 4.0;
-          c.free_mps = off_mps * random.uniform(-1.0, 1.0);
+          // One motor for each wheel of the first body, one for both of the second.
+          if (i == 0 || y_m > 0.0) {
+            CoulombDrive drive;
+            drive.body = i;
+            drive.inertia_kg = 4.0;
+            drive.free_mps = off_mps * random.uniform(-1.0, 1.0);
+            problem.drives.push_back(drive);
+          }
+          c.drive = static_cast<int>(problem.drives.size()) - 1;
         }
         problem.contacts.push_back(c);
       }
@@ -100,8 +114,8 @@ TEST(CoulombSolve, MeetsTheEquationsOfMotionWhateverSticksAndSlips) {
   EXPECT_GT(held, 1000);
   EXPECT_GT(slid, 1000);
   // A contact that holds says its force by a slip of 1 nm/s or less, which rounding leaves at 1e-4 of it or so: of
-  // 0.14 Ns and 50 kg.
-  EXPECT_LT(worst.momentum_mps, 1e-5);
+  // 0.14 Ns, against 50 kg of a body or 4 kg of a motor.
+  EXPECT_LT(worst.momentum_mps, 1e-4);
   EXPECT_LT(worst.law_mps, 1e-9);  // what 1 nm/s of softness leaves above 1 um/s is a millionth of the slip
 }
 
@@ -112,18 +126,18 @@ TEST(CoulombSolve, AMotorYieldsToTheFloorByItsInertia) {
   CoulombContact wheel;
   wheel.grip_ns = 1.0;
   wheel.direction = {1.0, 0.0};
-  wheel.inertia_kg = 4.0;
-  wheel.free_mps = 0.1;
+  wheel.drive = 0;
+  problem.drives.push_back({0, 4.0, 0.1, 0.0});
   problem.contacts.push_back(wheel);
   problem.solve();
   EXPECT_NEAR(problem.bodies[0].velocity_mps.x_m, 0.025, 2e-9);  // softness
-  EXPECT_NEAR(problem.contacts[0].driven_mps, 0.025, 1e-9);
+  EXPECT_NEAR(problem.drives[0].added_mps, 0.025, 1e-9);
   // With a tenth of the impulse that takes, it spins: 0.03 Ns.
   problem.bodies[0] = {12.0, 1.0, {}, 0.0, {}, 0.0};
   problem.contacts[0].grip_ns = 0.03;
   problem.solve();
   EXPECT_NEAR(problem.bodies[0].velocity_mps.x_m, 0.03 / 12.0, 1e-9);
-  EXPECT_NEAR(problem.contacts[0].driven_mps, 0.1 - 0.03 / 4.0, 1e-9);
+  EXPECT_NEAR(problem.drives[0].added_mps, 0.1 - 0.03 / 4.0, 1e-9);
 }
 
 TEST(CoulombSolve, AJointHoldsTwoBodiesTogether) {

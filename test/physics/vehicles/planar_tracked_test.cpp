@@ -74,6 +74,25 @@ TEST(Tracked, TurnsLessThanItsTracksByTheTorqueOfItsSkiddingPads) {
   EXPECT_NEAR(apparent_width(scenario), apparent_width_by_torque(scenario.machine.tracks), 0.015 * expected);
 }
 
+// Their traction is that of skidding pads, wherever the step ends: motors that felt it a step late would chatter.
+TEST(Tracked, StrongMotorsTurnItAsFarAsIdealOnesAndWeakOnesNotAtAll) {
+  Scenario scenario = andros({});
+  const double expected = apparent_width_by_torque(scenario.machine.tracks);
+  scenario.motor.ideal = false;
+  scenario.motor.torque_limit_nm = 500.0;
+  for (const double step_s : {0.004, 0.001}) {
+    scenario.step_s = step_s;
+    EXPECT_NEAR(apparent_width(scenario), expected, 0.015 * expected);  // what the motors lag adds to the ramps' 1 %
+  }
+  // To skid it takes more than 0.8 of the weight on half the tracks at their radius: 80 Nm.
+  scenario.motor.torque_limit_nm = 8.0;
+  scenario.path = HandPath{5.0};
+  Simulation simulation(scenario, 1);
+  simulation.drive_by_hand(0.0, 0.5);
+  run_to_end(simulation, 5.0);
+  EXPECT_LT(std::abs(simulation.state().true_pose.heading_rad), 1e-4);
+}
+
 TEST(Tracked, AWeightForwardTurnsItAboutAPointAhead) {
   Scenario scenario = andros(HandPath{20.0});
   scenario.machine.tracks.centre_of_mass_x_m = 0.10;
