@@ -18,6 +18,7 @@ struct DiagnosedRun {
   std::string name, provenance;
   std::string truth;                // "6012 poses, 100 Hz", "12 poses, no headings"
   std::string problem;              // why it cannot be judged; then it is left out
+  std::vector<std::string> notes;   // on how it came about
   std::vector<std::string> faults;  // of its data, a sentence each
   double duration_s = 0.0;
   bool held_out = false;
@@ -65,7 +66,9 @@ struct DiagnosisView {
   std::string problem;  // what went wrong last, one line
 
   const Diagnosis* diagnosis = nullptr;
-  bool stale = false;  // the runs or the vehicle have changed since
+  int answers = 0;            // so many were given so far
+  std::size_t worst_run = 0;  // of the answer, in the list
+  bool stale = false;         // the runs or the vehicle have changed since
   std::string verdict;
   std::vector<FindingCard> findings;
   // Error of the simulation over a metre: calibrated alone, and with what is switched on.
@@ -95,7 +98,8 @@ ImU32 run_colour(std::size_t run, const Theme& theme);
 
 // What the panels remember.
 struct DiagnosisState {
-  std::size_t run = 0;             // shown
+  std::size_t run = 0;  // shown
+  int answers_seen = 0;
   std::vector<Stretch> brush;      // of that run
   std::optional<std::size_t> lit;  // the finding whose places were asked for
   int response = 0;

@@ -155,7 +155,8 @@ void DiagnosisDesk::set_vehicle(const Vehicle& vehicle) {
   changed();
 }
 
-Result<Done> DiagnosisDesk::add(const std::string& path, Recording recording) {
+Result<Done> DiagnosisDesk::add(const std::string& path, ImportedRecording imported) {
+  Recording& recording = imported.recording;
   for (const Run& run : given_.runs)
     if (is_same_run(*run.recording, recording)) {
       if (run.path != path) return Done{};  // the other file of a pair that is dropped with it
@@ -164,6 +165,7 @@ Result<Done> DiagnosisDesk::add(const std::string& path, Recording recording) {
   remember();
   Run run;
   run.path = path;
+  run.notes = std::move(imported.warnings);
   Track truth = truth_track(recording);
   std::vector<double> time_s, x_m, y_m;
   for (const TruthSample& t : truth_samples(recording)) {
@@ -243,6 +245,8 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
           answer->mismatch.push_back(mismatch_over_time(answer->diagnosis, run.name));
           const MismatchOverTime& m = answer->mismatch.back();
           answer->trails.emplace_back(m.time_s, m.x_m, m.y_m, m.before);
+          const Residuals* left = of_recording(answer->diagnosis.residuals_before, run.name);
+          answer->mean_square.push_back(left ? mean_square(*left) : 0.0);
           answer->located.push_back(located_stretches(answer->diagnosis, run.name));
         }
         Choice none(answer->diagnosis.findings.size(), false), all;
@@ -261,6 +265,7 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
         problem_ = *problem;
         answer_ = answer;
         answered_revision_ = revision;
+        ++answers_;
         simulations_ = std::move(*simulations);
         on_.assign(answer_->diagnosis.findings.size(), false);
         shown_ = simulations_.count(on_) > 0 ? simulations_[on_].tracks : std::vector<Track>{};
@@ -377,7 +382,7 @@ void DiagnosisDesk::draw_mystery(std::uint64_t seed, Jobs& jobs) {
         given_ = Given{};
         answer_.reset();
         given_.vehicle = (*drawn)->nominal;
-        for (const Recording& recording : (*drawn)->recordings) (void)add("", recording);
+        for (const Recording& recording : (*drawn)->recordings) (void)add("", {recording, {}});
         undo_.resize(kept);  // one step
         given_.mystery = *drawn;
       });
@@ -412,7 +417,8 @@ void DiagnosisDesk::simulate_advice(Jobs& jobs) {
       },
       [this, made, mystery](bool cancelled) {
         if (cancelled) return;
-        if (const Result<Done> added = add("", std::move(*made)); !added) return complain(added.error().message());
+        if (const Result<Done> added = add("", {std::move(*made), {}}); !added)
+          return complain(added.error().message());
         given_.runs.back().simulated = mystery == nullptr;
       });
   if (!started) complain("Busy " + jobs.name() + ": drive the advice when it is done.");

@@ -9,6 +9,7 @@
 
 #include "app/gui/jobs.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/io/import/imported_recording.h"
 #include "physics/experiments/drawn_mystery.h"
 #include "ui/diagnosis.h"
 
@@ -32,6 +33,7 @@ class DiagnosisDesk {
     std::string truth_words;
     std::string problem;  // why it cannot be judged
     std::vector<std::string> faults;
+    std::vector<std::string> notes;  // on how it came about
     std::shared_ptr<const ui::Trail> way;
     std::shared_ptr<const Track> truth;
   };
@@ -39,7 +41,7 @@ class DiagnosisDesk {
   void set_vehicle(const Vehicle& vehicle);
   // An error where this file is in the list. What the list has from another file, as with the second of a pair, is
   // left.
-  Result<Done> add(const std::string& path, Recording recording);
+  Result<Done> add(const std::string& path, ImportedRecording imported);
   void carry_out(const ui::DiagnosisAction& action, Jobs& jobs);
   // Says it in the panel until something else is done.
   void complain(const std::string& words) { problem_ = words; }
@@ -83,6 +85,7 @@ class DiagnosisDesk {
     std::size_t fitted_on = 0;
     std::vector<MismatchOverTime> mismatch;
     std::vector<ui::Trail> trails;
+    std::vector<double> mean_square;  // of the residuals that calibration leaves
     std::vector<std::vector<LocatedStretch>> located;
     std::vector<Recording> fitted() const;
   };
@@ -112,6 +115,7 @@ class DiagnosisDesk {
   std::vector<Track> from_, shown_;
   double share_ = 1.0;  // of the way from `from_` to where the switches say
   std::vector<Vec2> advised_way_;
+  int answers_ = 0;
   std::string problem_;
   bool opening_ = false;
 };

@@ -99,6 +99,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   if (given_.vehicle) v.vehicle_name = given_.vehicle->name;
   const Diagnosis* d = diagnosis();
   bool any = false;
+  double worst = 0.0;
   for (const Run& run : given_.runs) {
     ui::DiagnosedRun r;
     r.name = run.name;
@@ -106,6 +107,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
     r.truth = run.problem.empty() ? run.truth_words : "";
     r.problem = run.problem;
     r.faults = run.faults;
+    r.notes = run.notes;
     r.duration_s = run.recording->duration_s();
     r.held_out = run.held_out;
     r.simulated = run.simulated;
@@ -118,6 +120,10 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
         r.mismatch_trail = &answer_->trails[k];
       }
       r.located = answer_->located[k];
+      if (answer_->mean_square[k] > worst) {
+        worst = answer_->mean_square[k];
+        v.worst_run = v.runs.size();
+      }
       r.truth_track = answer_->runs[k].truth.get();
       if (k < shown_.size() && !shown_[k].empty()) r.simulated_track = &shown_[k];
     }
@@ -131,6 +137,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   if (given_.mystery) v.mystery = mystery_view(*given_.mystery, given_.guess, given_.revealed, d);
   if (!d) return v;
   v.diagnosis = d;
+  v.answers = answers_;
   v.stale = revision_ != answered_revision_;
   v.verdict = verdict_sentence(*d);
   for (std::size_t k = 0; k < d->findings.size(); ++k) v.findings.push_back(card_of(d->findings[k], on_[k]));

@@ -199,6 +199,14 @@ Actions right_pane(const Session& session, ScreenState& state, const SimulationS
 
 Actions diagnosis_centre(const Session& session, ScreenState& state, const Theme& theme) {
   const ui::DiagnosisView view = session.diagnosis().view(session.jobs());
+  if (state.diagnosis.answers_seen != view.answers) {  // a new answer: look where it is worst
+    state.diagnosis.answers_seen = view.answers;
+    if (view.diagnosis) state.diagnosis.run = view.worst_run;
+    state.diagnosis.response = 0;
+    state.diagnosis.brush.clear();
+    state.diagnosis.lit.reset();
+    state.diagnosis.time_view.fitted = state.diagnosis.response_view.fitted = state.diagnosis.fit_floor = true;
+  }
   state.diagnosis_floor.fit_next = std::exchange(state.diagnosis.fit_floor, false) || state.diagnosis_floor.fit_next;
   if (view.runs.empty()) return ui::diagnosis_welcome(view, state.diagnosis, state.choices.show_open, theme);
   Actions actions = ui::floor_view(diagnosis_scene(view, state.diagnosis, theme), state.diagnosis_floor, theme);

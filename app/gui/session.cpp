@@ -500,11 +500,11 @@ bool Session::open_recording(const std::string& path) {
   if (refuse_while_busy("the recording")) return false;
   Result<ImportedRecording> imported = load_recording(path);
   if (!imported) return refused(imported.error());
-  for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
   if (mode_ == ui::Mode::diagnose) {
-    const Result<Done> added = diagnosis_.add(path, std::move(imported->recording));
+    const Result<Done> added = diagnosis_.add(path, std::move(*imported));
     return added || refused(added.error());
   }
+  for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
   if (guide_in_hand()) return done_or_said(guide_.take(path, imported->recording, jobs_));
   const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
   // With the vehicle that was opened, or else with the one that drives, if only that has such encoders.

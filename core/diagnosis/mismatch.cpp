@@ -50,6 +50,24 @@ double largest_between(const std::vector<double>& time_s, const std::vector<doub
   return largest;
 }
 
+// What lies on the floor acts in every recording; a push has a place, but happened once.
+bool is_of_the_floor(const Finding& f) { return f.effect == "slip_zone" || f.effect == "bump"; }
+
+void add_passes(const WhereFound::Zone& zone, const Residuals* r, std::size_t finding,
+                std::vector<LocatedStretch>& all) {
+  constexpr double kJoin_s = 0.5;  // between two passes that are one
+  bool passed = false;
+  for (std::size_t i = 0; r && i < r->time_s.size(); ++i) {
+    if (!(std::hypot(r->x_m[i] - zone.x_m, r->y_m[i] - zone.y_m) <= zone.radius_m)) continue;
+    const double t = r->time_s[i];
+    if (passed && t - all.back().to_s < kJoin_s)
+      all.back().to_s = t;
+    else
+      all.push_back({finding, t, t});
+    passed = true;
+  }
+}
+
 }  // namespace
 
 ResidualSizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
@@ -127,8 +145,10 @@ std::vector<LocatedStretch> located_stretches(const Diagnosis& d, const std::str
   std::vector<LocatedStretch> all;
   for (std::size_t k = 0; k < d.findings.size(); ++k) {
     const WhereFound& where = d.findings[k].where;
-    if (!where.recording.empty() && where.recording != recording) continue;
-    for (const auto& [from_s, to_s] : where.time_s) all.push_back({k, from_s, to_s});
+    if (where.recording.empty() || where.recording == recording)
+      for (const auto& [from_s, to_s] : where.time_s) all.push_back({k, from_s, to_s});
+    else if (where.zone && is_of_the_floor(d.findings[k]))
+      add_passes(*where.zone, of_recording(d.residuals_before, recording), k, all);
   }
   return all;
 }

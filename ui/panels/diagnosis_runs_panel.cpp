@@ -93,11 +93,13 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   ImGui::SetCursorScreenPos({low.x, high.y - theme.px(3)});
   ImGui::Dummy({0, 0});
   if (!run.problem.empty()) warning("Left out: " + run.problem, theme);
-  if (shown)
+  if (shown) {
     for (const std::string& fault : run.faults) note("Fault: " + fault, theme);
-  else if (!run.faults.empty())
+    for (const std::string& words : run.notes) note(words, theme);
+  } else if (!run.faults.empty()) {
     note(run.faults.size() == 1 ? "1 fault in its data" : std::to_string(run.faults.size()) + " faults in its data",
          theme);
+  }
   ImGui::PopID();
 }
 

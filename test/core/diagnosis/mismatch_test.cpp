@@ -74,6 +74,22 @@ TEST(Mismatch, BeforeAndAfterStandAtTheSameTimes) {
   EXPECT_TRUE(mismatch_over_time(d, "no.csv").time_s.empty());
 }
 
+TEST(Mismatch, OfAZoneIsLocatedInEveryRunThatPassesItAndThatOfAPushIsNot) {
+  Diagnosis d;
+  d.residuals_before = {white(6)};  // along x at 0.5 m/s
+  Finding f;
+  f.effect = "slip_zone";
+  f.where.recording = "another.csv";
+  f.where.zone = WhereFound::Zone{10.0, 0.0, 1.0};
+  d.findings = {f};
+  const std::vector<LocatedStretch> passes = located_stretches(d, "run.csv");
+  ASSERT_EQ(passes.size(), 1u);
+  EXPECT_NEAR(passes[0].from_s, 18.0, 0.021);  // from 9 to 11 m, to a sample
+  EXPECT_NEAR(passes[0].to_s, 22.0, 0.021);
+  d.findings[0].effect = "collision";
+  EXPECT_TRUE(located_stretches(d, "run.csv").empty());
+}
+
 TEST(Mismatch, OfAUnitIsFoundByTheRecording) {
   Diagnosis d;
   d.residuals_before = {white(5)};
