@@ -178,6 +178,13 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
   report.assumptions = {report_floor_assumption(), clapper_assumption(),
                         "30 x 20 m, a 10 mm cable every 2.5 m under the left or the right wheels at random; each truck "
                         "calibrated by itself as a LabMate, scale included; the link's encoders calibrated"};
+  report.notes = {
+      "what is left is the rounding of the link's angles. Neither of two plain ideas against it takes much off: over "
+      "eight "
+      "machines with calibrated trucks the heading is 0.93 degrees off (rms) by the least correction, 0.76 where a "
+      "fifth "
+      "of it is applied at a time, 0.72 where a tenth of Eq. 13 is, and 0.92 where both trucks weave by 0.7 degrees so "
+      "that the rounding should average out"};
   return report;
 }
 
