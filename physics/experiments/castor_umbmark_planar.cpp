@@ -2,6 +2,7 @@
 // contradict each other, which kinematics cannot know.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/parallel.h"
@@ -44,7 +45,7 @@ Scenario square_of(const MultiCastor& nominal, const MultiCastor& actual, bool c
 }
 
 // By the nominal parameters on both grounds; and in the planar world by the exact ones.
-Driven drive(const MultiCastor& nominal, std::uint64_t seed) {
+Driven drive(const MultiCastor& nominal, std::uint64_t seed, const std::atomic<bool>& stopped) {
   const MultiCastor actual = drawn_castor_machine(nominal, seed, false);
   Driven driven;
   for (const bool clockwise : {false, true}) {
@@ -53,7 +54,7 @@ Driven drive(const MultiCastor& nominal, std::uint64_t seed) {
     const Scenario scenario = square_of(nominal, actual, clockwise);
     Simulation simulation(scenario, seed);
     const double longest_s = 3.0 * simulation.expected_duration_s();
-    while (!simulation.state().finished && simulation.state().time_s < longest_s) {
+    while (!simulation.state().finished && simulation.state().time_s < longest_s && !stopped) {
       simulation.step();
       driven.slip_m += 0.5 * std::abs(simulation.state().left.slip_speed_mps) * scenario.step_s;
     }
@@ -78,9 +79,9 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
   std::vector<Driven> driven(static_cast<std::size_t>(machines));
   const int done = parallel_for(
       machines,
-      [&](int i) {
+      [&](int i, const std::atomic<bool>& stopped) {
         driven[static_cast<std::size_t>(i)] =
-            drive(nominal, seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
+            drive(nominal, seed_of_stream(options.seed, static_cast<std::uint64_t>(i)), stopped);
       },
       {}, progress);
   ExperimentReport report;
