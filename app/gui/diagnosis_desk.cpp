@@ -424,11 +424,10 @@ void DiagnosisDesk::simulate_advice(Jobs& jobs) {
   if (!started) complain("Busy " + jobs.name() + ": drive the advice when it is done.");
 }
 
-const DiagnosisDesk::Run* DiagnosisDesk::answered_run(const std::string& name, std::size_t& index) const {
-  if (!answer_) return nullptr;
-  for (index = 0; index < answer_->runs.size(); ++index)
-    if (answer_->runs[index].name == name) return &answer_->runs[index];
-  return nullptr;
+std::optional<std::size_t> DiagnosisDesk::answered(const Run& run) const {
+  for (std::size_t r = 0; answer_ && r < answer_->runs.size(); ++r)
+    if (answer_->runs[r].recording == run.recording) return r;
+  return std::nullopt;
 }
 
 Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
@@ -443,11 +442,11 @@ Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
     case ui::DiagnosisExport::csv:
       break;
   }
-  std::size_t r = 0;
-  if (what.run >= given_.runs.size() || !answered_run(given_.runs[what.run].name, r))
-    return Error{what.path, "a run that was not diagnosed", "one of the answer's"};
-  return write_mismatch_csv(what.path, answer_->mismatch[r], *answer_->runs[r].truth,
-                            r < shown_.size() ? shown_[r] : Track{}, what.stretches);
+  const std::optional<std::size_t> r =
+      what.run < given_.runs.size() ? answered(given_.runs[what.run]) : std::optional<std::size_t>();
+  if (!r) return Error{what.path, "a run that was not diagnosed", "one of the answer's"};
+  return write_mismatch_csv(what.path, answer_->mismatch[*r], *answer_->runs[*r].truth,
+                            *r < shown_.size() ? shown_[*r] : Track{}, what.stretches);
 }
 
 }  // namespace odolab

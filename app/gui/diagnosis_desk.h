@@ -102,7 +102,8 @@ class DiagnosisDesk {
   void draw_mystery(std::uint64_t seed, Jobs& jobs);
   void simulate_advice(Jobs& jobs);
   Pose advice_start() const;
-  const Run* answered_run(const std::string& name, std::size_t& index) const;
+  // Which of the answer's runs this one is; none where it was not part of it.
+  std::optional<std::size_t> answered(const Run& run) const;
   static SimulatedRuns simulated(const Answer& answer, const Choice& choice, const Progress& progress,
                                  std::string& problem);
 

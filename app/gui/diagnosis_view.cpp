@@ -113,8 +113,8 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
     r.simulated = run.simulated;
     r.way = run.way.get();
     any = any || (run.problem.empty() && !run.held_out);
-    std::size_t k = 0;
-    if (answered_run(run.name, k)) {
+    if (const std::optional<std::size_t> at = answered(run)) {
+      const std::size_t k = *at;
       if (!answer_->mismatch[k].time_s.empty()) {
         r.mismatch = &answer_->mismatch[k];
         r.mismatch_trail = &answer_->trails[k];

@@ -117,6 +117,15 @@ TEST_F(DiagnosisWindow, AnswersSwitchesAFindingOnAndMovesTheSimulationOntoTheRec
     EXPECT_TRUE(view().runs[3].simulated);
     EXPECT_TRUE(view().stale);
   }
+  // Another recording of the same name is none of the answer's.
+  wish(ui::RemoveRun{0});
+  fs::create_directories(folder() + "/again");
+  fs::copy_file(folder() + "/run_3.csv", folder() + "/again/run_1.csv", fs::copy_options::overwrite_existing);
+  wish(ui::RemoveRun{1});
+  open("again/run_1.csv");
+  EXPECT_EQ(view().runs.back().name, "run_1.csv");
+  EXPECT_FALSE(view().runs.back().mismatch);
+  EXPECT_FALSE(view().runs.back().simulated_track);
   const ui::FloorScene scene = diagnosis_scene(view(), ui::DiagnosisState{}, ui::Theme{});
   EXPECT_EQ(scene.trails.size(), view().runs.size());
 }
