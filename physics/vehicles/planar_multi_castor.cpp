@@ -61,7 +61,8 @@ class PlanarMultiCastor final : public PlanarVehicle {
       const double counts = counts_per_turn(nominal.wheel_encoder_resolution_rad);
       const double left_phase = phases.uniform(), right_phase = phases.uniform();
       castors_.push_back(
-          {body, DrivenAxle(world_, body, axle_centre, axle, setup.scenario.motor, step_s_, effects_[i], static_cast<int>(i)),
+          {body,
+           DrivenAxle(world_, body, axle_centre, axle, setup.scenario.motor, step_s_, effects_[i], static_cast<int>(i)),
            Encoder(counts, left_phase), Encoder(counts, right_phase)});
     }
   }
@@ -219,8 +220,10 @@ class PlanarMultiCastor final : public PlanarVehicle {
   // axle. By the nominal geometry, and by the pivot's encoder, which the motors' electronics read without pause.
   WheelPair wheel_speeds_of(std::size_t i, Vec2 velocity, double rate) const {
     const Castor& castor = nominal_.castors[i];
-    const double pivot_rad =
-        pivot_rad_of(i) + lengths_.castors[i].pivot_encoder_offset_rad - castor.pivot_encoder_offset_rad;
+    // In the middle of the step, where the treads will act.
+    const double swing_radps = world_.yaw_rate_radps(castors_[i].body) - world_.yaw_rate_radps(platform_);
+    const double pivot_rad = pivot_rad_of(i) + 0.5 * step_s_ * swing_radps +
+                             lengths_.castors[i].pivot_encoder_offset_rad - castor.pivot_encoder_offset_rad;
     const Vec2 p = castor.pivot();
     const Vec2 over_floor{velocity.x_m - rate * p.y_m, velocity.y_m + rate * p.x_m};
     const Vec2 in_castor = rotated(over_floor, -pivot_rad);

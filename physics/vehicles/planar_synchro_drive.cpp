@@ -15,8 +15,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kSoftSlip_mps = 0.02e-3;    // creep follows forces, and rigid wheels have none of their own
-constexpr double kTurretInertia_kgm2 = 0.5;  // seen at the steering motor; it decides how soon, not what
+constexpr double kSoftSlip_mps = 0.02e-3;  // creep follows forces, and rigid wheels have none of their own
 
 class PlanarSynchroDrive final : public PlanarVehicle {
  public:
@@ -29,8 +28,9 @@ class PlanarSynchroDrive final : public PlanarVehicle {
         world_(step_s_, Friction::in_every_step),
         body_(world_.add_body({setup.start, mass_kg_, setup.scenario.actual.moment_of_inertia_kgm2})),
         start_heading_rad_(setup.start.heading_rad),
+        motor_(world_.add_drive(body_)),
         drive_(setup.scenario.motor, actual.wheel_radius_m, mass_kg_ * actual.wheel_radius_m * actual.wheel_radius_m),
-        steering_(setup.scenario.motor, 1.0, kTurretInertia_kgm2),
+        steering_(setup.scenario.motor, 1.0, 0.0),
         believed_{setup.start, setup.start.heading_rad} {
     world_.soften_friction(kSoftSlip_mps);
     Random phases(setup.sensor_seed);
@@ -54,12 +54,13 @@ class PlanarSynchroDrive final : public PlanarVehicle {
     double traction_n = 0.0;
     for (const Wheel& wheel : wheels_) traction_n += wheel.state.traction_n;
     const double steered_rad = steering_.rotation_rad();
-    const double steering_radps = nominal_.steering_ratio * yaw_radps;
-    steering_.advance(steering_radps, 0.0, step_s_);
-    step(ground, floor,
-         drive_.advance(speed_mps / nominal_.wheel_radius_m + nominal_.wheel_rad_per_steering_rad * yaw_radps,
-                        traction_n, step_s_),
-         steered_rad);
+    steering_.advance(nominal_.steering_ratio * yaw_radps, 0.0, step_s_);
+    if (steering_.unloaded().inertia_kgm2 >
+        0.0)  // nothing resists it: what the turret weighs is in the motor's inertia
+      steering_.settle_at(steering_.unloaded().speed_radps);
+    const double rolling_radps = drive_.advance(
+        speed_mps / nominal_.wheel_radius_m + nominal_.wheel_rad_per_steering_rad * yaw_radps, traction_n, step_s_);
+    step(ground, floor, rolling_radps, steered_rad);
   }
   std::vector<std::string> turned_channels() const override { return channels(); }
   void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds) override {
@@ -76,6 +77,12 @@ class PlanarSynchroDrive final : public PlanarVehicle {
     set_treads(ground, floor, rolling_radps, 0.5 * (steered_rad + steering_.rotation_rad()) / actual_.steering_ratio);
     pull_downhill(world_, body_, mass_kg_, floor);
     world_.step();
+    if (drive_.unloaded().inertia_kgm2 > 0.0) {
+      const double change_mps = world_.drive_change_mps(motor_);
+      rolling_radps += change_mps / actual_.wheel_radius_m;
+      drive_.settle_at(rolling_radps);
+      for (Wheel& wheel : wheels_) wheel.rolled_mps += change_mps * wheel.share_of_drive;
+    }
     look_at_treads(rolling_radps);
   }
 
@@ -136,6 +143,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
     int tread = 0;
     Vec2 direction{1.0, 0.0};  // in the base's frame
     double rolled_mps = 0.0;
+    double share_of_drive = 1.0;  // of what the drive motor rolls
     double travelled_m = 0.0;
     Vec2 creep_mps;  // in the base's frame: of the contact against what the wheel rolls
     WheelState state{};
@@ -149,6 +157,10 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   double wheel_load_n() const { return mass_kg_ * kGravity_mps2 / 3.0; }
 
   void set_treads(const Ground& ground, const Floor& floor, double rolling_radps, double direction_rad) {
+    const WheelDrive::Unloaded unloaded = drive_.unloaded();
+    if (unloaded.inertia_kgm2 > 0.0)
+      world_.set_drive(motor_, unloaded.inertia_kgm2 / (actual_.wheel_radius_m * actual_.wheel_radius_m),
+                       actual_.wheel_radius_m * (unloaded.speed_radps - rolling_radps));
     const Pose& base = world_.pose(body_);
     const double heading_rad = base.heading_rad + 0.5 * step_s_ * world_.yaw_rate_radps(body_);
     const Vec2 centre = base.position() + (0.5 * step_s_) * world_.velocity_mps(body_);
@@ -161,9 +173,12 @@ class PlanarSynchroDrive final : public PlanarVehicle {
           ground.under({wheel.side, centre + rotated(wheel.place, heading_rad), heading_rad + in_base_rad, radius_m,
                         wheel.travelled_m, static_cast<int>(i)});
       wheel.rolled_mps = radius_m * rolling_radps * contact.horizontal_share * (1.0 - contact.slip);
+      wheel.share_of_drive = radius_m / actual_.wheel_radius_m * contact.horizontal_share * (1.0 - contact.slip);
       wheel.travelled_m += wheel.rolled_mps * step_s_;
       world_.set_tread(wheel.tread, wheel.rolled_mps * wheel.direction - wheel.creep_mps,
                        contact.friction * wheel_load_n() * std::cos(floor.tilt_rad));
+      if (drive_.unloaded().inertia_kgm2 > 0.0)
+        world_.set_tread_drive(wheel.tread, motor_, wheel.share_of_drive * wheel.direction);
       wheel.state.on_bump = contact.on_bump;
       wheel.state.in_slip_zone = contact.in_slip_zone;
     }
@@ -196,6 +211,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   PlanarWorld world_;
   int body_;
   double start_heading_rad_;
+  int motor_;  // the drive's, in the world
   WheelDrive drive_, steering_;
   std::array<Wheel, 3> wheels_;
   Encoder drive_encoder_{1.0, 0.0}, steering_encoder_{1.0, 0.0};

@@ -61,6 +61,20 @@ TEST(MultiCastor, CastFollowsTheTruthOnASquare) {
   RecordProperty("gap_rad", std::to_string(gap.heading_rad));
 }
 
+TEST(MultiCastor, EndPoseOnTheSquareConvergesWhenTheStepIsHalved) {
+  std::vector<Vec2> ends;
+  for (const double step_s : {0.005, 0.0025, 0.00125}) {
+    Scenario scenario = three_castors(SquarePath{1.5, false});
+    scenario.step_s = step_s;
+    Simulation simulation(scenario, 1);
+    run_to_end(simulation, 200.0);
+    ends.push_back(simulation.state().true_pose.position());
+  }
+  // 0.03 and 0.01 mm; by wheel speeds for the castors' angles at the step's start, not its middle, 1.1 and 0.6.
+  EXPECT_LT(length(ends[1] - ends[0]), 0.1e-3);
+  EXPECT_LT(length(ends[2] - ends[1]), 0.1e-3);
+}
+
 TEST(MultiCastor, WheelsSlipHardlyWhereTheCommandsAreConsistent) {
   Scenario scenario = three_castors(FigureEightPath{1.0, 1});
   Simulation simulation(scenario, 1);
