@@ -195,8 +195,13 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     tests[i].channel = kChannels[channel];
     tests[i].at = g.at;
     tests[i].waves = g.waves;
-    tests[i].test = joint.test(joint.columns_of(*term, {}), -1, true);
-    tests[i].p_value = std::min(1.0, n * chi_square_tail(tests[i].test.judged(), tests[i].test.freedom));
+    CandidateColumns columns = joint.columns_of(*term, {});
+    // Many columns find whatever direction calibration nearly takes up, and a derivative is not known better than to a
+    // tenth: what is left below the square of that may be its error.
+    columns.least_surviving = 0.01;
+    tests[i].test = joint.test(columns, -1, true);
+    tests[i].p_value =
+        std::min(1.0, n * scaled_chi_square_tail(tests[i].test.judged(), tests[i].test.freedom, tests[i].test.batches));
   });
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

@@ -168,7 +168,8 @@ const GenericTest* what_is_left(const JointModel& joint, const std::vector<Gener
   for (std::size_t k = 0; k < std::min<std::size_t>(strong.size(), kMostTried); ++k) {
     const CandidateTest& t = strong[k]->test;
     const double kept = joint.minus_two_log_likelihood() - with_group(joint, *strong[k]).minus_two_log_likelihood();
-    const double p = chi_square_tail(kept / t.inflation, t.freedom) * static_cast<double>(generic.size());
+    const double p =
+        scaled_chi_square_tail(kept / t.inflation, t.freedom, t.batches) * static_cast<double>(generic.size());
     if (p < error) return strong[k];
   }
   return nullptr;

@@ -40,12 +40,13 @@ std::size_t DriveView::step_at(double time_s) const {
 }
 
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
-                     const Track& truth_poses) {
+                     const Track& truth_poses, Way way) {
   DriveView view;
   view.number = number;
   view.drive = drive;
   view.from_commands = from_commands;
-  const std::vector<WheelSample>& wheels = run.smooth.empty() ? run.wheels : run.smooth;
+  const std::vector<WheelSample>& smooth = run.smooth.empty() ? run.wheels : run.smooth;
+  const std::vector<WheelSample>& wheels = way == Way::smoothed ? smooth : run.wheels;
   const std::vector<DriveStep> steps = drive_steps(run, drive);
   const int n = static_cast<int>(steps.size());
   view.steps.resize(n);
@@ -64,6 +65,8 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     s.right_rad = 0.5 * (a.right_rad + b.right_rad) - first.right_rad;
     s.left_by_rad = b.left_rad - a.left_rad;
     s.right_by_rad = b.right_rad - a.right_rad;
+    s.left_read_rad = run.wheels[i + 1].left_rad - run.wheels[i].left_rad;
+    s.right_read_rad = run.wheels[i + 1].right_rad - run.wheels[i].right_rad;
     s.heading_rad = d.heading_rad;
     s.position = d.position;
     if (!truth_poses.empty()) {
@@ -89,8 +92,8 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     double span = 0.0, l = 0.0, r = 0.0;
     for (int j = lo; j <= hi; ++j) {
       span += view.steps[j].duration_s;
-      l += view.steps[j].left_by_rad;
-      r += view.steps[j].right_by_rad;
+      l += smooth[static_cast<std::size_t>(j) + 1].left_rad - smooth[static_cast<std::size_t>(j)].left_rad;
+      r += smooth[static_cast<std::size_t>(j) + 1].right_rad - smooth[static_cast<std::size_t>(j)].right_rad;
     }
     *left = l / span;
     *right = r / span;

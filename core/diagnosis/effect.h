@@ -19,6 +19,7 @@ struct EffectStep {
   double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;  // as the wheels say
   double left_rad = 0.0, right_rad = 0.0;              // rotation since the start, at the middle
   double left_by_rad = 0.0, right_by_rad = 0.0;        // rotation during the interval
+  double left_read_rad = 0.0, right_read_rad = 0.0;    // the same as it was read
   double speed_mps = 0.0, yaw_rate_radps = 0.0;        // smoothed over a few intervals
   double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
   double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
@@ -50,9 +51,12 @@ struct DriveView {
   }
 };
 
+// How far the wheels went in an interval: as they were read, to say where the vehicle goes; smoothed, for derivatives,
+// which must not answer to what a reading was rounded by. Speeds and accelerations are of smoothed readings in both.
+enum class Way { as_read, smoothed };
 // `truth_poses`: the axle's poses at those times, from the filter; empty where the place is dead reckoned.
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
-                     const Track& truth_poses);
+                     const Track& truth_poses, Way way = Way::as_read);
 
 enum class Wheel { left, right, both };
 const char* component_of(Wheel wheel);
@@ -76,17 +80,19 @@ struct Effect {
   // Ways in which the same physics shows on different machines, the catalogue's own first. Where there are two or more,
   // the number of one stands behind the shapes.
   std::vector<std::string> forms;
+  int form_of_the_scan = 0;             // where many shapes are scanned in one form only
   std::string sentence;                 // what it is, in words
   std::string regime;                   // where it acts, in words
   std::vector<std::string> looks_like;  // effects that it is easily taken for
   std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
-  // Whether such amplitudes are more than whole counts can feign, given what a count of either wheel turns into; empty:
-  // anything is.
-  std::function<bool(const std::vector<double>& value, double count_m, double wheelbase_m)> beyond_counts;
+  // Whether such amplitudes are more than whole counts can feign; empty: anything is. What happens at a moment is asked
+  // only where a wheel sets off or stops.
+  std::function<bool(const std::vector<double>& value, double count_rad, const DifferentialDrive& drive)> beyond_counts;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
+  double tests_of_a_shape = 1.0;         // so many independent ones a scanned shape stands for, once it is refined
   bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement
   bool local = false;                    // acts at a moment or place: its evidence lies in few samples
   bool of_one_recording = false;         // shape[0] is the recording's number

@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/minimise.h"
+#include "core/calibration/thinned_truth.h"
 #include "core/diagnosis/counts_at_rest.h"
 
 namespace odolab {
@@ -56,6 +57,21 @@ double chi_square_tail(double x, int freedom) {
   return std::min(1.0, tail);
 }
 
+double scaled_chi_square_tail(double x, int freedom, double batches) {
+  if (x <= 0.0) return 1.0;
+  if (batches > 1e6) return chi_square_tail(x, freedom);
+  // I_z(a, b) by its power series, all of whose terms are positive.
+  const double a = 0.5 * batches, b = 0.5 * freedom, z = batches / (batches + x);
+  double term = 1.0, sum = 1.0;
+  for (int n = 1; n < 10000 && term > 1e-15 * sum; ++n) {
+    term *= z * (a + b + n - 1.0) / (a + n);
+    sum += term;
+  }
+  const double log_front =
+      a * std::log(z) + b * std::log1p(-z) - std::log(a) + std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b);
+  return std::min(1.0, std::exp(log_front) * sum);
+}
+
 JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands,
                        const LeastSquaresCalibration& start, const Vehicle& nominal)
     : runs_(std::move(runs)), from_commands_(std::move(from_commands)), nominal_(nominal) {
@@ -104,7 +120,7 @@ InnovationRun JointModel::prepared(int r) const {
         for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.value[0]);
       continue;
     }
-    const std::vector<Motions> motions = a.effect->motions(views_[r], a.shape);
+    const std::vector<Motions> motions = a.effect->motions(read_views_[r], a.shape);
     any = true;
     for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum.per_step, a.value[k]);
   }
@@ -124,6 +140,7 @@ void JointModel::linearise() {
   if (linear_.size() == runs_.size())
     for (int r = 0; r < n; ++r) track[r] = poses(r);
   views_.resize(n);
+  read_views_.resize(n);
   std::vector<std::vector<LinearisedRun>> made(n);
   z_.assign(n, {});
   residual_.assign(n, {});
@@ -135,7 +152,9 @@ void JointModel::linearise() {
       for (const FilterStep& s : first.steps())
         if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
     }
-    views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r]);
+    views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::smoothed);
+    if (!accepted.empty())
+      read_views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
     made[r].emplace_back(prepared(r), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
@@ -231,56 +250,78 @@ void JointModel::fit(int iterations) {
 }
 
 void JointModel::fit_noise() {
-  int samples = 0;
-  for (const InnovationRun& run : runs_) samples += static_cast<int>(run.truth.size());
-  std::vector<SummedRun> summed;
+  constexpr double kUsual[4] = {0.003, 0.002, 0.0005, 0.005};
+  constexpr double kWay_m = 0.1;
   bool any_heading = false;
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
-    summed.push_back(summed_up(linear_[r].run(), model_of(r)));
-    any_heading = any_heading || runs_[r].truth_has_heading;
-  }
-  const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
-  const double parameters = columns();
-  const auto noise_of = [&](const std::vector<double>& logs) {
-    return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
-                       any_heading ? std::exp(logs[3]) : model.noise.truth_heading_rad, std::exp(logs[2])};
-  };
-  const auto value = [&](const std::vector<double>& logs) {
-    const int runs = static_cast<int>(runs_.size());
-    std::vector<double> sum_of(runs, 0.0);
-    std::vector<int> scalars_of(runs, 0);
-    const auto of_run = [&](int r) {
-      InnovationModel m = model_of(r);
-      m.noise = noise_of(logs);
-      FilterOptions options;
-      options.derivatives = false;
-      const int n = static_cast<int>(runs_[r].truth.size());
-      for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
-        if (number % every != 0) continue;
-        options.first = first;
-        options.last = every == 1 ? n : std::min(n, first + stretch);
-        const InnovationSums s = filtered(linear_[r].run(), summed[r], m, options);
-        sum_of[r] += s.chi2 + s.log_determinant;
-        scalars_of[r] += s.scalars;
-      }
-    };
-    if (samples > kNoiseSamples)
-      parallel_for(runs, of_run);
-    else  // not worth starting threads for
-      for (int r = 0; r < runs; ++r) of_run(r);
-    double sum = 0.0;
-    int scalars = 0;
-    for (int r = 0; r < runs; ++r) sum += sum_of[r], scalars += scalars_of[r];
-    // The freedom that the parameters took, as an average: exact where all scales move together.
-    if (every == 1 && scalars > 2 * parameters) sum -= parameters * 2.0 * (logs[0] + logs[1]) / 2.0;
-    const double usual[4] = {0.003, 0.002, 0.0005, 0.005};
-    for (std::size_t k = 0; k < logs.size(); ++k) sum += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
-    return sum;
-  };
+  for (const InnovationRun& run : runs_) any_heading = any_heading || run.truth_has_heading;
   std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m),
                               std::log(model.noise.body_m_per_sqrt_m)};
   if (any_heading) logs.push_back(std::log(model.noise.truth_heading_rad));
-  model.noise = noise_of(minimised(value, logs, 0.2, 0.05, 80));
+  const auto noise_of = [&](const std::vector<double>& at) {
+    return FittedNoise{std::exp(at[0]), std::exp(at[1]), any_heading ? std::exp(at[3]) : model.noise.truth_heading_rad,
+                       std::exp(at[2])};
+  };
+  // Twice the negative log-likelihood of the noise on these runs, of which every so many stretches are used; `scales`:
+  // those of the logarithms that are free.
+  const auto fitted = [&](const std::vector<const InnovationRun*>& runs, const std::vector<int>& scales) {
+    std::vector<SummedRun> summed;
+    int samples = 0;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      summed.push_back(summed_up(*runs[r], model_of(static_cast<int>(r))));
+      samples += static_cast<int>(runs[r]->truth.size());
+    }
+    const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
+    const double parameters = columns();
+    const auto value = [&](const std::vector<double>& free) {
+      std::vector<double> at = logs;
+      for (std::size_t k = 0; k < scales.size(); ++k) at[static_cast<std::size_t>(scales[k])] = free[k];
+      std::vector<double> sum_of(runs.size(), 0.0);
+      std::vector<int> scalars_of(runs.size(), 0);
+      const auto of_run = [&](int r) {
+        InnovationModel m = model_of(r);
+        m.noise = noise_of(at);
+        FilterOptions options;
+        options.derivatives = false;
+        const int n = static_cast<int>(runs[r]->truth.size());
+        for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
+          if (number % every != 0) continue;
+          options.first = first;
+          options.last = every == 1 ? n : std::min(n, first + stretch);
+          const InnovationSums s = filtered(*runs[r], summed[r], m, options);
+          sum_of[r] += s.chi2 + s.log_determinant;
+          scalars_of[r] += s.scalars;
+        }
+      };
+      if (samples > kNoiseSamples)
+        parallel_for(static_cast<int>(runs.size()), of_run);
+      else  // not worth starting threads for
+        for (std::size_t r = 0; r < runs.size(); ++r) of_run(static_cast<int>(r));
+      double sum = 0.0;
+      int scalars = 0;
+      for (std::size_t r = 0; r < runs.size(); ++r) sum += sum_of[r], scalars += scalars_of[r];
+      // The freedom that the parameters took, as an average: exact where all scales move together.
+      if (every == 1 && scalars > 2 * parameters) sum -= parameters * (free[0] + free[1]);
+      for (std::size_t k = 0; k < scales.size(); ++k) sum += std::pow((free[k] - std::log(kUsual[scales[k]])) / 2.3, 2);
+      return sum;
+    };
+    std::vector<double> start;
+    for (int k : scales) start.push_back(logs[static_cast<std::size_t>(k)]);
+    const std::vector<double> best = minimised(value, start, 0.2, 0.05, 80);
+    for (std::size_t k = 0; k < scales.size(); ++k) logs[static_cast<std::size_t>(scales[k])] = best[k];
+  };
+  std::vector<const InnovationRun*> whole;
+  for (const LinearisedRun& l : linear_) whole.push_back(&l.run());
+  fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2});
+  // The truth's noise shows from sample to sample; the floor's in what it adds up to.
+  std::vector<InnovationRun> thin;
+  for (std::size_t r = 0; r < whole.size(); ++r)
+    thin.push_back(thinned_truth(*whole[r], model_of(static_cast<int>(r)), kWay_m));
+  std::vector<const InnovationRun*> thinned;
+  int left = 0;
+  for (const InnovationRun& run : thin)
+    if (run.truth.size() >= 2) thinned.push_back(&run), left += static_cast<int>(run.truth.size());
+  if (thinned.size() == whole.size() && left > 3 * columns()) fitted(thinned, {0, 2});
+  model.noise = noise_of(logs);
 }
 
 void JointModel::gate() {
@@ -393,6 +434,7 @@ JointModel JointModel::left_out(int run) const {
   keep(one.clock_s, clock_s);
   keep(one.clock_active, clock_active);
   keep(one.views_, views_);
+  keep(one.read_views_, read_views_);
   keep(one.linear_, linear_);
   one.linearise();
   return one;
@@ -469,7 +511,8 @@ JointModel::GatheredError JointModel::gathered_error() const {
   return sum;
 }
 
-// Lag-one correlation of the whitened innovations, the largest of the three channels.
+// Lag-one correlation of the whitened innovations, the largest of the three channels. That of a floor whose unevenness
+// has a length is negative, since the noise was fitted to what adds up.
 bool JointModel::innovations_correlated() const {
   double product[3] = {}, square[3] = {};
   for (const LinearisedRun& l : linear_) {
@@ -480,7 +523,7 @@ bool JointModel::innovations_correlated() const {
     }
   }
   for (int k = 0; k < 3; ++k)
-    if (std::abs(product[k]) > 0.12 * square[k]) return true;
+    if (product[k] > 0.12 * square[k]) return true;
   return false;
 }
 
@@ -587,7 +630,7 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   int freedom = 0;
   for (int j = 0; j < k; ++j) {
     const double e = eig.eigenvalues()(j);
-    if (e < 1e-3) {
+    if (e < c.least_surviving) {
       cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
       continue;
     }
@@ -634,6 +677,7 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
   const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
   out.inflation = shrunk_inflation(scatter / sum_i, count);
+  out.batches = kPriorBatches + count;
   for (int half = 0; half < 2; ++half) {
     double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
     for (std::size_t n = 0; n < u.size(); ++n)

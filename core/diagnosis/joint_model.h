@@ -20,6 +20,7 @@ struct CandidateTest {
   double statistic = 0.0;  // twice the gain of log-likelihood, chi-square with `freedom` under the null
   int freedom = 0;
   double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
+  double batches = 1e9;    // from so many it was found how the score scatters
   double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
   double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
@@ -31,6 +32,7 @@ struct CandidateTest {
 struct CandidateColumns {
   std::vector<Eigen::MatrixXd> of_run;  // rows of the stretch only
   std::vector<Stretch> stretch;
+  double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
 };
 
 class JointModel {
@@ -97,7 +99,8 @@ class JointModel {
   std::vector<char> from_commands_;
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
-  std::vector<DriveView> views_;
+  std::vector<DriveView> views_;       // smoothed, for columns
+  std::vector<DriveView> read_views_;  // for what the accepted effects move
   std::vector<LinearisedRun> linear_;
   std::vector<Eigen::MatrixXd> z_;  // of each run
   std::vector<Eigen::VectorXd> residual_;
@@ -109,5 +112,7 @@ class JointModel {
 
 // P(chi-square with that freedom > x).
 double chi_square_tail(double x, int freedom);
+// The same where x was divided by a scale that was itself found from so many batches: the tail of Fisher's F.
+double scaled_chi_square_tail(double x, int freedom, double batches);
 
 }  // namespace odolab

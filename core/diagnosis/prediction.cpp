@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/quality.h"
@@ -34,6 +35,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   if (run.wheels.size() < 2) return predicted_track(recording, vehicle);
   const double t0 = run.wheels.front().time_s;
   for (WheelSample& w : run.wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + rate) + delay_s;
+  if (!from_commands) run.smooth = smoothed(run.wheels);
   const Pose mounting = with.truth.axle_T_tracked;
   Pose start;
   double start_s = run.wheels.front().time_s;

@@ -50,7 +50,25 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
         s[k] *= 1.0 + side * 0.15 * scale;
       near.push_back(s);
     }
+  // A place is not found along the axes alone.
+  for (std::size_t k = 0; k + 1 < e.shapes.size(); ++k)
+    if (e.shapes[k].name == "x_m" && e.shapes[k + 1].name == "y_m")
+      for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}}) {
+        std::vector<double> s = shape;
+        s[k] += x * scale * 0.15;
+        s[k + 1] += y * scale * 0.15;
+        near.push_back(s);
+      }
   return near;
+}
+
+// Where a wheel sets off or stops its count is off by what is hidden between two counts; on the way that averages out.
+bool near_a_rest(const InnovationRun& run, double time_s) {
+  constexpr double kNear_s = 0.5;
+  for (std::size_t i = 0; i < run.settles.size(); ++i)
+    if (run.settles[i] && std::abs(0.5 * (run.wheels[i].time_s + run.wheels[i + 1].time_s) - time_s) < kNear_s)
+      return true;
+  return false;
 }
 
 ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, int tests) {
@@ -69,7 +87,7 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
     std::vector<std::vector<double>> with_form;
     for (std::size_t form = 0; form < (every_form ? forms : 1); ++form)
       for (std::vector<double> s : shapes) {
-        s.push_back(static_cast<double>(form));
+        s.push_back(static_cast<double>(every_form ? form : static_cast<std::size_t>(e.form_of_the_scan)));
         with_form.push_back(s);
       }
     shapes = with_form;
@@ -91,8 +109,8 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
       places.emplace_back(-statistics.back(), k);
   }
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests =
-      std::log(static_cast<double>(tests)) + std::log(static_cast<double>(std::max<std::size_t>(1, scanned)));
+  const double log_tests = std::log(static_cast<double>(tests)) +
+                           std::log(e.tests_of_a_shape * static_cast<double>(std::max<std::size_t>(1, scanned)));
   const auto other_forms = [&] {
     for (std::size_t form = 0; form < forms; ++form) {
       std::vector<double> s = best.test.shape;
@@ -104,7 +122,7 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
   // Refined only where there is something to refine.
   if (e.scan && best.test.statistic > 15.0) {
     const auto climb = [&] {
-      for (double scale : {1.0, 0.5, 0.25, 0.12})
+      for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
         for (int round = 0; round < 4; ++round) {
           bool moved = false;
           for (const std::vector<double>& s : shapes_near(e, best.test.shape, scale))
@@ -116,7 +134,7 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
     std::sort(places.begin(), places.end());
     const ScoredCandidate first = best;
     ScoredCandidate top = best;
-    for (std::size_t k = 1; k < std::min<std::size_t>(places.size(), 4); ++k) {
+    for (std::size_t k = 1; k < std::min<std::size_t>(places.size(), 8); ++k) {
       best = first;
       best.test.statistic = 0.0;
       if (!consider(shapes[places[k].second], false)) continue;
@@ -135,12 +153,14 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
         std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
     best.test.cross_validated = best.test.statistic;
   }
-  if (e.beyond_counts && !best.test.value.empty()) {
-    const auto& run = joint.runs()[static_cast<std::size_t>(best.test.shape[0])];
-    const DifferentialDrive& drive = joint.model.drive;
-    const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-    best.beyond_counts = e.beyond_counts(best.test.value, count_rad(run, drive) * radius_m, drive.wheelbase_m);
-  }
+  if (e.beyond_counts && !best.test.value.empty())
+    for (std::size_t r = 0; r < joint.runs().size(); ++r) {
+      if (e.of_one_recording && (joint.views()[r].number != static_cast<int>(best.test.shape[0]) ||
+                                 !near_a_rest(joint.runs()[r], best.test.shape[1])))
+        continue;
+      const double count = count_rad(joint.runs()[r], joint.model.drive);
+      best.beyond_counts = best.beyond_counts && e.beyond_counts(best.test.value, count, joint.model.drive);
+    }
   const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
   best.p_value = std::min(1.0, tail * std::exp(log_tests));
   return best;
@@ -176,16 +196,20 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   return false;
 }
 
-void let_in(JointModel& joint, const ScoredCandidate& c) {
+// How much the likelihood gains by it under the noise as it was: that is then fitted anew.
+double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
   a.shape = c.test.shape;
   if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
   a.value = c.test.value;
+  const double before = joint.minus_two_log_likelihood();
   joint.accepted.push_back(a);
   joint.fit(3);
+  const double gained = before - joint.minus_two_log_likelihood();
   joint.fit_noise();
   joint.fit(2);
+  return gained;
 }
 
 }  // namespace
@@ -259,9 +283,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     bool accepted = false;
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
     for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
-      let_in(joint, *standing[tried]);
-      accepted = is_material(before.gathered_error(), joint.gathered_error(), correlated) &&
-                 joint.minus_two_log_likelihood() < before.minus_two_log_likelihood() - 8.0;
+      accepted = let_in(joint, *standing[tried]) > 8.0 &&
+                 is_material(before.gathered_error(), joint.gathered_error(), correlated);
       if (!accepted) joint = before;
     }
     if (!accepted) break;
@@ -318,9 +341,9 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       JointModel without = joint;
       without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
       without.fit(4);
+      const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
       without.fit_noise();
       without.fit(2);
-      const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
       const bool needed = lost > 100.0 && share_of(k) > least_share(*joint.accepted[k].effect) &&
                           is_material(without.gathered_error(), joint.gathered_error(), true);
       if (!needed) {

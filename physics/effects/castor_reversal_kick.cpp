@@ -7,8 +7,9 @@ namespace odolab::planar {
 
 namespace {
 
-constexpr double kReversed_m =
-    0.002;  // way back that counts as a reversal; less is the trembling of a turn on the spot
+// Way back that counts as a reversal: a castor's trail is several times that, and less is the trembling of a turn on the
+// spot.
+constexpr double kReversed_m = 0.01;
 
 class CastorReversalKick final : public Effect {
  public:

@@ -7,7 +7,7 @@
 namespace odolab::effects {
 
 namespace {
-constexpr double kReversed_m = 0.003;  // way back that counts; less is the trembling of a turn on the spot
+constexpr double kReversed_m = 0.01;  // way back that counts; less is the trembling of a turn on the spot
 
 // The first steps of each way back, with the new direction of travel.
 std::vector<std::pair<std::size_t, int>> reversals(const DriveView& view) {

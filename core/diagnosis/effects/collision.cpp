@@ -19,10 +19,12 @@ std::vector<Effect> collision() {
   e.looks_like = {"bump", "truth_frozen"};
   e.told_apart_by = "the same way driven again: a push does not come back";
   e.local = true;
+  e.form_of_the_scan = 1;  // half of the others' length is found by both
   e.of_one_recording = true;
   // Both wheels may stop half a count off, the other way than they set off.
-  e.beyond_counts = [](const std::vector<double>& value, double count_m, double wheelbase_m) {
-    return std::abs(value[2]) > 2.0 * count_m / wheelbase_m || std::hypot(value[0], value[1]) > 2.0 * count_m;
+  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const DifferentialDrive& drive) {
+    const double count_m = count_rad * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+    return std::abs(value[2]) > 2.0 * count_m / drive.wheelbase_m || std::hypot(value[0], value[1]) > 2.0 * count_m;
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};

@@ -7,16 +7,17 @@
 namespace odolab::effects {
 
 namespace {
-// Rotation lost in the play, as a share of the gap, for one wheel.
+// Rotation lost in the play, as a share of the gap, for one wheel. A stop swings back by less than smoothing leaves,
+// and that crosses the gap too.
 std::vector<double> lost(const DriveView& view, bool left, double gap_rad, bool begins_engaged) {
   std::vector<double> share(view.steps.size());
   const double half = 0.5 * std::max(gap_rad, 1e-4);
   double place = 0.0;  // of the encoder's side within the play, -half to half
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const double by = left ? view.steps[i].left_by_rad : view.steps[i].right_by_rad;
+    const double by = left ? view.steps[i].left_read_rad : view.steps[i].right_read_rad;
     if (i == 0 && begins_engaged) {  // where the play stood at the start shows only in the first movement's direction
       for (const EffectStep& s : view.steps)
-        if (const double b = left ? s.left_by_rad : s.right_by_rad; b != 0.0) {
+        if (const double b = left ? s.left_read_rad : s.right_read_rad; b != 0.0) {
           place = b > 0.0 ? half : -half;
           break;
         }
@@ -42,6 +43,10 @@ Effect of_wheel(Wheel wheel) {
   e.regime = "after a wheel reverses";
   e.looks_like = {"castor_reversal_kick", "traction_slip"};
   e.told_apart_by = "a stop and then on in the same direction, and a turn on the spot and then a straight";
+  // A reading stands still by up to a count where its wheel turns back.
+  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const DifferentialDrive&) {
+    return value[0] > 1.5 * count_rad;
+  };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m(view.steps.size());
     const DifferentialDrive& drive = view.drive;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/calibration/linked.h"
+#include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/select.h"
 #include "core/diagnosis/units/geometry_fit.h"
@@ -185,6 +186,7 @@ void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel&
     InnovationRun run;
     for (const UnitSample& s : u.samples)
       run.wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+    run.smooth = smoothed(run.wheels);
     run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
     std::vector<std::vector<BodyMotion>> motions(units.size());
     motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/odometry/cast.h"
@@ -142,6 +143,7 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
         run.wheels.push_back({samples[i].time_s, w.left_rad, w.right_rad});
         axle.push_back({samples[i].time_s, track[i].pose * tracked_T_axle(with, u, samples[i].joints)});
       }
+      run.smooth = smoothed(run.wheels);
       run.truth = {TruthSample{axle[0].time_s, axle[0].pose.position(), axle[0].pose.heading_rad}};
       motions[u] =
           motions_of(drive_view(0, run, units[u].drive, false, axle), effects_of_unit(effects, units[u], units));
