@@ -357,6 +357,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     clock[0] += start_velocity(0) - start_velocity(2) * pose.y_m - moved_end(0);
     clock[1] += start_velocity(1) + start_velocity(2) * pose.x_m - moved_end(1);
     clock[2] += start_velocity(2) - moved_end(2);
+    for (int k = 0; k < 3; ++k) summed.end_velocity.push_back(moved_end(k));
     add_symmetric(wheel_noise, out.wheel_noise);
     if (body_is_noisy) add_symmetric(body_noise, out.body_noise);
     if (counts_left_behind) add_symmetric(count_noise, out.count_noise);

@@ -103,6 +103,7 @@ struct SummedRun {
   std::vector<RelativeMotion> motions;  // [i] leads from truth sample i to i + 1
   std::vector<double> derivatives;      // of motions[i] by column c: x, y, heading at 3 * (i * columns + c)
   int columns = 0;
+  std::vector<double> end_velocity;  // of motions[i] where it ends, in the frame of its start: x, y, heading at 3 * i
 };
 SummedRun summed_up(const InnovationRun& run, const InnovationModel& model);
 

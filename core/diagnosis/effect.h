@@ -89,7 +89,8 @@ struct Effect {
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
   // Whether such amplitudes are more than whole counts can feign; empty: anything is. What happens at a moment is asked
   // only where a wheel sets off or stops.
-  std::function<bool(const std::vector<double>& value, double count_rad, const DifferentialDrive& drive)> beyond_counts;
+  std::function<bool(const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views)>
+      beyond_counts;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
   double tests_of_a_shape = 1.0;         // so many independent ones a scanned shape stands for, once it is refined

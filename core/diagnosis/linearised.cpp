@@ -195,19 +195,7 @@ void LinearisedRun::of_clock_rate(double* out) const {
     const double t0 = run_->truth[t].time_s - run_->truth[0].time_s,
                  t1 = run_->truth[t + 1].time_s - run_->truth[0].time_s;
     const double* jac = &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + column::truth_clock)];
-    const Piece& last = pieces_[first_piece_[t + 1] - 1];
-    const WheelSample &a = run_->wheels[last.interval], &b = run_->wheels[last.interval + 1];
-    const double dt = b.time_s - a.time_s;
-    const double left = model_.drive.wheel_radius_left_m * (b.left_rad - a.left_rad) / dt,
-                 right = model_.drive.wheel_radius_right_m * (b.right_rad - a.right_rad) / dt;
-    double f = 0.5 * (left + right), l = 0.0, w = (right - left) / model_.drive.wheelbase_m;
-    for (const ExtraColumn& e : run_->extra) {
-      f += e.value / dt * e.per_step[last.interval].forward_m;
-      l += e.value / dt * e.per_step[last.interval].sideways_m;
-      w += e.value / dt * e.per_step[last.interval].turn_rad;
-    }
-    const double h = summed_.motions[t].motion.heading_rad, c = std::cos(h), s = std::sin(h);
-    const double end[3] = {c * f - s * l, s * f + c * l, w};
+    const double* end = &summed_.end_velocity[3 * static_cast<std::size_t>(t)];
     // offset(t) = -rate (t - t_0): jac = start velocity - end velocity
     for (int k = 0; k < 3; ++k) d[k] = -(t0 * (jac[k] + end[k]) - t1 * end[k]);
     // The start's velocity also swings the motion about, which jac has in it already.

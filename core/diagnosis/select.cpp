@@ -159,7 +159,7 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
                                  !near_a_rest(joint.runs()[r], best.test.shape[1])))
         continue;
       const double count = count_rad(joint.runs()[r], joint.model.drive);
-      best.beyond_counts = best.beyond_counts && e.beyond_counts(best.test.value, count, joint.model.drive);
+      best.beyond_counts = best.beyond_counts && e.beyond_counts(best.test.value, count, joint.views());
     }
   const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
   best.p_value = std::min(1.0, tail * std::exp(log_tests));
@@ -283,8 +283,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     bool accepted = false;
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
     for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
-      accepted = let_in(joint, *standing[tried]) > 8.0 &&
-                 is_material(before.gathered_error(), joint.gathered_error(), correlated);
+      const double kept = let_in(joint, *standing[tried]);
+      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated);
       if (!accepted) joint = before;
     }
     if (!accepted) break;

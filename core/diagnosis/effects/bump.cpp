@@ -81,7 +81,8 @@ Effect once(Wheel wheel) {
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm"};
   e.of_one_recording = true;
-  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const DifferentialDrive& drive) {
+  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
+    const DifferentialDrive& drive = views.front().drive;
     return value[0] > 2.0 * count_rad * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {

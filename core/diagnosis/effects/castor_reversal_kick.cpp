@@ -9,9 +9,14 @@ namespace odolab::effects {
 namespace {
 constexpr double kReversed_m = 0.01;  // way back that counts; less is the trembling of a turn on the spot
 
-// The first steps of each way back, with the new direction of travel.
-std::vector<std::pair<std::size_t, int>> reversals(const DriveView& view) {
-  std::vector<std::pair<std::size_t, int>> found;
+struct Reversal {
+  std::size_t first = 0;  // step of the way back
+  std::size_t sure = 0;   // the step by which it counts
+  int direction = 1;      // of travel, from here on
+};
+
+std::vector<Reversal> reversals(const DriveView& view) {
+  std::vector<Reversal> found;
   double travelled_m = 0.0, furthest_m = 0.0;
   std::size_t furthest = 0;
   int direction = 0;
@@ -21,7 +26,7 @@ std::vector<std::pair<std::size_t, int>> reversals(const DriveView& view) {
     if (direction == 0 && std::abs(travelled_m) > kReversed_m) direction = travelled_m > 0.0 ? 1 : -1;
     if (direction != 0 && back_m > kReversed_m) {
       direction = -direction;
-      found.emplace_back(furthest, direction);
+      found.push_back({furthest, i, direction});
     }
     if (direction == 0 || direction * (travelled_m - furthest_m) >= 0.0 || back_m > kReversed_m) {
       furthest_m = travelled_m;
@@ -31,14 +36,14 @@ std::vector<std::pair<std::size_t, int>> reversals(const DriveView& view) {
   return found;
 }
 
-// One kick at each reversal, spread over the way on which the castor swings round.
+// One kick at each reversal: at once, or spread over the way on which the castor swings round once it is sure to.
 Motions kicks(const DriveView& view, bool to_one_side, double swing_m) {
   Motions m(view.steps.size());
-  for (const auto& [first, direction] : reversals(view)) {
+  for (const Reversal& r : reversals(view)) {
     double since_m = 0.0;
-    for (std::size_t i = first; i < view.steps.size() && since_m < swing_m; ++i) {
+    for (std::size_t i = swing_m < kReversed_m ? r.first : r.sure; i < view.steps.size() && since_m < swing_m; ++i) {
       const double way_m = std::abs(view.steps[i].forward_m());
-      m[i].turn_rad += (to_one_side ? 1.0 : direction) * std::min(way_m, swing_m - since_m) / swing_m;
+      m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * std::min(way_m, swing_m - since_m) / swing_m;
       since_m += way_m;
     }
   }

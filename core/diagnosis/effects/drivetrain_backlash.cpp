@@ -29,6 +29,23 @@ std::vector<double> lost(const DriveView& view, bool left, double gap_rad, bool 
   return share;
 }
 
+// How often a wheel turns back by more than so much.
+int reversals_of(const DriveView& view, bool left, double more_rad) {
+  int reversals = 0;
+  double turned = 0.0, furthest = 0.0, direction = 0.0;
+  for (const EffectStep& s : view.steps) {
+    turned += left ? s.left_read_rad : s.right_read_rad;
+    if (direction * (turned - furthest) >= 0.0 && direction != 0.0) {
+      furthest = turned;
+    } else if (std::abs(turned - furthest) > more_rad) {
+      reversals += direction != 0.0;
+      direction = turned > furthest ? 1.0 : -1.0;
+      furthest = turned;
+    }
+  }
+  return reversals;
+}
+
 Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "drivetrain_backlash";
@@ -43,9 +60,15 @@ Effect of_wheel(Wheel wheel) {
   e.regime = "after a wheel reverses";
   e.looks_like = {"castor_reversal_kick", "traction_slip"};
   e.told_apart_by = "a stop and then on in the same direction, and a turn on the spot and then a straight";
-  // A reading stands still by up to a count where its wheel turns back.
-  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const DifferentialDrive&) {
-    return value[0] > 1.5 * count_rad;
+  // Where a wheel turns back its reading is off by what is hidden between two counts, one way or the other: in the mean
+  // over all reversals by a count over the root of six times their number, of which four are taken.
+  e.beyond_counts = [wheel](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
+    int reversals = 0;
+    for (const DriveView& view : views) {
+      if (wheel != Wheel::right) reversals += reversals_of(view, true, 3.0 * count_rad);
+      if (wheel != Wheel::left) reversals += reversals_of(view, false, 3.0 * count_rad);
+    }
+    return value[0] > 4.0 * count_rad / std::sqrt(6.0 * std::max(reversals, 1));
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m(view.steps.size());
