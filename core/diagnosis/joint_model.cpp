@@ -59,7 +59,7 @@ double chi_square_tail(double x, int freedom) {
 
 double scaled_chi_square_tail(double x, int freedom, double batches) {
   if (x <= 0.0) return 1.0;
-  if (batches > 1e6) return chi_square_tail(x, freedom);
+  if (batches > 1e4) return chi_square_tail(x, freedom);
   // I_z(a, b) by its power series, all of whose terms are positive.
   const double a = 0.5 * batches, b = 0.5 * freedom, z = batches / (batches + x);
   double term = 1.0, sum = 1.0;
