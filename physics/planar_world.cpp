@@ -1,5 +1,7 @@
 #include "physics/planar_world.h"
 
+#include <box2d/box2d.h>
+
 #include "physics/planar_world_solver.h"
 
 namespace odolab {
@@ -12,7 +14,18 @@ namespace {
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
+b2Vec2 single(Vec2 v) { return {static_cast<float>(v.x_m), static_cast<float>(v.y_m)}; }
+Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
+
 }  // namespace
+
+PlanarWorld::Solver::Solver(double step, Friction friction)
+    : step_s(step), exact(friction), world(std::make_unique<b2World>(b2Vec2(0.0f, 0.0f))) {
+  world->SetAllowSleeping(false);
+  world->SetContinuousPhysics(false);
+}
+
+PlanarWorld::Solver::~Solver() = default;
 
 // Moves two bodies, each the less the heavier it is, so that point b of body b comes to lie on point a of body a, or
 // on the line through it. Linear in the small gap (README, Eq. 7).
@@ -108,7 +121,7 @@ void PlanarWorld::Solver::solve_with_box2d() {
     wheel.floor->SetLinearVelocity(single(-1.0 * frame_velocity_at(place)));
   }
 
-  world.Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
+  world->Step(static_cast<float>(h), kVelocityIterations, kPositionIterations);
 
   for (Body& body : bodies) {
     const Vec2 velocity = frame_velocity_at(body.place) + twice(body.solved->GetLinearVelocity());
@@ -131,7 +144,7 @@ int PlanarWorld::add_body(const BodyDefinition& definition) {
   body.pose = definition.pose;
   body.mass_kg = definition.mass_kg;
   body.inertia_kgm2 = definition.moment_of_inertia_kgm2;
-  body.solved = solver_->world.CreateBody(&def);
+  body.solved = solver_->world->CreateBody(&def);
   b2MassData mass;
   mass.mass = static_cast<float>(definition.mass_kg);
   mass.I = static_cast<float>(definition.moment_of_inertia_kgm2);
@@ -148,7 +161,7 @@ int PlanarWorld::add_tread(int body, Vec2 place) {
   Solver::Tread tread;
   tread.body = body;
   tread.place = place;
-  tread.floor = solver_->world.CreateBody(&def);
+  tread.floor = solver_->world->CreateBody(&def);
   b2FrictionJointDef joint;
   joint.bodyA = tread.floor;
   joint.bodyB = solver_->bodies[body].solved;
@@ -156,7 +169,7 @@ int PlanarWorld::add_tread(int body, Vec2 place) {
   joint.localAnchorB = single(place);
   joint.maxForce = 0.0f;
   joint.maxTorque = 0.0f;
-  tread.joint = static_cast<b2FrictionJoint*>(solver_->world.CreateJoint(&joint));
+  tread.joint = static_cast<b2FrictionJoint*>(solver_->world->CreateJoint(&joint));
   solver_->treads.push_back(tread);
   return static_cast<int>(solver_->treads.size()) - 1;
 }
@@ -175,7 +188,7 @@ void PlanarWorld::add_spring(const SpringDefinition& d) {
   joint.collideConnected = true;
   b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz),
                     static_cast<float>(d.damping_ratio), a, b);
-  solver_->world.CreateJoint(&joint);
+  solver_->world->CreateJoint(&joint);
   Solver::Spring spring{d.body_a, d.body_b, d.anchor_a, d.anchor_b, false, 0.0, d.rest_length_m, 0.0, 0.0};
   solver_->add_spring(spring, d.frequency_hz, d.damping_ratio);
 }
@@ -187,7 +200,7 @@ void PlanarWorld::add_pin(const PinDefinition& d) {
   joint.localAnchorA = single(d.anchor_a);
   joint.localAnchorB = single(d.anchor_b);
   joint.collideConnected = true;
-  solver_->world.CreateJoint(&joint);
+  solver_->world->CreateJoint(&joint);
   solver_->rigid_joints.push_back({d.body_a, d.body_b, d.anchor_a, d.anchor_b, false, 0.0});
 }
 
@@ -203,7 +216,7 @@ void PlanarWorld::add_slider(const SliderDefinition& d) {
   if (d.frequency_hz > 0.0)
     b2LinearStiffness(joint.stiffness, joint.damping, static_cast<float>(d.frequency_hz),
                       static_cast<float>(d.damping_ratio), joint.bodyA, joint.bodyB);
-  solver_->world.CreateJoint(&joint);
+  solver_->world->CreateJoint(&joint);
   solver_->rigid_joints.push_back({d.body_a, d.body_b, d.anchor_a, d.anchor_b, true, d.direction_rad});
   if (d.frequency_hz > 0.0)
     solver_->add_spring({d.body_a, d.body_b, d.anchor_a, d.anchor_b, true, d.direction_rad, 0.0, 0.0, 0.0},
@@ -218,14 +231,14 @@ int PlanarWorld::add_free_wheel(int body, Vec2 place, double direction_rad) {
   wheel.body = body;
   wheel.place = place;
   wheel.direction_rad = direction_rad;
-  wheel.floor = solver_->world.CreateBody(&def);
+  wheel.floor = solver_->world->CreateBody(&def);
   b2WheelJointDef joint;
   joint.bodyA = wheel.floor;
   joint.bodyB = solver_->bodies[body].solved;
   joint.localAnchorA.SetZero();
   joint.localAnchorB = single(place);
   joint.localAxisA = {1.0f, 0.0f};
-  wheel.joint = static_cast<b2WheelJoint*>(solver_->world.CreateJoint(&joint));
+  wheel.joint = static_cast<b2WheelJoint*>(solver_->world->CreateJoint(&joint));
   solver_->free_wheels.push_back(wheel);
   return static_cast<int>(solver_->free_wheels.size()) - 1;
 }

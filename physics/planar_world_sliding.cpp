@@ -1,5 +1,7 @@
 // The steps of a planar world in which some wheel slides, solved in double with exact friction: README, "Contacts that
 // slide".
+#include <box2d/box2d.h>
+
 #include "physics/planar_world_solver.h"
 
 namespace odolab {
@@ -12,6 +14,8 @@ namespace {
 constexpr double kAllOfTheGrip = 1.0 - 1e-4;
 // The backward difference of second order: of this step's forces, and of the last one's effect (README, Eq. 12).
 constexpr double kNew = 2.0 / 3.0, kOld = 1.0 / 3.0;
+
+Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
 
 }  // namespace
 

@@ -1,20 +1,22 @@
 // What a planar world is made of inside: Box2D's bodies beside their poses in double. For planar_world*.cpp alone.
 #pragma once
 
-#include <box2d/box2d.h>
-
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "physics/coulomb_solve.h"
 #include "physics/planar_world.h"
 
+class b2Body;
+class b2FrictionJoint;
+class b2WheelJoint;
+class b2World;
+
 namespace odolab {
 
 namespace planar_world {
 
-inline b2Vec2 single(Vec2 v) { return {static_cast<float>(v.x_m), static_cast<float>(v.y_m)}; }
-inline Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
 inline Vec2 turned(Vec2 v, double c, double s) { return {c * v.x_m - s * v.y_m, s * v.x_m + c * v.y_m}; }
 
 }  // namespace planar_world
@@ -82,16 +84,14 @@ struct PlanarWorld::Solver {
     b2FrictionJoint* joint = nullptr;
   };
 
-  Solver(double step, Friction friction) : step_s(step), exact(friction), world(b2Vec2(0.0f, 0.0f)) {
-    world.SetAllowSleeping(false);
-    world.SetContinuousPhysics(false);
-  }
+  Solver(double step, Friction friction);
+  ~Solver();
 
   double step_s;
   Friction exact;
   bool slides = false;  // in the last step
   bool solved_exactly = false;
-  b2World world;
+  std::unique_ptr<b2World> world;
   std::vector<Body> bodies;
   std::vector<Tread> treads;
   std::vector<CoulombDrive> drives;
