@@ -99,16 +99,8 @@ StretchProblem problem_of(const std::vector<Stretch>& stretches, const LinkedTru
   return problem;
 }
 
-// One number of the vehicle file and how it follows from the unknowns.
-struct Parameter {
-  const char* name;
-  const char* unit;
-  double (*value)(const LinkedTrucks& v);
-  std::vector<int> from;
-};
-
-const std::vector<Parameter>& parameters() {
-  static const std::vector<Parameter> list = {
+const std::vector<StretchParameter<LinkedTrucks>>& parameters() {
+  static const std::vector<StretchParameter<LinkedTrucks>> list = {
       {"truck_a.wheel_radius_left_m",
        "m",
        [](const LinkedTrucks& v) { return v.truck_a.wheel_radius_left_m; },
@@ -132,21 +124,6 @@ const std::vector<Parameter>& parameters() {
       {"link_length_offset_m", "m", [](const LinkedTrucks& v) { return v.link_length_offset_m; }, {kLength}},
   };
   return list;
-}
-
-ParameterEstimate estimate_of(const Parameter& p, const LinkedTrucks& nominal, const StretchFit& fit) {
-  bool known = true;
-  std::vector<double> slope(kUnknowns, 0.0);
-  for (int unknown : p.from) {
-    known = known && fit.determined(unknown);
-    const std::size_t k = static_cast<std::size_t>(unknown);
-    std::vector<double> more = fit.x, less = fit.x;
-    more[k] += 1e-6;
-    less[k] -= 1e-6;
-    slope[k] = (p.value(with(nominal, more)) - p.value(with(nominal, less))) / 2e-6;
-  }
-  const double stderr_value = std::sqrt(fit.variance_along(slope));
-  return {p.name, p.unit, p.value(nominal), p.value(with(nominal, fit.x)), stderr_value, known};
 }
 
 }  // namespace
@@ -190,7 +167,8 @@ Result<InternalCalibration> calibrate_linked(const std::vector<Recording>& recor
 
   for (int unknown = 0; unknown < kUnknowns; ++unknown)
     if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;
-  for (const Parameter& p : parameters()) result.parameters.push_back(estimate_of(p, before, found));
+  for (const StretchParameter<LinkedTrucks>& p : parameters())
+    result.parameters.push_back(estimate_of(p, before, with, found));
   const LinkedTrucks after = with(before, found.x);
   result.vehicle = nominal;
   if (Clapper* clapper = std::get_if<Clapper>(&result.vehicle.kind)) static_cast<LinkedTrucks&>(*clapper) = after;

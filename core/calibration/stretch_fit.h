@@ -3,10 +3,12 @@
 // stand on it.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/calibration/least_squares.h"
 
 namespace odolab {
 
@@ -41,5 +43,31 @@ struct StretchFit {
 
 // Gauss-Newton over the `free` unknowns. Stops early where `progress` says so.
 StretchFit fit_stretches(const StretchProblem& problem, const std::vector<int>& free, const Progress& progress = {});
+
+// One number of a vehicle file and the unknowns that it follows from.
+template <typename Lengths>
+struct StretchParameter {
+  const char* name;
+  const char* unit;
+  double (*value)(const Lengths& lengths);
+  std::vector<int> from;
+};
+
+// Its estimate, where `with(nominal, x)` are the lengths with the unknowns put in.
+template <typename Lengths, typename With>
+ParameterEstimate estimate_of(const StretchParameter<Lengths>& p, const Lengths& nominal, const With& with,
+                              const StretchFit& fit) {
+  bool known = true;
+  std::vector<double> slope(fit.x.size(), 0.0);
+  for (int unknown : p.from) {
+    known = known && fit.determined(unknown);
+    const std::size_t k = static_cast<std::size_t>(unknown);
+    std::vector<double> more = fit.x, less = fit.x;
+    more[k] += 1e-6;
+    less[k] -= 1e-6;
+    slope[k] = (p.value(with(nominal, more)) - p.value(with(nominal, less))) / 2e-6;
+  }
+  return {p.name, p.unit, p.value(nominal), p.value(with(nominal, fit.x)), std::sqrt(fit.variance_along(slope)), known};
+}
 
 }  // namespace odolab

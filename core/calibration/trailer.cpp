@@ -96,16 +96,9 @@ StretchProblem problem_of(const std::vector<Stretch>& stretches, const SmartEnco
   return problem;
 }
 
-struct Parameter {
-  const char* name;
-  const char* unit;
-  double (*value)(const SmartEncoderTrailer& v);
-  std::vector<int> from;
-};
-
-const std::vector<Parameter>& parameters() {
+const std::vector<StretchParameter<SmartEncoderTrailer>>& parameters() {
   using V = SmartEncoderTrailer;
-  static const std::vector<Parameter> list = {
+  static const std::vector<StretchParameter<SmartEncoderTrailer>> list = {
       {"tow.wheel_radius_left_m", "m", [](const V& v) { return v.tow.wheel_radius_left_m; }, {kDifferenceTow}},
       {"tow.wheel_radius_right_m", "m", [](const V& v) { return v.tow.wheel_radius_right_m; }, {kDifferenceTow}},
       {"tow.wheelbase_m", "m", [](const V& v) { return v.tow.wheelbase_m; }, {kWheelbaseTow}},
@@ -122,20 +115,6 @@ const std::vector<Parameter>& parameters() {
       {"hitch_angle_offset_rad", "rad", [](const V& v) { return v.hitch_angle_offset_rad; }, {kHitch}},
   };
   return list;
-}
-
-ParameterEstimate estimate_of(const Parameter& p, const SmartEncoderTrailer& nominal, const StretchFit& fit) {
-  bool known = true;
-  std::vector<double> slope(kUnknowns, 0.0);
-  for (int unknown : p.from) {
-    known = known && fit.determined(unknown);
-    const std::size_t k = static_cast<std::size_t>(unknown);
-    std::vector<double> more = fit.x, less = fit.x;
-    more[k] += 1e-6;
-    less[k] -= 1e-6;
-    slope[k] = (p.value(with(nominal, more)) - p.value(with(nominal, less))) / 2e-6;
-  }
-  return {p.name, p.unit, p.value(nominal), p.value(with(nominal, fit.x)), std::sqrt(fit.variance_along(slope)), known};
 }
 
 }  // namespace
@@ -175,7 +154,8 @@ Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& reco
 
   for (int unknown = 0; unknown < kUnknowns; ++unknown)
     if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;
-  for (const Parameter& p : parameters()) result.parameters.push_back(estimate_of(p, before, found));
+  for (const StretchParameter<SmartEncoderTrailer>& p : parameters())
+    result.parameters.push_back(estimate_of(p, before, with, found));
   result.vehicle = nominal;
   result.vehicle.kind = with(before, found.x);
   result.taken_as_known = {
