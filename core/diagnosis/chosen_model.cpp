@@ -20,12 +20,8 @@ Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std
     Result<InnovationRun> run = innovation_run(c.recording, nominal);
     if (!run) return run.error();
     const double offset_s = nominal.truth.time_offset_s;
-    for (const ActiveEffect& a : model.effects_in(c.recording.name)) {
-      if (a.effect != "clock_rate") continue;
-      const double t0 = run->truth.front().time_s - offset_s;
-      for (std::vector<WheelSample>* wheels : {&run->wheels, &run->smooth})
-        for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.parameter("rate"));
-    }
+    for (const ActiveEffect& a : model.effects_in(c.recording.name))
+      if (a.effect == "clock_rate") put_clock_right(*run, a.parameter("rate"), offset_s);
     runs.push_back(ready_run(c, std::move(*run), offset_s));
     commands.push_back(c.from_commands);
   }

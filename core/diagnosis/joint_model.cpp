@@ -7,6 +7,7 @@
 #include "core/calibration/minimise.h"
 #include "core/calibration/thinned_truth.h"
 #include "core/diagnosis/counts_at_rest.h"
+#include "core/diagnosis/ready_run.h"
 
 namespace odolab {
 
@@ -115,9 +116,7 @@ InnovationRun JointModel::prepared(int r) const {
   }
   for (const AcceptedEffect& a : accepted) {
     if (a.effect->clock_rate) {
-      const double t0 = run.truth[0].time_s - clock_s[r];
-      for (std::vector<WheelSample>* wheels : {&run.wheels, &run.smooth})
-        for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + a.value[0]);
+      put_clock_right(run, a.value[0], clock_s[r]);
       continue;
     }
     const std::vector<Motions> motions = a.effect->motions(read_views_[r], a.shape);

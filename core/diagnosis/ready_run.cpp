@@ -19,4 +19,10 @@ InnovationRun ready_run(const CheckedRecording& c, InnovationRun run, double off
   return run;
 }
 
+void put_clock_right(InnovationRun& run, double rate, double offset_s) {
+  const double t0 = run.truth.front().time_s - offset_s;
+  for (std::vector<WheelSample>* wheels : {&run.wheels, &run.smooth})
+    for (WheelSample& w : *wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + rate);
+}
+
 }  // namespace odolab

@@ -10,4 +10,8 @@ namespace odolab {
 // the truth's clock is late.
 InnovationRun ready_run(const CheckedRecording& checked, InnovationRun run, double offset_s);
 
+// The wheels' stamps as a clock would give them that is right, `rate` being by how much theirs is fast; about the run's
+// first truth sample.
+void put_clock_right(InnovationRun& run, double rate, double offset_s);
+
 }  // namespace odolab

@@ -15,13 +15,17 @@ double error_of(const FittedModel& model, const Recording& recording) {
   return track_error(*track, truth_track(recording))->heading_rms_rad;
 }
 
-TEST(DiagnoseChosen, ModelWithNoneIsTheCalibrationAndWithAllTheFittedModel) {
+Case with_scrub() {
   test::CaseSettings settings;
   settings.effect = "turn_scrub";
   settings.size = 2.0;
   settings.runs = 2;
   settings.duration_s = 40.0;
-  const Case c = test::generated_case(settings, 5);
+  return test::generated_case(settings, 5);
+}
+
+TEST(DiagnoseChosen, ModelWithNoneIsTheCalibrationAndWithAllTheFittedModel) {
+  const Case c = with_scrub();
   const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
   ASSERT_TRUE(d);
   ASSERT_FALSE(d->findings.empty());
@@ -37,12 +41,7 @@ TEST(DiagnoseChosen, ModelWithNoneIsTheCalibrationAndWithAllTheFittedModel) {
 // A second finding that is nothing: what is left on must be fitted to the data as if the other were not there, so that
 // the calibration comes to what it was with the first alone.
 TEST(DiagnoseChosen, CalibrationIsFittedAnewToWhatIsLeftOn) {
-  test::CaseSettings settings;
-  settings.effect = "turn_scrub";
-  settings.size = 2.0;
-  settings.runs = 2;
-  settings.duration_s = 40.0;
-  const Case c = test::generated_case(settings, 5);
+  const Case c = with_scrub();
   Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
   ASSERT_TRUE(d);
   std::vector<bool> on(d->findings.size(), true);
