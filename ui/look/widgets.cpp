@@ -107,6 +107,17 @@ bool text_button(const char* label, const Theme& theme, const ButtonLook& look, 
   return clicked && look.enabled;
 }
 
+bool job_progress(double share_done, const Theme& theme, float bar_width, float button_width) {
+  char share[32];
+  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * share_done);
+  if (bar_width <= 0.0f) bar_width = ImGui::GetContentRegionAvail().x - theme.px(84);
+  ImGui::PushStyleColor(ImGuiCol_Text, share_done > 0.5 ? theme.on_ink : theme.ink);
+  ImGui::ProgressBar(float(share_done), {bar_width, 0.0f}, share);
+  ImGui::PopStyleColor();
+  ImGui::SameLine();
+  return text_button("Cancel", theme, {}, button_width);
+}
+
 std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,
                              float width, int available) {
   std::optional<int> choice;

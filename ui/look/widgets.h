@@ -24,6 +24,9 @@ struct ButtonLook {
 };
 bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook& look);
 bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width = 0.0f);
+// How far work in the background is, with a button beside it; true where that was pressed to stop it. A width of 0
+// takes the place there is, a button of -1 what is left of the row.
+bool job_progress(double share_done, const Theme& theme, float bar_width = 0.0f, float button_width = -1.0f);
 
 // One of several; returns the new choice when it changes. Only the first `available` can be chosen.
 std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,

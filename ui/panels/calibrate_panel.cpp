@@ -157,13 +157,7 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
             theme);
   if (bench.running) {
     ImGui::Dummy({1, theme.px(4)});
-    ImGui::PushStyleColor(ImGuiCol_Text, bench.share_done > 0.5 ? theme.on_ink : theme.ink);
-    char share[32];
-    std::snprintf(share, sizeof share, "%.0f %%", 100.0 * bench.share_done);
-    ImGui::ProgressBar(float(bench.share_done), {width - theme.px(84), 0.0f}, share);
-    ImGui::PopStyleColor();
-    ImGui::SameLine();
-    if (text_button("Cancel", theme, {}, -1.0f)) actions.push_back(CancelJob{});
+    if (job_progress(bench.share_done, theme, width - theme.px(84))) actions.push_back(CancelJob{});
   }
   if (n > 0) {
     ImGui::Dummy({1, theme.px(4)});

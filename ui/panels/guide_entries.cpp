@@ -102,13 +102,7 @@ Actions drive_button(const GuideView& view, const char* words, const Theme& them
   Actions actions;
   if (view.session->real_robot) return actions;
   if (view.busy) {
-    char share[32];
-    std::snprintf(share, sizeof share, "%.0f %%", 100.0 * view.share_done);
-    ImGui::PushStyleColor(ImGuiCol_Text, view.share_done > 0.5 ? theme.on_ink : theme.ink);
-    ImGui::ProgressBar(float(view.share_done), {theme.px(220), 0.0f}, share);
-    ImGui::PopStyleColor();
-    ImGui::SameLine();
-    if (text_button("Cancel", theme, {}, theme.px(90))) actions.push_back(CancelJob{});
+    if (job_progress(view.share_done, theme, theme.px(220), theme.px(90))) actions.push_back(CancelJob{});
     return actions;
   }
   ButtonLook look;

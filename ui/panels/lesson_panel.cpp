@@ -126,13 +126,7 @@ Actions squares(const LessonView& view, const Theme& theme) {
 void progress_bar(const LessonView& view, Actions& actions, const Theme& theme) {
   if (!view.busy) return;
   ImGui::Dummy({1, theme.px(2)});
-  char share[32];
-  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * view.share_done);
-  ImGui::PushStyleColor(ImGuiCol_Text, view.share_done > 0.5 ? theme.on_ink : theme.ink);
-  ImGui::ProgressBar(float(view.share_done), {ImGui::GetContentRegionAvail().x - theme.px(84), 0.0f}, share);
-  ImGui::PopStyleColor();
-  ImGui::SameLine();
-  if (text_button("Cancel", theme, {}, -1.0f)) actions.push_back(CancelJob{});
+  if (job_progress(view.share_done, theme)) actions.push_back(CancelJob{});
 }
 
 }  // namespace
