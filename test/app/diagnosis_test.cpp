@@ -1,5 +1,6 @@
 // Diagnose as a person goes through it: recordings, the answer, a switch, the advice, and what is taken away.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 class DiagnosisWindow : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder() = (fs::temp_directory_path() / "odolab_diagnosis_test").string();
+    folder() = (fs::temp_directory_path() / ("odolab_diagnosis_" + std::to_string(::getpid()))).string();
     fs::remove_all(folder());
     fs::create_directories(folder());
     Scenario scenario;
