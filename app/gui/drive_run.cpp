@@ -37,6 +37,7 @@ void DriveRun::restart() {
   gap_m_.clear();
   gap_heading_.clear();
   events_.clear();
+  kept_ = {};
   samples_seen_ = 1;
   gap_ = {};
   estimates_ = RunEstimates(scenario_, simulation_);
@@ -60,6 +61,18 @@ void DriveRun::remember() {
   times_.push_back(s.time_s - start_s());
   gap_m_.push_back(length(gap_.position()));
   gap_heading_.push_back(wrapped(gap_.heading_rad));
+  kept_.add();
+}
+
+void DriveRun::thin() {
+  const std::vector<bool> stays = kept_.thin();
+  if (stays.empty()) return;
+  keep_only(stays, history_);
+  keep_only(stays, postures_);
+  keep_only(stays, times_);
+  keep_only(stays, gap_m_);
+  keep_only(stays, gap_heading_);
+  estimates_.keep_pictures(stays);
 }
 
 void DriveRun::note_events(const VehiclePosture& before, const VehiclePosture& now) {
@@ -89,6 +102,7 @@ void DriveRun::simulate_picture() {
   }
   remember();
   note_events(postures_[postures_.size() - 2], postures_.back());
+  thin();
 }
 
 void DriveRun::advance(double seconds, const std::function<bool()>& go_on) {
@@ -143,10 +157,11 @@ double DriveRun::total_s() const {
 DriveRun::Around DriveRun::around_shown() const {
   const std::size_t after =
       std::size_t(std::lower_bound(times_.begin(), times_.end(), shown_s_ - 1e-12) - times_.begin());
-  if (after == 0) return {0, 0, 0.0};
-  if (after >= times_.size()) return {times_.size() - 1, times_.size() - 1, 0.0};
+  if (after == 0) return {};
+  if (after >= times_.size()) return {times_.size() - 1, times_.size() - 1};
   const double span = times_[after] - times_[after - 1];
-  return {after - 1, after, span > 0.0 ? (shown_s_ - times_[after - 1]) / span : 1.0};
+  return {after - 1, after, span > 0.0 ? (shown_s_ - times_[after - 1]) / span : 1.0,
+          kept_.numbers()[after] - kept_.numbers()[after - 1] > 1};
 }
 
 SimulationState DriveRun::shown() const {
@@ -157,12 +172,20 @@ SimulationState DriveRun::shown() const {
   s.time_s = start_s() + shown_s_;
   s.true_pose = mixed_pose(a.true_pose, b.true_pose, at.share);
   s.estimated_pose = mixed_pose(a.estimated_pose, b.estimated_pose, at.share);
+  if (!at.thinned) return s;
+  if (const std::optional<Pose> pose = pose_at(simulation_.true_track(), s.time_s)) s.true_pose = *pose;
+  if (const std::optional<Pose> pose = pose_at(simulation_.estimated_track(), s.time_s)) s.estimated_pose = *pose;
   return s;
 }
 
 VehiclePosture DriveRun::shown_posture() const {
   const Around at = around_shown();
-  return between(postures_[at.before], postures_[at.after], at.share);
+  VehiclePosture posture = between(postures_[at.before], postures_[at.after], at.share);
+  if (!at.thinned) return posture;
+  const Pose now_T_between = shown().true_pose * inverse(posture.reference);
+  posture.reference = now_T_between * posture.reference;
+  for (Pose& body : posture.bodies) body = now_T_between * body;
+  return posture;
 }
 
 }  // namespace odolab

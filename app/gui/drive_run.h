@@ -1,4 +1,5 @@
-// A simulation that is watched: it runs ahead at a wanted speed, and every moment so far can be looked at again.
+// A simulation that is watched: it runs ahead at a wanted speed, and every moment so far can be looked at again. What
+// lies long ago is kept in fewer pictures, between which the tracks lead.
 #pragma once
 
 #include <functional>
@@ -6,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/kept_pictures.h"
 #include "app/gui/run_estimates.h"
 #include "physics/simulation.h"
 
@@ -49,8 +51,8 @@ class DriveRun {
   VehiclePosture shown_posture() const;
   const VehicleShape& shape() const { return shape_; }
 
-  // The gap between estimate and truth at every picture: that of the last sample, since the estimate is older than the
-  // picture. The estimated poses shown are the true ones with this gap.
+  // The gap between estimate and truth at every picture that is kept: that of the last sample, since the estimate is
+  // older than the picture. The estimated poses shown are the true ones with this gap.
   const std::vector<double>& time_s() const { return times_; }
   const std::vector<double>& gap_m() const { return gap_m_; }
   const std::vector<double>& gap_heading_rad() const { return gap_heading_; }
@@ -61,11 +63,13 @@ class DriveRun {
   void simulate_picture();
   void see_sample();
   void remember();
+  void thin();
   void note_events(const VehiclePosture& before, const VehiclePosture& now);
   // The pictures on either side of the shown moment, and how far it is from the first to the second.
   struct Around {
     std::size_t before = 0, after = 0;
     double share = 0.0;
+    bool thinned = false;  // they are further apart than pictures are
   };
   Around around_shown() const;
 
@@ -75,6 +79,7 @@ class DriveRun {
   RunEstimates estimates_;
   int steps_per_picture_ = 20;
   VehicleShape shape_;
+  KeptPictures kept_;
   std::vector<SimulationState> history_;  // a state and a posture for each picture
   std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "app/gui/kept_pictures.h"
+
 namespace odolab {
 
 RunEstimates::RunEstimates(const Scenario& scenario, const Simulation& simulation)
@@ -27,6 +29,13 @@ void RunEstimates::remember() {
   for (RunEstimate& estimate : estimates_) {
     estimate.gap_m.push_back(length(estimate.gap.position()));
     estimate.heading_rad.push_back(wrapped(estimate.gap.heading_rad));
+  }
+}
+
+void RunEstimates::keep_pictures(const std::vector<bool>& stays) {
+  for (RunEstimate& estimate : estimates_) {
+    keep_only(stays, estimate.gap_m);
+    keep_only(stays, estimate.heading_rad);
   }
 }
 

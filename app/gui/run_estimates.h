@@ -14,7 +14,7 @@ struct RunEstimate {
   std::string name, about;
   Track track;                // a pose for each sample of the encoders
   Pose gap;                   // estimate as seen from the truth, at the last sample
-  std::vector<double> gap_m;  // at every picture
+  std::vector<double> gap_m;  // at every picture that is kept
   std::vector<double> heading_rad;
 };
 
@@ -23,8 +23,9 @@ class RunEstimates {
   // Begins at the simulation's start, of whose first sample it takes the readings.
   RunEstimates(const Scenario& scenario, const Simulation& simulation);
 
-  void take(const Simulation& simulation);  // after each sample
-  void remember();                          // at each picture
+  void take(const Simulation& simulation);             // after each sample
+  void remember();                                     // at each picture
+  void keep_pictures(const std::vector<bool>& stays);  // of those remembered
 
   const std::vector<RunEstimate>& all() const { return estimates_; }
   // The one that the vehicle itself steers by.

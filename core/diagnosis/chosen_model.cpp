@@ -29,7 +29,11 @@ Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std
   joint.linearise();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const std::vector<ActiveEffect> effects = model.effects_in(ready[r].recording.name);
-    if (!effects.empty()) runs[r].extra = {{"effects", 1.0, motions_of(joint.views()[r], effects)}};
+    if (effects.empty()) continue;
+    const int number = static_cast<int>(r);
+    const DriveView read =
+        drive_view(number, runs[r], joint.model_of(number).drive, commands[r] != 0, joint.poses(number), Way::as_read);
+    runs[r].extra = {{"effects", 1.0, motions_of(read, effects)}};
   }
   return runs;
 }

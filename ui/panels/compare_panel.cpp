@@ -1,7 +1,5 @@
 #include "ui/panels/compare_panel.h"
 
-#include <cstdio>
-
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -139,11 +137,7 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
   if (busy) {
     ImGui::Dummy({1, theme.px(4)});
     note(c.job, theme);
-    char share[32];
-    std::snprintf(share, sizeof share, "%.0f %%", 100.0 * c.share_done);
-    ImGui::ProgressBar(float(c.share_done), {width - theme.px(84), 0.0f}, share);
-    ImGui::SameLine();
-    if (text_button("Cancel", theme, {}, -1.0f)) actions.push_back(CancelJob{});
+    if (job_progress(c.share_done, theme)) actions.push_back(CancelJob{});
   }
   if (c.calibration) {
     heading("Calibration", theme);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/scenario/machine_parameters.h"
+#include "ui/panels/nominal_and_true.h"
 
 namespace odolab::ui {
 
@@ -30,23 +31,6 @@ Unit unit_of(ParameterUnit unit, double value_si) {
       return {"Hz", 1.0, 2, 0.01};
   }
   return kCoefficient;
-}
-
-void open_columns() {
-  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.9f);
-  ImGui::TableSetupColumn("nominal", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  ImGui::TableSetupColumn("true", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-}
-
-void column_names(const Theme& theme) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("nominal");
-  tooltip("What the drawing says and the odometry uses.", theme);
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("true");
-  tooltip("What the machine in the simulation really is.", theme);
 }
 
 Edited row(const VehicleParameter& nominal, const VehicleParameter& real, const Theme& theme) {
@@ -82,8 +66,7 @@ Edited lengths(const std::vector<VehicleParameter>& nominal, const std::vector<V
     while (end < nominal.size() && nominal[end].group == group) ++end;
     const bool open = group.empty() || ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     if (open && ImGui::BeginTable(("lengths" + group).c_str(), 3)) {
-      open_columns();
-      column_names(theme);
+      nominal_and_true_columns(0.9f, theme);
       ImGui::PushID(group.c_str());
       for (; i < end; ++i) result = more(result, row(nominal[i], real[i], theme));
       ImGui::PopID();

@@ -4,6 +4,7 @@
 
 #include "core/vehicle/parameters.h"
 #include "ui/panels/kind_fields.h"
+#include "ui/panels/nominal_and_true.h"
 
 namespace odolab::ui {
 
@@ -33,17 +34,7 @@ Edited pair_row(const char* label, const char* id, const Unit& unit, double& nom
 Edited drive_table(DifferentialDrive& nominal, ActualDrive& actual, const Theme& theme) {
   Edited result = Edited::no;
   if (!ImGui::BeginTable("drive", 3)) return result;
-  ImGui::TableSetupColumn("label", ImGuiTableColumnFlags_WidthStretch, 0.72f);
-  ImGui::TableSetupColumn("nominal", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  ImGui::TableSetupColumn("true", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("nominal");
-  tooltip("What the drawing says and the odometry uses.", theme);
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("true");
-  tooltip("What the machine in the simulation really is.", theme);
+  nominal_and_true_columns(0.72f, theme);
   // On the screen the field's word is the wheel's diameter, as in the paper; inside it is the radius.
   double dl = 2.0 * nominal.wheel_radius_left_m, dr = 2.0 * nominal.wheel_radius_right_m;
   double tl = 2.0 * actual.wheel_radius_left_m, tr = 2.0 * actual.wheel_radius_right_m;

@@ -1,0 +1,78 @@
+#include "app/gui/kept_pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/gui/drive_run.h"
+#include "app/gui/first_scenario.h"
+
+namespace odolab {
+namespace {
+
+KeptPictures after(std::int64_t pictures) {
+  KeptPictures kept;
+  for (std::int64_t i = 0; i < pictures; ++i) {
+    kept.add();
+    kept.thin();
+  }
+  return kept;
+}
+
+TEST(KeptPictures, OfTheFirstMinuteAreAll) { EXPECT_EQ(after(KeptPictures::kAllOf).size(), 3000u); }
+
+TEST(KeptPictures, AreTheFirstAndTheWholeLastMinuteAndNeverFurtherApartThanTheirAgeAsks) {
+  const std::int64_t hour = 180000;
+  const KeptPictures kept = after(hour);
+  const std::vector<std::int64_t>& numbers = kept.numbers();
+  EXPECT_EQ(numbers.front(), 0);
+  for (std::int64_t i = 0; i < KeptPictures::kAllOf; ++i)
+    ASSERT_EQ(numbers[numbers.size() - 1 - std::size_t(i)], hour - 1 - i);
+  // Half as many for twice the age: at an age of 3000 * 2^k pictures every 2^(k+1)th stays, so that two neighbours are
+  // no further apart than the age of the later one over 1500, or than the picture before.
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const double age = double(hour - 1 - numbers[i - 1]);
+    ASSERT_LE(double(numbers[i] - numbers[i - 1]), std::max(1.0, age / 1500.0)) << "before picture " << numbers[i];
+  }
+}
+
+TEST(KeptPictures, GrowWithTheLogarithmOfTheTime) {
+  // A minute whole and 1500 for each doubling since, and as many as came since the last thinning (500).
+  for (const std::int64_t pictures : {12000, 180000, 1440000})
+    EXPECT_LE(double(after(pictures).size()), 3000.0 + 1500.0 * std::ceil(std::log2(double(pictures) / 3000.0)) + 500.0)
+        << pictures;
+}
+
+TEST(KeptPictures, DropTheSameRowsEverywhere) {
+  KeptPictures kept;
+  std::vector<double> rows;
+  for (int i = 0; i < 20000; ++i) {
+    kept.add();
+    rows.push_back(i);
+    if (const std::vector<bool> stays = kept.thin(); !stays.empty()) keep_only(stays, rows);
+  }
+  ASSERT_EQ(rows.size(), kept.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) ASSERT_EQ(rows[i], double(kept.numbers()[i]));
+}
+
+TEST(DriveRun, LooksBackIntoALongRunAlongItsTracks) {
+  Scenario scenario = first_scenario();
+  scenario.path = FigureEightPath{1.0, 4};
+  scenario.step_s = 0.005;
+  DriveRun run(scenario);
+  run.advance(200.0, [] { return true; });
+  EXPECT_LT(run.time_s().size(), 3000u + 1500u * 2u + 500u);
+  EXPECT_EQ(run.time_s().size(), run.gap_m().size());
+  for (const RunEstimate& e : run.estimates().all()) EXPECT_EQ(e.gap_m.size(), run.time_s().size());
+  // Between two pictures that are kept of the first minute, the vehicle stands where its track was, wheels and all.
+  run.show(10.03);
+  const Pose truth = *pose_at(run.simulation().true_track(), 10.03), shown = run.shown().true_pose;
+  EXPECT_NEAR(shown.x_m, truth.x_m, 1e-12);
+  EXPECT_NEAR(shown.y_m, truth.y_m, 1e-12);
+  const VehiclePosture posture = run.shown_posture();
+  EXPECT_NEAR(posture.bodies.front().x_m, truth.x_m, 1e-9);  // the LabMate's only body is where its truth is measured
+  EXPECT_NEAR(posture.bodies.front().y_m, truth.y_m, 1e-9);
+}
+
+}  // namespace
+}  // namespace odolab

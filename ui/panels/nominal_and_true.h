@@ -1,0 +1,11 @@
+// The two numbers that every length of a vehicle has: what its odometry believes, and what the machine is.
+#pragma once
+
+#include "ui/look/widgets.h"
+
+namespace odolab::ui {
+
+// In a table of three columns that was just begun: their widths, the first this wide beside 1 of the others, and names.
+void nominal_and_true_columns(float label_weight, const Theme& theme);
+
+}  // namespace odolab::ui
