@@ -24,7 +24,7 @@ struct DiagnosedRun {
   bool held_out = false;
   bool simulated = false;  // by this window: no evidence about a real robot
   const Trail* way = nullptr;
-  // Once it has been diagnosed; null before, and of runs that were held out.
+  // Once it has been diagnosed; null before, and where nothing can be predicted of a run that was held out.
   const Trail* mismatch_trail = nullptr;
   const MismatchOverTime* mismatch = nullptr;
   std::vector<LocatedStretch> located;
@@ -66,6 +66,7 @@ struct DiagnosisView {
   std::string problem;  // what went wrong last, one line
 
   const Diagnosis* diagnosis = nullptr;
+  const std::vector<Response>* responses = nullptr;  // what the mismatch depends on; null without an answer
   int answers = 0;            // so many were given so far
   std::size_t worst_run = 0;  // of the answer, in the list
   bool stale = false;         // the runs or the vehicle have changed since

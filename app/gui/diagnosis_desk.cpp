@@ -6,6 +6,8 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/given_recordings.h"
+#include "core/diagnosis/place_response.h"
+#include "core/diagnosis/predicted_mismatch.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/io/diagnosis_html.h"
@@ -184,7 +186,8 @@ Result<Done> DiagnosisDesk::add(const std::string& path, ImportedRecording impor
 
 void DiagnosisDesk::carry_out(const ui::DiagnosisAction& action, Jobs& jobs) {
   if (const auto* hold = std::get_if<ui::HoldOut>(&action); hold && hold->run < given_.runs.size()) {
-    given_.runs[hold->run].held_out = hold->on;  // a tick is its own undo
+    remember();
+    given_.runs[hold->run].held_out = hold->on;
     ++revision_;
   }
   if (const auto* remove = std::get_if<ui::RemoveRun>(&action); remove && remove->run < given_.runs.size()) {
@@ -241,14 +244,19 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
           return;
         }
         answer->diagnosis = std::move(*found);
+        const Diagnosis drawn = with_held_out_residuals(answer->diagnosis, held_out, answer->nominal);
         for (const Run& run : answer->runs) {
-          answer->mismatch.push_back(mismatch_over_time(answer->diagnosis, run.name));
+          answer->mismatch.push_back(mismatch_over_time(drawn, run.name));
           const MismatchOverTime& m = answer->mismatch.back();
           answer->trails.emplace_back(m.time_s, m.x_m, m.y_m, m.before);
-          const Residuals* left = of_recording(answer->diagnosis.residuals_before, run.name);
+          const Residuals* left = of_recording(drawn.residuals_before, run.name);
           answer->mean_square.push_back(left ? mean_square(*left) : 0.0);
-          answer->located.push_back(located_stretches(answer->diagnosis, run.name));
+          answer->located.push_back(located_stretches(drawn, run.name));
         }
+        answer->responses = answer->diagnosis.responses;
+        for (Response& r : place_responses(answer->diagnosis.residuals_before, answer->diagnosis.residuals_after,
+                                           !answer->diagnosis.findings.empty()))
+          answer->responses.push_back(std::move(r));
         Choice none(answer->diagnosis.findings.size(), false), all;
         for (const Finding& f : answer->diagnosis.findings) all.push_back(can_be_switched_on(f));
         const double part = 0.5 * (1.0 - kOfDiagnosis);

@@ -87,6 +87,7 @@ class DiagnosisDesk {
     std::vector<ui::Trail> trails;
     std::vector<double> mean_square;  // of the residuals that calibration leaves
     std::vector<std::vector<LocatedStretch>> located;
+    std::vector<Response> responses;
     std::vector<Recording> fitted() const;
   };
   using Choice = std::vector<bool>;

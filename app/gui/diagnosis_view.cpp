@@ -137,6 +137,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   if (given_.mystery) v.mystery = mystery_view(*given_.mystery, given_.guess, given_.revealed, d);
   if (!d) return v;
   v.diagnosis = d;
+  v.responses = &answer_->responses;
   v.answers = answers_;
   v.stale = revision_ != answered_revision_;
   v.verdict = verdict_sentence(*d);

@@ -184,7 +184,10 @@ int run_gui(const GuiOptions& options) {
   std::optional<ui::Mode> mode = mode_named(options.mode);
   if (!options.mode.empty() && !mode)
     return fail({"--mode", "\"" + options.mode + "\"", "drive, calibrate, compare, diagnose or learn"});
-  Session session(!for_picture, for_picture ? "" : guides_folder());
+  const std::string data = for_picture ? "" : data_folder();
+  Session session(!for_picture, data.empty() ? "" : data + "/guides",
+                  data.empty() ? "" : data + "/edited_scenario.toml");
+  if (options.files.empty()) session.take_up_edits();
   if (options.mystery >= 0) mode = ui::Mode::diagnose;
   if (mode == ui::Mode::diagnose) session.execute(ui::SetMode{*mode});  // what is opened belongs to it
   for (const std::string& file : options.files)

@@ -10,6 +10,7 @@
 #include "app/gui/comparison.h"
 #include "app/gui/diagnosis_desk.h"
 #include "app/gui/drive_run.h"
+#include "app/gui/edited_scenario.h"
 #include "app/gui/guide_desk.h"
 #include "app/gui/jobs.h"
 #include "app/gui/lesson_desk.h"
@@ -22,8 +23,8 @@ namespace odolab {
 class Session {
  public:
   // Without threads every job is done when its action has been carried out.
-  // `guide_folder` keeps the sessions of guides; empty: they are kept nowhere.
-  explicit Session(bool threaded, const std::string& guide_folder = "");
+  // `guide_folder` keeps the sessions of guides, `edited` the scenario as it is edited; empty: they are kept nowhere.
+  explicit Session(bool threaded, const std::string& guide_folder = "", const std::string& edited = "");
 
   void execute(const ui::Action& action);
   // Plays on after `wall_s` seconds in front of the window; `go_on` says whether there is time left for this picture.
@@ -32,6 +33,8 @@ class Session {
   // Opens a scenario, a vehicle or a recording. False, with a message, where that fails.
   bool open(const std::string& path);
   void say(const std::string& text, bool is_error);
+  // Opens the scenario that was edited when the window closed last, if it did so without saving it.
+  void take_up_edits();
 
   ui::Mode mode() const { return mode_; }
   bool playing() const { return playing_; }
@@ -47,8 +50,13 @@ class Session {
   const std::vector<ui::Message>& messages() const { return messages_; }
   // The scenario's name, and the file that it came from.
   std::string title() const;
-  bool can_undo() const { return mode_ == ui::Mode::diagnose ? diagnosis_.can_undo() : !undo_.empty(); }
-  bool can_redo() const { return mode_ == ui::Mode::diagnose ? diagnosis_.can_redo() : !redo_.empty(); }
+  // Of what is on the screen: a guide has a list to take things back from, a comparison has nothing to edit.
+  bool can_undo() const {
+    return mode_ == ui::Mode::diagnose ? diagnosis_.can_undo() : edits_scenario() && !undo_.empty();
+  }
+  bool can_redo() const {
+    return mode_ == ui::Mode::diagnose ? diagnosis_.can_redo() : edits_scenario() && !redo_.empty();
+  }
   bool wants_to_quit() const { return wants_to_quit_; }
   // True once after a person has asked for a picture.
   bool take_picture_wish();
@@ -67,6 +75,7 @@ class Session {
 
   void load(const Scenario& scenario, std::shared_ptr<const Recording> replayed, const std::string& path);
   void change(const Scenario& scenario);
+  void was_edited();
   void say_for_a_while(const std::string& text);
   void forget(const std::string& text);
   bool open_scenario(const std::string& path);
@@ -76,6 +85,10 @@ class Session {
   bool refuse_while_busy(const std::string& what);
   // A guide is on the screen: what is dropped belongs to it.
   bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
+  // The scenario is what this mode shows and changes.
+  bool edits_scenario() const {
+    return mode_ == ui::Mode::drive || mode_ == ui::Mode::learn || (mode_ == ui::Mode::calibrate && !guide_.shown());
+  }
   bool done_or_said(const Result<Done>& done);
   bool refused(const Error& error);  // said where it arose; false
   bool open_lesson(const std::string& path);
@@ -92,6 +105,7 @@ class Session {
   UmbmarkBench bench_;
   Comparison comparison_;
   GuideDesk guide_;
+  EditedScenario edited_;
   LessonDesk lesson_;
   DiagnosisDesk diagnosis_;
   std::optional<Scenario> before_lesson_;  // to come back to

@@ -27,10 +27,10 @@ std::string settings_path() {
   return home.empty() ? "" : home + "/.config/odolab/window";
 }
 
-std::string guides_folder() {
+std::string data_folder() {
   const std::string data = from_environment("XDG_DATA_HOME"), home = from_environment("HOME");
-  if (!data.empty()) return data + "/odolab/guides";
-  return home.empty() ? "" : home + "/.local/share/odolab/guides";
+  if (!data.empty()) return data + "/odolab";
+  return home.empty() ? "" : home + "/.local/share/odolab";
 }
 
 Settings read_settings(const std::string& path) {

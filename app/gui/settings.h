@@ -18,9 +18,9 @@ struct Settings {
 // $XDG_CONFIG_HOME/odolab/window, else ~/.config/odolab/window; empty where neither variable is set.
 std::string settings_path();
 
-// $XDG_DATA_HOME/odolab/guides, else ~/.local/share/odolab/guides: what people have entered in guides. Empty where
+// $XDG_DATA_HOME/odolab, else ~/.local/share/odolab: what people have entered in guides, and edited. Empty where
 // neither variable is set.
-std::string guides_folder();
+std::string data_folder();
 
 // Defaults where there is no such file; lines that are not understood are skipped.
 Settings read_settings(const std::string& path);

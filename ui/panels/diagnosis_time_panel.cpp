@@ -45,7 +45,7 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   what.x_high = run.duration_s;
   what.brushes = true;
   what.empty_text = !view.diagnosis ? "The mismatch over time, once it was diagnosed"
-                    : run.held_out  ? "Held out: not fitted, and only judged by the bars on the right"
+                    : run.held_out  ? "Held out, and not to be drawn over time: judged by the bars on the right"
                                     : "This run was not part of the answer";
   const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
                              run.mismatch ? run.mismatch->time_s.back() : 0.0};
@@ -75,7 +75,7 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
 }
 
 void response(const DiagnosisView& view, DiagnosisState& state, ImVec2 size, const Theme& theme) {
-  const std::vector<Response>& all = view.diagnosis->responses;
+  const std::vector<Response>& all = *view.responses;
   Plot what;
   what.empty_text = "No variable of the motion was tried";
   if (!all.empty()) {
@@ -94,7 +94,7 @@ void response(const DiagnosisView& view, DiagnosisState& state, ImVec2 size, con
 }
 
 void response_choice(const DiagnosisView& view, DiagnosisState& state, float width) {
-  const std::vector<Response>& all = view.diagnosis->responses;
+  const std::vector<Response>& all = *view.responses;
   if (all.empty()) return;
   state.response = std::clamp(state.response, 0, int(all.size()) - 1);
   const auto label = [](const Response& r) {
@@ -120,10 +120,10 @@ void diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, cons
   const DiagnosedRun& run = view.runs[std::min(state.run, view.runs.size() - 1)];
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = theme.px(16), line = ImGui::GetFrameHeight() + theme.px(4);
-  const bool two = view.diagnosis && !view.diagnosis->responses.empty() && room.x > theme.px(700);
+  const bool two = view.responses && !view.responses->empty() && room.x > theme.px(700);
   const float left = two ? std::round(0.62f * room.x) : room.x, right = room.x - left - gap;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(fitted(run.name, 0.3f * left).c_str());
+  ImGui::TextUnformatted(fitted(run.held_out ? run.name + ", held out" : run.name, 0.3f * left).c_str());
   if (run.mismatch) {
     ImGui::SameLine(0, theme.px(14));
     ImGui::TextDisabled("%s", fitted(brush_words(run, state), left - ImGui::GetCursorPosX()).c_str());
