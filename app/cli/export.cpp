@@ -5,6 +5,7 @@
 #include "core/io/export/plotjuggler_csv.h"
 #include "core/io/export/tum_text.h"
 #include "core/io/import/imported_recording.h"
+#include "core/io/import/sample_streams.h"
 #include "core/io/ros2_yaml.h"
 #include "core/io/track_csv.h"
 #include "core/io/vehicle_toml.h"
@@ -19,13 +20,13 @@ struct ExportOptions {
 };
 
 // The truth of a recording, or a track that predict or run wrote.
-Result<Track> track_of(const std::string& path) {
+Result<Track> track_of(const std::string& path, const Progress& progress) {
   const std::string start = read_file_start(path);
   const std::string header = start.substr(0, start.find('\n'));
   const bool is_track = header.find("time_s") != std::string::npos && header.find("heading_rad") != std::string::npos &&
                         header.find("truth_x_m") == std::string::npos;
   if (is_track) return read_track_csv(path);
-  const Result<ImportedRecording> loaded = load_recording(path);
+  const Result<ImportedRecording> loaded = load_recording(path, progress);
   if (!loaded) return loaded.error();
   Track track = truth_track(loaded->recording);
   if (track.empty()) return Error{path, "no truth with a heading", "poses: a trajectory has orientations"};
@@ -49,14 +50,17 @@ Result<Done> write_yaml(const ExportOptions& options) {
 }
 
 Result<Done> write(const ExportOptions& options) {
+  const Progress progress = terminal_progress("export");
   if (options.to == "tum") {
-    const Result<Track> track = track_of(options.source);
+    const Result<Track> track = track_of(options.source, progress);
     if (!track) return track.error();
+    if (!progress(0.9)) return stopped(options.out);
     return write_tum(options.out, *track);
   }
   if (options.to == "plotjuggler") {
-    const Result<ImportedRecording> loaded = load_recording(options.source);
+    const Result<ImportedRecording> loaded = load_recording(options.source, progress);
     if (!loaded) return loaded.error();
+    if (!progress(0.9)) return stopped(options.out);
     return write_plotjuggler_csv(options.out, loaded->recording);
   }
   if (options.to == "diff_drive_controller") return write_yaml(options);
@@ -64,7 +68,12 @@ Result<Done> write(const ExportOptions& options) {
 }
 
 int execute(const ExportOptions& options) {
-  if (const Result<Done> done = write(options); !done) return bad_input(done.error());
+  const Result<Done> done = write(options);
+  if (!done && interrupted()) {
+    print_error("stopped; nothing was written");
+    return kCheckFailed;
+  }
+  if (!done) return bad_input(done.error());
   std::printf("%s\n", options.out.c_str());
   return kDone;
 }

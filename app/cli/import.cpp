@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string>& words) {
 int list(const std::vector<std::string>& sources) {
   for (const std::string& source : sources) {
     if (!is_bag(source)) return bad_input({source, "no ROS 2 bag", "one: only bags have something to list"});
-    const Result<BagContents> contents = contents_of_bag(source);
+    const Result<BagContents> contents = contents_of_bag(source, terminal_progress("import"));
     if (!contents) return bad_input(contents.error());
     if (sources.size() > 1) std::printf("%s\n", source.c_str());
     std::vector<std::vector<std::string>> rows{{"topic", "messages", "seconds", "type"}};
@@ -41,8 +41,8 @@ int list(const std::vector<std::string>& sources) {
     for (const BagTopicContents& topic : contents->topics) {
       if (!topic.joints.empty())
         std::printf("joints of %s: %s\n", topic.topic.name.c_str(), joined(topic.joints).c_str());
-      for (const auto& [parent, child] : topic.transforms)
-        std::printf("transform: %s:%s:%s\n", topic.topic.name.c_str(), parent.c_str(), child.c_str());
+      for (const BagTransform& t : topic.transforms)
+        std::printf("transform: %s:%s:%s\n", topic.topic.name.c_str(), t.parent.c_str(), t.child.c_str());
     }
     for (const std::string& sentence : contents->damage) print_message("warning: " + sentence);
   }
@@ -87,7 +87,12 @@ int execute(ImportOptions& options) {
   if (options.list) return list(options.sources);
   if (options.out.empty()) return bad_input({"import", "no --out", "--out with the recording to write, or --list"});
   if (const auto error = read_words(options)) return bad_input(*error);
-  const Result<ImportedFile> imported = import_into_csv(options.sources, options.wishes, options.out);
+  const Result<ImportedFile> imported =
+      import_into_csv(options.sources, options.wishes, options.out, terminal_progress("import"));
+  if (interrupted() && !imported) {
+    print_error("stopped; nothing was written");
+    return kCheckFailed;
+  }
   if (!imported) return bad_input(imported.error());
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);
   std::printf("%s: %llu rows over %.1f s, %s\n", options.out.c_str(), static_cast<unsigned long long>(imported->rows),
@@ -116,8 +121,9 @@ Command import_command() {
     arguments.option("--wheels", options->wishes.wheels, "bags: the topic of the wheels' joint states");
     arguments.option("--joints", options->joints, "bags: the joints of the drive wheels, LEFT,RIGHT");
     arguments.option("--commands", options->wishes.commands, "bags: the topic of commanded twists, or none");
-    arguments.option("--truth", options->wishes.truth,
-                     "bags: the topic of the outside truth, for transforms TOPIC:PARENT:CHILD, or none");
+    arguments.option(
+        "--truth", options->wishes.truth,
+        "bags: the topic of the outside truth, for transforms TOPIC:PARENT:CHILD (frames may lie between), or none");
     arguments.files("--map", options->columns,
                     "text: what columns become, CHANNEL=COLUMN[,UNIT][,rate or increment][,FACTOR]; a minus before the "
                     "column turns its sign",

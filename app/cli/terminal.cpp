@@ -68,7 +68,10 @@ Progress terminal_progress(const std::string& label) {
 }
 
 void catch_interrupts() {
-  std::signal(SIGINT, [](int) { interrupt_seen = 1; });
+  std::signal(SIGINT, [](int) {
+    interrupt_seen = 1;
+    std::signal(SIGINT, SIG_DFL);  // a second one ends what does not listen
+  });
 }
 
 bool interrupted() { return interrupt_seen != 0; }

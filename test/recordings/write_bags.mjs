@@ -95,6 +95,40 @@ const allTypes = () => run([
   },
 ]);
 
+// The truth as a navigating robot has it: map to odom by the localisation at 5 Hz, odom to base_footprint by the wheels at
+// 50 Hz, base_footprint to base_link once, on /tf_static. The wheels' heading and place drift in proportion to time, the
+// localisation takes it back, so that the product is the truth of the formulas at each stamp.
+const planar = (x, y, heading) => ({ x, y, heading });
+const times = (a, b) => planar(a.x + Math.cos(a.heading) * b.x - Math.sin(a.heading) * b.y,
+  a.y + Math.sin(a.heading) * b.x + Math.cos(a.heading) * b.y, a.heading + b.heading);
+const inverse = (a) => planar(-Math.cos(a.heading) * a.x - Math.sin(a.heading) * a.y,
+  Math.sin(a.heading) * a.x - Math.cos(a.heading) * a.y, -a.heading);
+const FOOTPRINT_TO_LINK = planar(0.1, 0.05, 0.2);
+const mapToOdom = (s) => planar(1 + 0.5 * s, -2 + 0.25 * s, 0.3 + 0.4 * s);
+const transformOf = (ns, parent, child, p) => ({
+  header: header(ns, parent), child_frame_id: child,
+  transform: { translation: { x: p.x, y: p.y, z: 0 },
+    rotation: { x: 0, y: 0, z: Math.sin(p.heading / 2), w: Math.cos(p.heading / 2) } },
+});
+const chained = () => {
+  const messages = run([
+    (m, ns, i) => {
+      if (i === 0)
+        m.push(["/tf_static", "tf2_msgs/TFMessage", ns, { transforms: [
+          transformOf(ns, "base_footprint", "base_link", FOOTPRINT_TO_LINK),
+          transformOf(ns, "base_link", "laser", planar(0.2, 0, 0)),
+        ] }]);
+      const map = mapToOdom(ns / 1e9), t = truth(i / 2);
+      const footprint = times(planar(t.x, t.y, t.heading), inverse(FOOTPRINT_TO_LINK));
+      m.push(["/tf", "tf2_msgs/TFMessage", ns,
+        { transforms: [transformOf(ns, "odom", "base_footprint", times(inverse(map), footprint))] }]);
+      if (i % 10 === 0)
+        m.push(["/tf", "tf2_msgs/TFMessage", ns, { transforms: [transformOf(ns, "map", "odom", map)] }]);
+    },
+  ]);
+  return messages.filter(([topic]) => topic !== "/mocap/pose");
+};
+
 class Bytes {
   parts = [];
   size = 0n;
@@ -167,6 +201,7 @@ await mcap("no_index.mcap", run(), {
   useMessageIndex: false, useChunkIndex: false, useAttachmentIndex: false, useMetadataIndex: false,
 });
 await mcap("big_endian.mcap", bigEndian());
+await mcap("tf_chain.mcap", chained());
 await mcap("every_type.mcap", allTypes(), packed("zstd", "zstd", ["-q", "-c"]));
 
 // The same without checksums, so that a fuzzer's changes get past them: those of chunks, and the one over all data.
@@ -188,6 +223,12 @@ const plain = (messages) => messages.map(([topic, type, time, data]) =>
   ({ topic, type: type.replace("/", "/msg/"), time: time.toString(), data: Buffer.from(data).toString("base64") }));
 execFileSync("python3", [new URL("./write_db3.py", import.meta.url).pathname, folder],
   { input: JSON.stringify(plain(run())), stdio: ["pipe", "inherit", "inherit"] });
+
+// What rosbag2 makes of them with compression_mode FILE.
+mkdirSync(folder + "packed");
+for (const name of ["two_files_0.db3", "two_files_1.db3"])
+  execFileSync("zstd", ["-q", "-19", folder + "two_files/" + name, "-o", folder + "packed/" + name.replace("two_files", "packed") + ".zstd"]);
+execFileSync("zstd", ["-q", "-19", folder + "plain.mcap", "-o", folder + "packed.mcap.zstd"]);
 
 // Seeds of the fuzzers: three samples of everything.
 samples = 3;

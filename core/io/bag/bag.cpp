@@ -7,6 +7,7 @@
 #include "core/io/bag/decompress.h"
 #include "core/io/bag/mcap.h"
 #include "core/io/bag/sqlite_bag.h"
+#include "core/io/bag/unpacked_file.h"
 #include "core/io/whole_file.h"
 
 namespace odolab {
@@ -66,7 +67,33 @@ std::vector<std::string> files_in(const std::string& folder, bool (*wanted)(cons
   return files;
 }
 
-bool is_zstd_frame(std::string_view bytes) { return bytes.substr(0, 4) == "\x28\xB5\x2F\xFD"; }
+void add_transform(std::vector<BagTransform>& list, const RosPose& pose) {
+  auto known = std::find_if(list.begin(), list.end(), [&](const BagTransform& t) {
+    return t.parent == pose.frame && t.child == pose.child_frame;
+  });
+  if (known == list.end()) {
+    if (list.size() >= kMostNames) return;
+    known = list.insert(list.end(), {pose.frame, pose.child_frame, 0, {}});
+  }
+  ++known->messages;
+  known->last = pose;
+}
+
+Result<BagFileReading> read_bag_file(const std::string& file, const BagSink& sink, const Progress& progress) {
+  const std::string start = read_file_start(file, 16);
+  if (starts_like_mcap(start)) return read_mcap(file, sink, progress);
+  if (starts_like_sqlite(start)) return read_sqlite_bag(file, sink, progress);
+  if (!is_compressed_bag_file(file))
+    return ends_in(file, ".db3") ? read_sqlite_bag(file, sink, progress) : read_mcap(file, sink, progress);
+  const Result<UnpackedFile> unpacked = UnpackedFile::of(file, progress);
+  if (!unpacked) return unpacked.error();
+  const bool sqlite = starts_like_sqlite(read_file_start(unpacked->path(), 16));
+  Result<BagFileReading> reading =
+      sqlite ? read_sqlite_bag(unpacked->path(), sink, progress) : read_mcap(unpacked->path(), sink, progress);
+  if (!reading) return Error{file, "unpacked, " + reading.error().found, reading.error().expected};
+  if (!unpacked->damage().empty()) reading->damage.insert(reading->damage.begin(), unpacked->damage());
+  return reading;
+}
 
 template <typename T>
 void add_new(std::vector<T>& list, const T& item) {
@@ -85,27 +112,27 @@ bool is_bag(const std::string& path) {
 Result<std::vector<std::string>> bag_files(const std::string& path) {
   std::error_code failure;
   std::vector<std::string> files;
-  std::string packed = is_compressed_bag_file(path) ? path : "";
   if (fs::is_directory(path, failure)) {
     files = files_in(path, is_bag_file);
-    if (const auto compressed = files_in(path, is_compressed_bag_file); files.empty() && !compressed.empty())
-      packed = compressed.front();
-  } else if (packed.empty()) {
+    const std::vector<std::string> unpacked = files;
+    for (const std::string& packed : files_in(path, is_compressed_bag_file))
+      if (std::find(unpacked.begin(), unpacked.end(), packed.substr(0, packed.rfind('.'))) == unpacked.end())
+        files.push_back(packed);
+    std::sort(files.begin(), files.end(), earlier);
+  } else {
     files.push_back(path);
   }
-  if (!packed.empty())
-    return Error{packed, "a bag that is compressed as a whole", "the file that 'zstd -d' makes of it"};
   if (files.empty()) return Error{path, "a folder without .mcap and .db3 files", "a bag"};
   return files;
 }
 
-Result<BagFileReading> read_bag(const std::string& path, const BagSink& sink) {
+Result<BagFileReading> read_bag(const std::string& path, const BagSink& sink, const Progress& progress) {
   const Result<std::vector<std::string>> files = bag_files(path);
   if (!files) return files.error();
   std::string unpacked;
   std::uint64_t broken = 0;
   const BagSink unpacking = [&](const BagTopic& topic, std::int64_t log_time_ns, std::string_view bytes) {
-    if (!is_zstd_frame(bytes)) return sink(topic, log_time_ns, bytes);
+    if (!starts_like_zstd(bytes)) return sink(topic, log_time_ns, bytes);
     unpacked.clear();
     if (decompress(Compression::zstd, bytes, kLargestMessage, unpacked).whole)
       sink(topic, log_time_ns, unpacked);
@@ -116,9 +143,7 @@ Result<BagFileReading> read_bag(const std::string& path, const BagSink& sink) {
   std::optional<Error> failure;
   bool any = false;
   for (const std::string& file : *files) {
-    const bool mcap = starts_like_mcap(read_file_start(file, 16));
-    const bool sqlite = !mcap && (starts_like_sqlite(read_file_start(file, 16)) || ends_in(file, ".db3"));
-    const Result<BagFileReading> one = sqlite ? read_sqlite_bag(file, unpacking) : read_mcap(file, unpacking);
+    const Result<BagFileReading> one = read_bag_file(file, unpacking, progress);
     const std::string name = fs::path(file).filename().string();
     if (!one) {
       if (!failure) failure = one.error();
@@ -141,7 +166,7 @@ Result<BagFileReading> read_bag(const std::string& path, const BagSink& sink) {
   return all;
 }
 
-Result<BagContents> contents_of_bag(const std::string& path) {
+Result<BagContents> contents_of_bag(const std::string& path, const Progress& progress) {
   BagContents contents;
   RosJointState joints;
   std::vector<RosPose> poses;
@@ -156,8 +181,9 @@ Result<BagContents> contents_of_bag(const std::string& path) {
   };
   const BagTopic* last_topic = nullptr;
   std::size_t last_index = 0;
-  Result<BagFileReading> reading =
-      read_bag(path, [&](const BagTopic& topic, std::int64_t log_time_ns, std::string_view bytes) {
+  Result<BagFileReading> reading = read_bag(
+      path,
+      [&](const BagTopic& topic, std::int64_t log_time_ns, std::string_view bytes) {
         if (&topic != last_topic || last_index >= contents.topics.size() ||
             contents.topics[last_index].topic.name != topic.name) {
           last_index = static_cast<std::size_t>(&entry_of(topic) - contents.topics.data());
@@ -171,8 +197,9 @@ Result<BagContents> contents_of_bag(const std::string& path) {
             read_joint_state(bytes, joints))
           for (const std::string& name : joints.names) add_new(entry.joints, name);
         if (entry.kind == RosKind::transforms && read_poses(topic.type, bytes, poses))
-          for (const RosPose& pose : poses) add_new(entry.transforms, {pose.frame, pose.child_frame});
-      });
+          for (const RosPose& pose : poses) add_transform(entry.transforms, pose);
+      },
+      progress);
   if (!reading) return reading.error();
   for (const BagTopic& topic : reading->topics) entry_of(topic);  // those without messages too
   std::sort(contents.topics.begin(), contents.topics.end(),

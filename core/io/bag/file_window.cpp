@@ -13,7 +13,7 @@ constexpr std::size_t kLeastBuffer = 1 << 18;
 
 }  // namespace
 
-Result<FileWindow> FileWindow::open(const std::string& path) {
+Result<FileWindow> FileWindow::open(const std::string& path, Progress progress) {
   std::error_code failure;
   if (std::filesystem::is_directory(path, failure)) return Error{path, "a folder", "a file"};
   if (!std::filesystem::exists(path, failure)) return Error{path, "no such file", "a file that can be read"};
@@ -25,12 +25,16 @@ Result<FileWindow> FileWindow::open(const std::string& path) {
     return Error{path, "no ordinary file", "a file that can be read"};
   }
   std::setvbuf(file, nullptr, _IONBF, 0);
-  return FileWindow(file, static_cast<std::uint64_t>(size));
+  return FileWindow(file, static_cast<std::uint64_t>(size), std::move(progress));
 }
 
 std::string_view FileWindow::peek(std::uint64_t wanted) {
   wanted = std::min(wanted, left());
   if (end_ - begin_ < wanted) {
+    if (!goes_on(progress_, static_cast<double>(position_) / static_cast<double>(size_))) {
+      size_ = position_;
+      return {};
+    }
     if (end_ > begin_) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
     end_ -= begin_;
     begin_ = 0;

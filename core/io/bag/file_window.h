@@ -8,14 +8,16 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 
 namespace odolab {
 
 class FileWindow {
  public:
-  // An error where the path is no file that can be read.
-  static Result<FileWindow> open(const std::string& path);
+  // An error where the path is no file that can be read. Where `progress`, told the share that was read, says to stop,
+  // the file ends there.
+  static Result<FileWindow> open(const std::string& path, Progress progress = {});
 
   // The next `wanted` bytes, fewer where the file ends before; they stay valid until the next call. The buffer grows to
   // what is asked for, but never beyond what the file really holds.
@@ -32,10 +34,12 @@ class FileWindow {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  FileWindow(std::FILE* file, std::uint64_t size) : file_(file), size_(size) {}
+  FileWindow(std::FILE* file, std::uint64_t size, Progress progress)
+      : file_(file), size_(size), progress_(std::move(progress)) {}
 
   std::unique_ptr<std::FILE, Close> file_;
   std::uint64_t size_ = 0;
+  Progress progress_;
   std::uint64_t position_ = 0;  // of the first byte not yet stepped over
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of what the buffer holds, from position_ on

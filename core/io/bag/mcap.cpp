@@ -316,8 +316,8 @@ class Reader {
 
 bool starts_like_mcap(std::string_view start) { return start.substr(0, kMagic.size()) == kMagic; }
 
-Result<BagFileReading> read_mcap(const std::string& path, const BagSink& sink) {
-  Result<FileWindow> file = FileWindow::open(path);
+Result<BagFileReading> read_mcap(const std::string& path, const BagSink& sink, const Progress& progress) {
+  Result<FileWindow> file = FileWindow::open(path, progress);
   if (!file) return file.error();
   if (!starts_like_mcap(file->peek(kMagic.size())))
     return Error{path, file->size() == 0 ? "an empty file" : "other first bytes", "an MCAP file"};

@@ -71,7 +71,7 @@ bool has_ordinary_tables(const Database& database) {
 
 bool starts_like_sqlite(std::string_view start) { return start.substr(0, kMagic.size()) == kMagic; }
 
-Result<BagFileReading> read_sqlite_bag(const std::string& path, const BagSink& sink) {
+Result<BagFileReading> read_sqlite_bag(const std::string& path, const BagSink& sink, const Progress& progress) {
   if (!starts_like_sqlite(read_file_start(path, kMagic.size())))
     return Error{path, "other first bytes", "an SQLite database, as rosbag2 writes it"};
   BagFileReading reading;
@@ -113,7 +113,8 @@ Result<BagFileReading> read_sqlite_bag(const std::string& path, const BagSink& s
   std::uint64_t messages = 0, nameless = 0;
   int state = SQLITE_ROW;
   while ((state = sqlite3_step(query.get())) == SQLITE_ROW) {
-    ++messages;
+    // how many there are only a second pass could tell
+    if (++messages % 4096 == 0 && !goes_on(progress, 0.5)) return reading;
     const auto topic = index_of.find(sqlite3_column_int64(query.get(), 0));
     const auto* data = static_cast<const char*>(sqlite3_column_blob(query.get(), 2));
     const int size = sqlite3_column_bytes(query.get(), 2);

@@ -91,8 +91,7 @@ std::vector<TruthCandidate> truth_candidates(const BagContents& contents) {
     if (topic.messages == 0) continue;
     if (topic.kind == RosKind::pose) candidates.push_back({topic.topic.name, "", "", false});
     if (topic.kind == RosKind::transforms)
-      for (const auto& [parent, child] : topic.transforms)
-        candidates.push_back({topic.topic.name, parent, child, true});
+      for (const BagTransform& t : topic.transforms) candidates.push_back({topic.topic.name, t.parent, t.child, true});
   }
   return candidates;
 }
@@ -108,9 +107,8 @@ std::optional<Error> choose_truth(const std::string& path, const BagContents& co
   if (wish == "none") return std::nullopt;
   const std::vector<TruthCandidate> all = truth_candidates(contents);
   const auto take = [&](const TruthCandidate& c) {
-    choice.truth = c.topic;
-    choice.truth_parent = c.parent;
-    choice.truth_child = c.child;
+    choice.truth = c.name();
+    if (c.transform) choice.truth_chain = chain_of_transforms(contents, c.topic, c.parent, c.child);
   };
   if (!wish.empty()) {
     std::vector<TruthCandidate> meant;
@@ -119,6 +117,22 @@ std::optional<Error> choose_truth(const std::string& path, const BagContents& co
     if (meant.size() == 1) {
       take(meant.front());
       return std::nullopt;
+    }
+    // a pair of frames that are joined by way of others
+    const std::size_t second = wish.rfind(':'),
+                      first = second == std::string::npos ? second : wish.rfind(':', second - 1);
+    if (meant.empty() && first != std::string::npos && first > 0) {
+      const std::string from = wish.substr(first + 1, second - first - 1), to = wish.substr(second + 1);
+      choice.truth_chain = chain_of_transforms(contents, wish.substr(0, first), from, to);
+      if (!choice.truth_chain.empty()) {
+        choice.truth = wish;
+        return std::nullopt;
+      }
+      if (!all.empty())
+        return Error{path,
+                     "no chain of transforms from " + in_quotes(from) + " to " + in_quotes(to) + " on " +
+                         in_quotes(wish.substr(0, first)),
+                     "--truth with frames that are joined by " + listed(names_of(all))};
     }
     if (meant.empty())
       return Error{path, "no poses on " + in_quotes(wish),

@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/io/bag/bag.h"
 #include "core/io/import/import_wishes.h"
+#include "core/io/import/transform_chain.h"
 
 namespace odolab {
 
@@ -15,7 +16,8 @@ namespace odolab {
 struct BagChoice {
   std::string wheels, left_joint, right_joint;
   std::string commands;
-  std::string truth, truth_parent, truth_child;  // frames of transforms alone
+  std::string truth;                      // a topic; of transforms TOPIC:PARENT:CHILD
+  std::vector<TransformHop> truth_chain;  // of transforms alone
   std::vector<std::string> warnings;
 };
 

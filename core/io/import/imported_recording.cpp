@@ -107,25 +107,30 @@ Result<std::vector<const ForeignFormat*>> formats_of(const std::vector<std::stri
 
 Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
                                  const std::vector<const ForeignFormat*>& formats, const ImportWishes& wishes,
-                                 const std::string& spill_folder) {
+                                 const std::string& spill_folder, const Progress& progress) {
   SampleStreams streams;
+  bool stop = false;
+  streams.progress = [&progress, &stop](double share) { return !(stop = stop || !goes_on(progress, share)); };
   streams.spill_folder = spill_folder;
   fs::path first = fs::path(sources.front()).lexically_normal();
   if (first.filename().empty()) first = first.parent_path();
   streams.name = first.filename().string();
   for (std::size_t i = 0; i < sources.size(); ++i)
-    if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done) return done.error();
+    if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done || stop)
+      return stop ? stopped(sources[i]) : done.error();
+  streams.progress = progress;
   return streams;
 }
 
 }  // namespace
 
-Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes) {
+Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes,
+                                           const Progress& progress) {
   if (is_own_recording(sources, wishes)) return load_recording(sources.front());
   const auto formats = formats_of(sources, wishes);
   if (!formats) return formats.error();
   if (!formats->front()->stream) return formats->front()->read(sources);
-  Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "");
+  Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "", progress);
   if (!streams) return streams.error();
   Result<Recording> recording = recording_of(*streams);
   if (!recording) return Error{sources.front(), recording.error().found, recording.error().expected};
@@ -133,7 +138,7 @@ Result<ImportedRecording> import_recording(const std::vector<std::string>& sourc
 }
 
 Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, const ImportWishes& wishes,
-                                     const std::string& out) {
+                                     const std::string& out, const Progress& progress) {
   if (!is_own_recording(sources, wishes)) {
     const auto formats = formats_of(sources, wishes);
     if (!formats) return formats.error();
@@ -141,7 +146,8 @@ Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, co
       std::error_code failure;
       const fs::path folder = fs::path(out).parent_path();
       if (!folder.empty()) fs::create_directories(folder, failure);
-      Result<SampleStreams> streams = streams_of(sources, *formats, wishes, folder.empty() ? "." : folder.string());
+      Result<SampleStreams> streams =
+          streams_of(sources, *formats, wishes, folder.empty() ? "." : folder.string(), progress);
       if (!streams) return streams.error();
       Result<WrittenRecording> written = write_streams_csv(out, *streams);
       if (!written) return written.error();
@@ -158,8 +164,8 @@ Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, co
   return file;
 }
 
-Result<ImportedRecording> load_recording(const std::string& path) {
-  if (is_foreign_recording(path)) return import_recording({path});
+Result<ImportedRecording> load_recording(const std::string& path, const Progress& progress) {
+  if (is_foreign_recording(path)) return import_recording({path}, {}, progress);
   std::error_code failure;
   if (fs::is_directory(path, failure)) return folder_given(path);
   Result<Recording> recording = read_recording_csv(path);

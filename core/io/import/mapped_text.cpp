@@ -96,7 +96,7 @@ bool recognises(const std::string&, std::string_view) { return false; }  // only
 
 Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
   const TextMapping& mapping = wishes.mapping;
-  Result<TextRows> rows = TextRows::open(path, mapping.shape);
+  Result<TextRows> rows = TextRows::open(path, mapping.shape, streams.progress);
   if (!rows) return rows.error();
   std::vector<std::string_view> cells;
   if (!rows->next(cells)) return Error{path, "no rows", "a header or numbers"};

@@ -1,4 +1,5 @@
 // ROS 2 bags: rotation of the drive wheels from joint states, commands from twists, truth from poses or transforms.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -51,7 +52,7 @@ void warn(const std::string& topic, const Stamps& stamps, bool has_header, std::
 }
 
 Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
-  const Result<BagContents> contents = contents_of_bag(path);
+  const Result<BagContents> contents = contents_of_bag(path, streams.progress);
   if (!contents) return contents.error();
   Result<BagChoice> choice = chosen_of_bag(path, *contents, wishes);
   if (!choice) return choice.error();
@@ -75,41 +76,57 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
   RosJointState joints;
   RosTwist twist;
   std::vector<RosPose> poses;
-  const Result<BagFileReading> reading = read_bag(path, [&](const BagTopic& topic, std::int64_t log_ns,
-                                                            std::string_view bytes) {
-    if (topic.encoding != "cdr") return;
-    const RosKind kind = ros_kind(topic.type);
-    if (wheels && kind == RosKind::joint_state && topic.name == choice->wheels) {
-      if (!read_joint_state(bytes, joints)) return void(++wheel_stamps.broken);
-      double values[2] = {std::nan(""), std::nan("")};
-      bool named = false;
-      for (std::size_t i = 0; i < joints.names.size(); ++i) {
-        const int side = joints.names[i] == choice->left_joint ? 0 : joints.names[i] == choice->right_joint ? 1 : -1;
-        if (side < 0) continue;
-        named = true;
-        if (i < joints.positions.size() && std::isfinite(joints.positions[i])) values[side] = joints.positions[i];
-      }
-      if (!named) return;  // other joints of the robot
-      if (std::isnan(values[0]) && std::isnan(values[1])) return void(++without_positions);
-      wheels->add(wheel_stamps.of(joints.stamp_ns, log_ns), values);
-    } else if (commands && kind == RosKind::twist && topic.name == choice->commands) {
-      if (!read_twist(topic.type, bytes, twist) || !std::isfinite(twist.forward_mps) ||
-          !std::isfinite(twist.yaw_rate_radps))
-        return void(++command_stamps.broken);
-      commands_have_header = twist.stamp_ns.has_value();
-      const double values[2] = {twist.forward_mps, twist.yaw_rate_radps};
-      commands->add(command_stamps.of(twist.stamp_ns, log_ns), values);
-    } else if (truth && topic.name == choice->truth && (kind == RosKind::pose || kind == RosKind::transforms)) {
-      if (!read_poses(topic.type, bytes, poses)) return void(++truth_stamps.broken);
-      for (const RosPose& pose : poses) {
-        if (kind == RosKind::transforms &&
-            (pose.frame != choice->truth_parent || pose.child_frame != choice->truth_child))
-          continue;
-        const SpacePose in_space{{pose.x, pose.y, pose.z}, rotation_of(pose.qx, pose.qy, pose.qz, pose.qw)};
-        if (!truth->add(truth_stamps.of(pose.stamp_ns, log_ns), in_space)) ++truth_stamps.broken;
-      }
-    }
-  });
+  std::optional<TransformChain> chain;
+  if (!choice->truth_chain.empty()) chain.emplace(choice->truth_chain);
+  const auto take_truth = [&](const RosPose& pose) {
+    const SpacePose in_space{{pose.x, pose.y, pose.z}, rotation_of(pose.qx, pose.qy, pose.qz, pose.qw)};
+    if (!truth->add(pose.stamp_ns, in_space)) ++truth_stamps.broken;
+  };
+  const auto is_truth = [&](const BagTopic& topic, RosKind kind) {
+    if (!chain) return kind == RosKind::pose && topic.name == choice->truth;
+    return kind == RosKind::transforms && std::any_of(choice->truth_chain.begin(), choice->truth_chain.end(),
+                                                      [&](const TransformHop& h) { return h.topic == topic.name; });
+  };
+  const Result<BagFileReading> reading = read_bag(
+      path,
+      [&](const BagTopic& topic, std::int64_t log_ns, std::string_view bytes) {
+        if (topic.encoding != "cdr") return;
+        const RosKind kind = ros_kind(topic.type);
+        if (wheels && kind == RosKind::joint_state && topic.name == choice->wheels) {
+          if (!read_joint_state(bytes, joints)) return void(++wheel_stamps.broken);
+          double values[2] = {std::nan(""), std::nan("")};
+          bool named = false;
+          for (std::size_t i = 0; i < joints.names.size(); ++i) {
+            const int side = joints.names[i] == choice->left_joint    ? 0
+                             : joints.names[i] == choice->right_joint ? 1
+                                                                      : -1;
+            if (side < 0) continue;
+            named = true;
+            if (i < joints.positions.size() && std::isfinite(joints.positions[i])) values[side] = joints.positions[i];
+          }
+          if (!named) return;  // other joints of the robot
+          if (std::isnan(values[0]) && std::isnan(values[1])) return void(++without_positions);
+          wheels->add(wheel_stamps.of(joints.stamp_ns, log_ns), values);
+        } else if (commands && kind == RosKind::twist && topic.name == choice->commands) {
+          if (!read_twist(topic.type, bytes, twist) || !std::isfinite(twist.forward_mps) ||
+              !std::isfinite(twist.yaw_rate_radps))
+            return void(++command_stamps.broken);
+          commands_have_header = twist.stamp_ns.has_value();
+          const double values[2] = {twist.forward_mps, twist.yaw_rate_radps};
+          commands->add(command_stamps.of(twist.stamp_ns, log_ns), values);
+        } else if (truth && is_truth(topic, kind)) {
+          if (!read_poses(topic.type, bytes, poses)) return void(++truth_stamps.broken);
+          for (RosPose& pose : poses) {
+            if (chain && !chain->wants(topic.name, pose)) continue;
+            pose.stamp_ns = truth_stamps.of(pose.stamp_ns, log_ns);
+            if (chain)
+              chain->add(topic.name, pose, take_truth);
+            else
+              take_truth(pose);
+          }
+        }
+      },
+      streams.progress);
   if (!reading) return reading.error();
 
   std::vector<std::string>& warnings = streams.warnings;
@@ -118,6 +135,9 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
   if (truth) {
     warn(choice->truth, truth_stamps, true, warnings);
     truth->warn(choice->truth, warnings);
+    if (chain && chain->left_out() > 0)
+      warnings.push_back(choice->truth + ": " + plural(chain->left_out(), "pose") +
+                         " left out: another transform of the chain is missing there");
   }
   if (without_positions > 0)
     warnings.push_back(choice->wheels + ": " + plural(without_positions, "message") +

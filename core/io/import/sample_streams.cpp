@@ -89,6 +89,8 @@ class Rows {
 
 }  // namespace
 
+Error stopped(const std::string& path) { return {path, "a wish to stop", "time to finish; nothing was written"}; }
+
 SampleSpool& SampleStreams::add_stream(std::vector<std::string> channels) {
   streams.emplace_back(std::move(channels), spill_folder);
   return streams.back();
@@ -131,6 +133,7 @@ Result<WrittenRecording> write_streams_csv(const std::string& path, SampleStream
     }
     text += '\n';
     if (text.size() < 1 << 16) continue;
+    if (!goes_on(streams.progress, 0.5)) return stopped(path);
     file->write(text);
     text.clear();
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/io/import/sample_spool.h"
 #include "core/recording/recording.h"
@@ -16,9 +17,13 @@ struct SampleStreams {
   std::vector<std::string> warnings;  // what a person should know, a sentence each
   std::string name, provenance;       // as in Recording
   std::string spill_folder;           // where samples may lie while they are sorted; empty: in memory
+  Progress progress;                  // of reading and writing; where it says to stop, what was read so far is no use
 
   SampleSpool& add_stream(std::vector<std::string> channels);
 };
+
+// What a function returns whose progress said to stop.
+Error stopped(const std::string& path);
 
 // Rows in order of time, the first one at 0; samples with the same stamp share a row. The streams are used up. An error
 // where there is no sample, or where two streams bring the same channel.

@@ -17,8 +17,8 @@ constexpr std::int64_t kLatest_ns = 4'102'444'800'000'000'000;  // the year 2100
 
 }  // namespace
 
-Result<TextRows> TextRows::open(const std::string& path, const TextShape& shape) {
-  Result<FileWindow> file = FileWindow::open(path);
+Result<TextRows> TextRows::open(const std::string& path, const TextShape& shape, const Progress& progress) {
+  Result<FileWindow> file = FileWindow::open(path, progress);
   if (!file) return file.error();
   if (file->peek(3) == "\xEF\xBB\xBF") file->advance(3);
   TextRows rows(std::move(*file), shape);

@@ -14,7 +14,7 @@ namespace odolab {
 
 class TextRows {
  public:
-  static Result<TextRows> open(const std::string& path, const TextShape& shape);
+  static Result<TextRows> open(const std::string& path, const TextShape& shape, const Progress& progress = {});
 
   // The next row that holds anything; false at the end. The cells are valid until the next call; quotes around a cell
   // are taken off. A byte-order mark, CRLF and empty lines are tolerated; of a line beyond a megabyte the first one is

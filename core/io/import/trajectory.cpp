@@ -60,7 +60,7 @@ bool numbers_of(const TextRows& rows, const std::vector<std::string_view>& cells
 }
 
 Result<Done> stream_tum(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
-  Result<TextRows> rows = TextRows::open(path, blank_separated());
+  Result<TextRows> rows = TextRows::open(path, blank_separated(), streams.progress);
   if (!rows) return rows.error();
   TruthStream truth(streams, wishes.axes.value_or(SpaceAxes::z_up));
   RowsLeftOut left_out;
@@ -103,7 +103,7 @@ Result<Done> stream_kitti(const std::string& path, const ImportWishes& wishes, S
   if (times.empty() && std::filesystem::exists(beside, failure)) times = beside.string();
   if (times.empty() && !(wishes.mapping.period_s > 0.0))
     return Error{path, "poses without times", "a times.txt beside them, --times FILE or --period SECONDS"};
-  Result<TextRows> rows = TextRows::open(path, blank_separated());
+  Result<TextRows> rows = TextRows::open(path, blank_separated(), streams.progress);
   if (!rows) return rows.error();
   std::optional<TextRows> stamps;
   if (!times.empty()) {

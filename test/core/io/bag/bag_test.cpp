@@ -82,7 +82,7 @@ TEST_P(EveryStorage, HoldsTheRun) {
 }
 INSTANTIATE_TEST_SUITE_P(Bag, EveryStorage,
                          testing::Values("plain.mcap", "chunks.mcap", "zstd.mcap", "lz4.mcap", "no_index.mcap",
-                                         "big_endian.mcap", "two_files", "two_files/"));
+                                         "big_endian.mcap", "two_files", "two_files/", "packed", "packed.mcap.zstd"));
 
 TEST(Bag, AnUnfinishedFileIsReadUpToItsLastWholeRecord) {
   ScratchFolder folder;
@@ -175,7 +175,7 @@ TEST(Bag, SaysInOneLineWhatIsNoBag) {
   EXPECT_EQ(complaint(folder.write("text.db3", "hello")),
             "text.db3: found other first bytes, expected an SQLite database, as rosbag2 writes it");
   EXPECT_EQ(complaint(folder.write("a.mcap.zstd", "x")),
-            "a.mcap.zstd: found a bag that is compressed as a whole, expected the file that 'zstd -d' makes of it");
+            "a.mcap.zstd: found other first bytes, expected a file packed by zstd");
   EXPECT_EQ(complaint(folder.write("none.mcap", std::string("\x89MCAP0\r\n", 8))),
             "none.mcap: found a bag without topics, expected joint states, twists, odometry, poses or transforms with "
             "messages, in CDR");
@@ -192,8 +192,10 @@ TEST(Bag, ListsTopicsJointsAndTransforms) {
     if (topic.topic.name == "/joint_states") {
       EXPECT_EQ(topic.joints, (std::vector<std::string>{"arm_joint", "wheel_right_joint", "wheel_left_joint"}));
     } else if (topic.topic.name == "/tf") {
-      EXPECT_EQ(topic.transforms,
-                (std::vector<std::pair<std::string, std::string>>{{"odom", "base_link"}, {"world", "marker_body"}}));
+      ASSERT_EQ(topic.transforms.size(), 2u);
+      EXPECT_EQ(topic.transforms[0].parent + ">" + topic.transforms[0].child, "odom>base_link");
+      EXPECT_EQ(topic.transforms[1].parent + ">" + topic.transforms[1].child, "world>marker_body");
+      EXPECT_EQ(topic.transforms[1].messages, 30u);
     }
   }
 }
@@ -217,6 +219,82 @@ TEST(Bag, EveryTypeOfTruthAndCommandIsRead) {
       EXPECT_EQ(twists[9].speed_mps, 0.2 + 0.001 * 9);
       EXPECT_EQ(twists[9].yaw_rate_radps, -0.01 * 9);
     }
+}
+
+// test/recordings/README.md: three hops at rates of their own, one of them static, whose product is the run's truth.
+TEST(Bag, PutsAChainOfTransformsTogether) {
+  ImportWishes wishes;
+  wishes.truth = "/tf:map:base_link";
+  const Result<ImportedRecording> imported = import_recording({bag("tf_chain.mcap")}, wishes);
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  const Recording& r = imported->recording;
+  // map to odom ends at 1.0 s: nothing is made up behind it
+  const std::vector<TruthSample> poses = truth_samples(r);
+  ASSERT_EQ(poses.size(), 51u);
+  EXPECT_EQ(imported->warnings.back(),
+            "/tf:map:base_link: 9 poses left out: another transform of the chain is missing there");
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double half = 0.5 * static_cast<double>(i);
+    EXPECT_EQ(poses[i].time_s, static_cast<double>(i) / 50.0);
+    // rounding of some ten products of numbers below 3
+    EXPECT_NEAR(poses[i].position.x_m, 0.01 * half, 1e-14);
+    EXPECT_NEAR(poses[i].position.y_m, -0.02 * half, 1e-14);
+    EXPECT_NEAR(*poses[i].heading_rad, 0.03 * half, 1e-14);
+  }
+  // upward it is the inverse: at the start the truth is zero, and so is its inverse
+  wishes.truth = "/tf:base_link:map";
+  const Result<ImportedRecording> upward = import_recording({bag("tf_chain.mcap")}, wishes);
+  ASSERT_TRUE(upward.ok());
+  const TruthSample last = truth_samples(upward->recording).back();
+  const Pose truth{0.25, -0.5, 0.75};
+  EXPECT_NEAR(*last.heading_rad, -0.75, 1e-14);
+  EXPECT_NEAR(length(truth * last.position), 0.0, 1e-14);
+  wishes.truth = "/tf:map:gripper";
+  EXPECT_NE(import_recording({bag("tf_chain.mcap")}, wishes)
+                .error()
+                .message()
+                .find("found no chain of transforms from 'map' to 'gripper' on '/tf'"),
+            std::string::npos);
+}
+
+TEST(Bag, APackedFileThatIsCutGivesWhatCanBeUnpacked) {
+  ScratchFolder folder;
+  const std::string whole = text_of(bag("packed.mcap.zstd"));
+  std::size_t before = 0;
+  for (std::size_t size = 100; size < whole.size(); size += 97) {
+    std::size_t some = 0;
+    const Result<BagFileReading> reading = read_bag(folder.write("cut.mcap.zstd", whole.substr(0, size)),
+                                                    [&](const BagTopic&, std::int64_t, std::string_view) { ++some; });
+    EXPECT_GE(some, before);
+    before = some;
+    if (reading.ok()) {
+      EXPECT_EQ(reading->damage.front(), "cut.mcap.zstd: the packed file is cut; what could be unpacked was read");
+    } else {
+      EXPECT_EQ(some, 0u);
+    }
+  }
+  std::string broken = whole;
+  broken[whole.size() / 2] = static_cast<char>(broken[whole.size() / 2] ^ 0x55);
+  // one block holds it all
+  EXPECT_EQ(message_of(read_bag(folder.write("broken.mcap.zstd", broken), {}), folder.path("x")).substr(0, 60),
+            "broken.mcap.zstd: found nothing that can be unpacked (zstd: ");
+}
+
+// A folder in which somebody unpacked a file beside the packed one holds it once.
+TEST(Bag, AnUnpackedFileBesideItsPackedOneIsReadOnce) {
+  ScratchFolder folder;
+  folder.write("a_0.mcap.zstd", text_of(bag("packed.mcap.zstd")));
+  EXPECT_EQ(messages_of(folder.path("")).size(), 120u);
+  folder.write("a_0.mcap", text_of(bag("plain.mcap")));
+  EXPECT_EQ(messages_of(folder.path("")).size(), 120u);
+}
+
+TEST(Bag, StopsWhenItIsAskedTo) {
+  ScratchFolder folder;
+  const auto stop = [](double) { return false; };
+  EXPECT_FALSE(import_into_csv({bag("zstd.mcap")}, {}, folder.path("file.csv"), stop).ok());
+  EXPECT_FALSE(import_into_csv({bag("packed")}, {}, folder.path("file.csv"), stop).ok());
+  EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(Bag, StraightIntoAFileGivesTheSameBytes) {
