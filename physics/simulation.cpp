@@ -217,6 +217,7 @@ struct Simulation::Parts {
     run.time_s.push_back(state.time_s);
     read_gauges();
     state.estimated_pose = vehicle->believed();
+    if (!keeps_tracks) drop_tracks();
     estimated.push_back({state.time_s, state.estimated_pose});
     exact.push_back({state.time_s, state.true_pose});
     command_before = command_next;
@@ -225,6 +226,11 @@ struct Simulation::Parts {
           follower.update(scenario.driving.by_eye ? vehicle->pose() : vehicle->believed_driven_point());
     if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
     if (scenario.sensors.record_commands) record_command();
+  }
+
+  void drop_tracks() {
+    estimated.clear();
+    exact.clear();
   }
 
   void read_gauges() {
@@ -312,6 +318,7 @@ struct Simulation::Parts {
   VehiclePosture posture;                 // at the last sample
   std::vector<GaugeReading> gauges_read;  // in it
   Track exact, estimated;
+  bool keeps_tracks = true;
   Pose measured_start, measured_end;
 };
 
@@ -355,6 +362,11 @@ void Simulation::drive_by_hand(double speed_mps, double yaw_rate_radps, double s
 }
 void Simulation::push(Vec2 impulse_ns) { parts_->vehicle->push(impulse_ns); }
 
+void Simulation::keep_no_tracks() {
+  parts_->keeps_tracks = false;
+  parts_->exact.erase(parts_->exact.begin(), parts_->exact.end() - 1);
+  parts_->estimated.erase(parts_->estimated.begin(), parts_->estimated.end() - 1);
+}
 const Track& Simulation::true_track() const { return parts_->exact; }
 const Track& Simulation::estimated_track() const { return parts_->estimated; }
 Pose Simulation::measured_start() const { return parts_->measured_start; }

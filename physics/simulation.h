@@ -60,6 +60,8 @@ class Simulation {
   void drive_by_hand(double speed_mps, double yaw_rate_radps, double sideways_mps = 0.0);
   void push(Vec2 impulse_ns);
 
+  // From now on the tracks hold the last sample alone, for whoever keeps them himself. Its recording stays whole.
+  void keep_no_tracks();
   // Sampled so far. The tracks hold a pose for each encoder sample.
   const Track& true_track() const;
   const Track& estimated_track() const;

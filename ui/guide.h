@@ -32,6 +32,7 @@ struct GuideView {
   std::string job;
   double share_done = 0.0;
   std::string can_simulate;       // why not, empty: it can
+  bool rough_floor = false;       // of a simulated robot
   std::optional<Vehicle> actual;  // the true machine of a simulated robot, for the result's last column
 };
 

@@ -24,6 +24,7 @@ DriveRun::DriveRun(const Scenario& scenario, std::shared_ptr<const Recording> re
       replayed_(std::move(replayed)),
       simulation_(scenario, scenario.seed, replayed_),
       estimates_(scenario, simulation_) {
+  simulation_.keep_no_tracks();
   steps_per_picture_ = std::max(1, int(std::lround(kPicture / scenario.step_s)));
   shape_ = simulation_.shape();
   remember();
@@ -31,13 +32,14 @@ DriveRun::DriveRun(const Scenario& scenario, std::shared_ptr<const Recording> re
 
 void DriveRun::restart() {
   simulation_ = Simulation(scenario_, scenario_.seed, replayed_);
+  simulation_.keep_no_tracks();
   history_.clear();
   postures_.clear();
   times_.clear();
   gap_m_.clear();
   gap_heading_.clear();
   events_.clear();
-  kept_ = {};
+  kept_ = KeptRows();
   samples_seen_ = 1;
   gap_ = {};
   estimates_ = RunEstimates(scenario_, simulation_);
@@ -173,8 +175,9 @@ SimulationState DriveRun::shown() const {
   s.true_pose = mixed_pose(a.true_pose, b.true_pose, at.share);
   s.estimated_pose = mixed_pose(a.estimated_pose, b.estimated_pose, at.share);
   if (!at.thinned) return s;
-  if (const std::optional<Pose> pose = pose_at(simulation_.true_track(), s.time_s)) s.true_pose = *pose;
-  if (const std::optional<Pose> pose = pose_at(simulation_.estimated_track(), s.time_s)) s.estimated_pose = *pose;
+  if (const std::optional<Pose> pose = pose_at(estimates_.truth(), s.time_s)) s.true_pose = *pose;
+  if (const std::optional<Pose> pose = pose_at(estimates_.all()[estimates_.steering()].track, s.time_s))
+    s.estimated_pose = *pose;
   return s;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/gui/kept_pictures.h"
+#include "app/gui/kept_rows.h"
 #include "app/gui/run_estimates.h"
 #include "physics/simulation.h"
 
@@ -79,7 +79,7 @@ class DriveRun {
   RunEstimates estimates_;
   int steps_per_picture_ = 20;
   VehicleShape shape_;
-  KeptPictures kept_;
+  KeptRows kept_;
   std::vector<SimulationState> history_;  // a state and a posture for each picture
   std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;

@@ -167,8 +167,10 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     if (session.take_picture_wish()) {
       const std::string path = picture_name();
       const Result<Done> saved = window.save_picture(path);
-      session.say(saved ? "Picture saved as " + std::filesystem::absolute(path).string() : saved.error().message(),
-                  !saved.ok());
+      if (saved)
+        session.say_for_a_while("Picture saved as " + std::filesystem::absolute(path).string());
+      else
+        session.say(saved.error().message(), true);
     }
     window.show_picture();
     remember_files(session, known_files, state);

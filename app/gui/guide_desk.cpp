@@ -439,6 +439,7 @@ ui::GuideView GuideDesk::view(const Jobs& jobs) const {
   v.vehicle_files = vehicle_files_;
   if (const GuideRound* round = round_on(*session_, task())) v.misfits = misfits(*round);
   if (!session_->real_robot) {
+    v.rough_floor = scenario_.floor.roughness.largest_height_m > 0.0;
     if (const auto* drive = std::get_if<DifferentialDrive>(&session_->vehicle.kind)) {
       DifferentialDrive actual = *drive;
       actual.wheel_radius_left_m = scenario_.actual.wheel_radius_left_m;

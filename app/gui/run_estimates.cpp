@@ -2,8 +2,6 @@
 
 #include <cassert>
 
-#include "app/gui/kept_pictures.h"
-
 namespace odolab {
 
 RunEstimates::RunEstimates(const Scenario& scenario, const Simulation& simulation)
@@ -23,6 +21,12 @@ void RunEstimates::take(const Simulation& simulation) {
     estimates_[i].track.push_back({state.time_s, running_[i]->pose()});
     estimates_[i].gap = between(state.true_pose, running_[i]->pose());
   }
+  truth_.push_back({state.time_s, state.true_pose});
+  kept_.add();
+  const std::vector<bool> stays = kept_.thin();
+  if (stays.empty()) return;
+  keep_only(stays, truth_);
+  for (RunEstimate& estimate : estimates_) keep_only(stays, estimate.track);
 }
 
 void RunEstimates::remember() {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/gui/kept_rows.h"
 #include "core/geometry/track.h"
 #include "core/odometry/estimators.h"
 #include "physics/simulation.h"
@@ -12,7 +13,7 @@ namespace odolab {
 
 struct RunEstimate {
   std::string name, about;
-  Track track;                // a pose for each sample of the encoders
+  Track track;                // a pose for each sample of the encoders that is kept
   Pose gap;                   // estimate as seen from the truth, at the last sample
   std::vector<double> gap_m;  // at every picture that is kept
   std::vector<double> heading_rad;
@@ -27,6 +28,9 @@ class RunEstimates {
   void remember();                                     // at each picture
   void keep_pictures(const std::vector<bool>& stays);  // of those remembered
 
+  // The true poses at the times of the estimates' tracks. Of samples that are minutes old every eighth is kept: at the
+  // usual 50 a second 0.16 s apart, between which a track may be taken as straight.
+  const Track& truth() const { return truth_; }
   const std::vector<RunEstimate>& all() const { return estimates_; }
   // The one that the vehicle itself steers by.
   std::size_t steering() const { return steering_; }
@@ -35,6 +39,8 @@ class RunEstimates {
   std::vector<std::unique_ptr<RunningEstimator>> running_;
   std::vector<RunEstimate> estimates_;
   std::size_t steering_ = 0;
+  Track truth_;
+  KeptRows kept_{8};  // samples
 };
 
 }  // namespace odolab

@@ -33,6 +33,7 @@ class Session {
   // Opens a scenario, a vehicle or a recording. False, with a message, where that fails.
   bool open(const std::string& path);
   void say(const std::string& text, bool is_error);
+  void say_for_a_while(const std::string& text);
   // Opens the scenario that was edited when the window closed last, if it did so without saving it.
   void take_up_edits();
 
@@ -76,7 +77,6 @@ class Session {
   void load(const Scenario& scenario, std::shared_ptr<const Recording> replayed, const std::string& path);
   void change(const Scenario& scenario);
   void was_edited();
-  void say_for_a_while(const std::string& text);
   void forget(const std::string& text);
   bool open_scenario(const std::string& path);
   bool open_vehicle(const std::string& path);

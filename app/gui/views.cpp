@@ -47,7 +47,8 @@ ui::FloorScene drive_scene(const Session& session, const SimulationState& shown,
   scene.floor = &scenario.floor;
   scene.editable = true;
   scene.planned = planned_path(scenario, run.simulation().driven_start());
-  const Track &true_track = run.simulation().true_track(), &estimated = run.simulation().estimated_track();
+  const RunEstimates& estimates = run.estimates();
+  const Track &true_track = estimates.truth(), &estimated = estimates.all()[estimates.steering()].track;
   ui::TrackLine truth;
   truth.label = "true";
   truth.track = &true_track;
@@ -130,8 +131,9 @@ ui::FloorScene compare_scene(const Session& session, const ui::Theme& theme) {
     v.colour = colour;
     scene.vehicles.push_back(v);
   };
-  scene.reference = pose_nearest(replay.truth, now);
-  scene.deviating = pose_nearest(replay.simulated, now);
+  const ui::ErrorNow error = error_now(session);  // the gap of the lens is the one of the figures
+  scene.reference = error.truth;
+  scene.deviating = error.simulated;
   glyph(scene.reference, false, theme.truth);
   glyph(scene.deviating, true, theme.orange);
   return scene;
@@ -201,7 +203,8 @@ ui::Bench bench_of(const Session& session) {
   const bool one_drive = std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind);
   b.can_run = one_drive && !session.jobs().running();
   b.why_not = one_drive ? "Busy " + session.jobs().name() + "."
-                        : "UMBmark's squares correct a differential drive; this is another kind of vehicle.";
+                        : "UMBmark's squares correct a differential drive; this is another kind of vehicle. "
+                          "The guides calibrate castors and the CLAPPER.";
   if (const SquarePath* square = std::get_if<SquarePath>(&scenario.path)) b.side_m = square->side_m;
   const Floor& floor = session.run().scenario().floor;
   b.has_things = !floor.bumps.empty() || !floor.slip_zones.empty();
@@ -265,7 +268,7 @@ ui::Readout readout_of(const Session& session, const SimulationState& shown, con
 ui::Estimators estimators_of(const Session& session, const SimulationState& shown, const ui::Theme& theme) {
   const DriveRun& run = session.run();
   const RunEstimates& estimates = run.estimates();
-  const Track& exact = run.simulation().true_track();
+  const Track& exact = estimates.truth();
   const auto after = std::upper_bound(exact.begin(), exact.end(), shown.time_s + 1e-9,
                                       [](double time_s, const TimedPose& p) { return time_s < p.time_s; });
   const std::size_t sample = after == exact.begin() ? 0 : std::size_t(after - exact.begin()) - 1;  // the last so far

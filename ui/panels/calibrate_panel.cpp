@@ -123,6 +123,7 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
     start.why_disabled = bench.why_not;
     if (text_button("Start", theme, start, width))
       actions.push_back(StartBenchmark{state.runs_each_way, state.keep_things});
+    if (!bench.can_run && !bench.running) note(bench.why_not, theme);
   }
 
   step_heading(2, "Calibrate and drive again", verified, measured && !verified, theme);

@@ -216,9 +216,11 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   const PlotResult inner = plot("enlarged", {size.x - theme.px(8), size.y - theme.px(10)}, q, state.enlarged, theme);
   const double enlargement = (inner.high.x - inner.low.x) / (state.enlarged.x1 - state.enlarged.x0) /
                              ((result.high.x - result.low.x) / (state.view.x1 - state.view.x0));
-  const std::string title = experiments.back().name + ", enlarged " + times(enlargement);
-  draw.AddText({inner.low.x + theme.px(2), low.y + theme.px(4)}, theme.ink,
-               fitted(title, inner.high.x - inner.low.x).c_str());
+  const float title_room = inner.high.x - inner.low.x;
+  std::string title = experiments.back().name + ", enlarged " + times(enlargement);
+  if (ImGui::CalcTextSize(title.c_str()).x > title_room) title = "enlarged " + times(enlargement);
+  if (ImGui::CalcTextSize(title.c_str()).x > title_room) title = times(enlargement);
+  draw.AddText({inner.high.x - ImGui::CalcTextSize(title.c_str()).x, low.y + theme.px(4)}, theme.ink, title.c_str());
   labels_of(experiments.back(), inner, state.enlarged, theme);
 }
 

@@ -80,8 +80,8 @@ void corner(const Pen& pen, ImVec2 low, float width, float height, bool heading)
   pen.words({0.5f * (mark.x + stands.x), mark.y + theme.px(13)}, "x", theme.green, 0.5f);
   pen.words({stands.x + theme.px(8), 0.5f * (mark.y + stands.y) + theme.px(6)}, "y, left", theme.purple);
   pen.words({mark.x, mark.y + theme.px(34)}, "start mark", theme.muted, 0.5f);
-  pen.words({stands.x, stands.y - theme.px(36)},
-            heading ? "where it really stands, and looks" : "where it really stands", theme.ink, 0.5f);
+  pen.words({stands.x, stands.y - theme.px(36)}, heading ? "where it stands and looks" : "where it really stands",
+            theme.ink, 0.5f);
 }
 
 void castors(const Pen& pen, ImVec2 low, float width, float height) {

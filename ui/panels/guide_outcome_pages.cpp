@@ -94,6 +94,12 @@ void result_page(const GuideView& view, GuidePageState& state, const Theme& them
         theme);
   else
     note("Uncertainties are one standard deviation.", theme);
+  if (truth && view.rough_floor)
+    note(
+        "The floor is rough: wheels that climb turn further than the robot goes, as if they were smaller. What is put "
+        "in "
+        "holds on this floor; the true diameters are those of the wheels themselves.",
+        theme);
   if (!out.rounds.empty()) clusters(view, false, state, theme);
 }
 
