@@ -152,7 +152,10 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     window.begin_picture();
     for (const std::string& path : window.dropped_files()) session.execute(ui::OpenFile{path});
     for (const KeyPress& press : window.key_presses())  // however briefly, and whatever has the keyboard
-      if (press.key == Key::escape && asks_for_path(state)) close_dialogs(state);
+      if (press.key == Key::escape && asks_for_path(state))
+        close_dialogs(state);
+      else if (press.key == Key::f12 && asks_for_path(state))
+        session.execute(ui::SavePicture{});
     const bool keys_are_free = !ImGui::GetIO().WantTextInput && !asks_for_path(state);
     if (keys_are_free)
       for (const KeyPress& press : window.key_presses())

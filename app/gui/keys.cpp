@@ -1,5 +1,7 @@
 #include "app/gui/keys.h"
 
+#include "core/guide/guide.h"
+
 namespace odolab {
 
 namespace {
@@ -13,6 +15,22 @@ double next_speed(double speed, int direction) {
     if (kSpeeds[i] == speed) here = i;
   const int next = here + direction;
   return next < 0 || next >= kCount ? speed : kSpeeds[next];
+}
+
+// To the page of a guide or the step of a lesson after this one or before it, as its buttons would.
+ui::Actions turned(const Session& session, int by) {
+  if (session.jobs().running()) return {};
+  if (session.mode() == ui::Mode::learn && session.lesson().is_open()) {
+    const int to = session.lesson().progress().step + by;
+    if (to == int(session.lesson().lesson().steps.size())) return {ui::LeaveLesson{}};
+    return to < 0 ? ui::Actions{} : ui::Actions{ui::LessonStepTo{to}};
+  }
+  if (!session.guide_in_hand()) return {};
+  GuideSession guide = session.guide().session();
+  const int to = guide.page + by;
+  if (to < 0 || to >= int(guide_of(guide.kind).pages.size()) || (by > 0 && !still_to_do(guide).empty())) return {};
+  turn_to(guide, to);
+  return {ui::ChangeGuide{guide}};
 }
 
 }  // namespace
@@ -52,6 +70,10 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
       return {ToEnd{}};
     case Key::r:
       return {Restart{}};
+    case Key::page_down:
+      return turned(session, 1);
+    case Key::page_up:
+      return turned(session, -1);
     case Key::plus:
       return {SetSpeed{next_speed(session.speed(), 1)}};
     case Key::minus:

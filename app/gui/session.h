@@ -45,6 +45,8 @@ class Session {
   const UmbmarkBench& bench() const { return bench_; }
   const Comparison& comparison() const { return comparison_; }
   const GuideDesk& guide() const { return guide_; }
+  // A guide is on the screen: what is dropped belongs to it.
+  bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
   const LessonDesk& lesson() const { return lesson_; }
   const DiagnosisDesk& diagnosis() const { return diagnosis_; }
   const Jobs& jobs() const { return jobs_; }
@@ -83,8 +85,6 @@ class Session {
   bool open_recording(const std::string& path);
   void compare(std::shared_ptr<const Recording> recording, const Scenario& scenario);
   bool refuse_while_busy(const std::string& what);
-  // A guide is on the screen: what is dropped belongs to it.
-  bool guide_in_hand() const { return mode_ == ui::Mode::calibrate && guide_.shown() && guide_.is_open(); }
   // The scenario is what this mode shows and changes.
   bool edits_scenario() const {
     return mode_ == ui::Mode::drive || mode_ == ui::Mode::learn || (mode_ == ui::Mode::calibrate && !guide_.shown());

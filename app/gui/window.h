@@ -18,6 +18,8 @@ enum class Key {
   down,
   home,
   end,
+  page_up,
+  page_down,
   plus,
   minus,
   zero,

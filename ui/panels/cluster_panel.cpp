@@ -201,6 +201,7 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
 
   // The calibrated runs lie close about the origin: a second, enlarged plot in the emptiest corner.
   const float side = std::round(0.44f * std::min(result.high.x - result.low.x, result.high.y - result.low.y));
+  if (side < theme.px(110)) return;  // nothing could be read in it
   const ImVec2 size{side * 1.15f, side};
   const ImVec2 low = emptiest_corner(experiments, result, state.view, size, theme);
   const ImVec2 high{low.x + size.x, low.y + size.y};

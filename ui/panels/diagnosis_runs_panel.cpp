@@ -214,7 +214,7 @@ Actions diagnosis_runs_panel(const DiagnosisView& view, DiagnosisState& state, c
   }
   ImGui::Dummy({1, theme.px(2)});
   if (view.busy) {
-    progress_row(view, actions, theme);
+    if (!view.runs.empty()) progress_row(view, actions, theme);  // else the middle shows it
   } else {
     ButtonLook ask;
     ask.primary = view.can_diagnose && (!view.diagnosis || view.stale);

@@ -14,6 +14,7 @@ void keys_panel(bool& open, const Theme& theme) {
       {"Space", "play and pause"},
       {"Right, Left", "one picture forward, back (20 ms)"},
       {"Home, End", "to the start, to the latest"},
+      {"Page Down, Page Up", "the next page of a guide or step of a lesson, back"},
       {"R", "restart"},
       {"+, −, 0", "faster, slower, real time"},
       {"F", "fit the floor into sight"},
