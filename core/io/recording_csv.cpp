@@ -41,16 +41,21 @@ bool is_recording_column(std::string_view name) {
          (name.substr(0, 6) == "castor" && ends_with(name, "_pivot_rad"));
 }
 
+std::optional<std::pair<std::string, std::string>> without_partner(const std::vector<std::string>& names) {
+  const auto has = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+  for (const auto& pair : kPairs)
+    for (int i : {0, 1})
+      if (has(pair[i]) && !has(pair[1 - i])) return std::pair{std::string(pair[i]), std::string(pair[1 - i])};
+  return std::nullopt;
+}
+
 Result<Recording> read_recording_csv(const std::string& path) {
   Result<CsvTable> table = read_csv_table(path, {"time_s"}, [](std::string_view name) {
     return is_recording_column(name) ? CsvCells::numbers_or_empty : CsvCells::anything;
   });
   if (!table) return table.error();
-  for (const auto& pair : kPairs)
-    for (int i : {0, 1})
-      if (table->column(pair[i]) && !table->column(pair[1 - i]))
-        return Error{path + ":1", "the column '" + std::string(pair[i]) + "' alone",
-                     "a column '" + std::string(pair[1 - i]) + "' with it"};
+  if (const auto lonely = without_partner(table->names))
+    return Error{path + ":1", "the column '" + lonely->first + "' alone", "a column '" + lonely->second + "' with it"};
   Recording recording;
   recording.name = std::filesystem::path(path).filename().string();
   recording.provenance = "recording file";

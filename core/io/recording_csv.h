@@ -1,8 +1,11 @@
 // A recording as a CSV file: a header line with the contract's column names, then rows in time order.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/recording/recording.h"
@@ -12,6 +15,9 @@ namespace odolab {
 // Whether a column's name is one of those that recordings define; others are kept, and what is no number there is
 // empty.
 bool is_recording_column(std::string_view name);
+
+// A column that says nothing without another (a left wheel without the right one), and that other.
+std::optional<std::pair<std::string, std::string>> without_partner(const std::vector<std::string>& names);
 
 // Errors name file, line and column, what was found and what was expected. The recording takes the file's name.
 Result<Recording> read_recording_csv(const std::string& path);

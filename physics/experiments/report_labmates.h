@@ -34,7 +34,8 @@ TypeErrors type_errors(double diameter_ratio, double wheelbase_ratio, double nom
 // each, Eqs. 6.19 and 6.20.
 double first_order_largest_error_m(const TypeErrors& errors, double side_m = kReportSide_m);
 
-// Robots drawn with up to 0.3 % between the wheels and 1 % in the wheelbase, kept where Emax,syst lies as in Table III.
+// Robots drawn with up to 0.3 % between the wheels and 1 % in the wheelbase, kept where Emax,syst by
+// the first-order formulas lies as in Table III.
 std::vector<Scenario> labmates_of_table3(int count, std::uint64_t seed);
 
 }  // namespace odolab

@@ -129,7 +129,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       {.sentence = "what it states about its own uncertainty is true (95 % of the errors within 1.96 standard errors)",
        .holds =
            held >= stated - 1 - stated / 8,  // of 16 at least 13: fewer happens to a true statement in 1 % of cases
-       .because = std::to_string(held) + " of " + std::to_string(stated) + " within"},
+       .because = std::to_string(held) + " of " + std::to_string(stated) +
+                  " within; a true statement has fewer than 13 of 16 in one case of a hundred"},
   };
   report.notes = {"on this floor a wheel travels " + number_text("%.2f", 100.0 * (1.0 - floor_share)) +
                   " % less than it rolls; the tape is read on the same floor, so that the scale found holds there, and "

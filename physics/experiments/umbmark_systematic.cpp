@@ -193,8 +193,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
                   " mm, the floor alone by " + number("%.0f", mean(trailer.spread_mm)) + " mm"},
   };
   report.assumptions = {report_floor_assumption(),
-                        "LabMates: up to 0.3 % between the wheels and 1 % in the wheelbase, kept where Emax,syst lies "
-                        "between 232 and 423 mm",
+                        "LabMates: up to 0.3 % between the wheels and 1 % in the wheelbase, drawn so that the "
+                        "first-order formulas give an Emax,syst of 232 to 423 mm",
                         k2a_assumption(),
                         clapper_assumption(),
                         andros_assumption(),

@@ -166,7 +166,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
   };
   report.assumptions = {
       report_floor_assumption(),
-      "up to 0.3 % between the wheels and 1 % in the wheelbase, kept where Emax,syst lies between 232 and 423 mm",
+      "up to 0.3 % between the wheels and 1 % in the wheelbase, drawn so that the first-order formulas give an "
+      "Emax,syst of 232 to 423 mm; on this floor it scatters about that",
       "experiment 7's tape settles after the first squares, by what makes the report's 66 mm by Eqs. 6.19 to 6.24: an "
       "input, put in to see what the second compensation does; the report does not say what was different",
   };

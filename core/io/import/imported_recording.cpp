@@ -5,6 +5,7 @@
 
 #include "core/io/bag/bag.h"
 #include "core/io/import/format.h"
+#include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
 #include "core/io/recording_csv.h"
 #include "core/io/whole_file.h"
@@ -65,6 +66,21 @@ std::string known_formats() {
   return text;
 }
 
+// Text of columns wants a mapping; what else it may be nobody needs to read.
+Error of_no_known_format(const std::string& path) {
+  const std::string start = read_file_start(path);
+  if (start.empty()) return {path, "an empty file", known_formats()};
+  Result<TextRows> rows = TextRows::open(path, {});
+  if (!rows) return rows.error();
+  std::vector<std::string_view> cells;
+  if (start.find('\0') != std::string::npos || !rows->next(cells) || cells.size() < 2 || cells.back().empty())
+    return {path, "a file of no known format", known_formats()};
+  std::string names;
+  for (std::size_t i = 0; i < cells.size() && i < 8; ++i) names += (i ? ", " : "") + in_quotes(cells[i]);
+  return {path, "columns of one's own (" + names + (cells.size() > 8 ? ", ..." : "") + ")",
+          "--map CHANNEL=COLUMN[,UNIT] for each, such as time_s=1,ms left_wheel_rad=2,deg (a name or a number)"};
+}
+
 }  // namespace
 
 bool is_foreign_recording(const std::string& path) { return format_of(path) != nullptr; }
@@ -95,7 +111,7 @@ Result<std::vector<const ForeignFormat*>> formats_of(const std::vector<std::stri
     if (!fs::exists(source, failure)) return Error{source, "no such file", "a file that can be read"};
     const ForeignFormat* of_this = format_of(source, wishes, sources.size() == 1);
     if (!of_this && fs::is_directory(source, failure)) return folder_given(source);
-    if (!of_this) return Error{source, "a file of no known format", known_formats()};
+    if (!of_this) return of_no_known_format(source);
     const ForeignFormat* first = formats.empty() ? of_this : formats.front();
     if (of_this != first && !(of_this->stream && first->stream))
       return Error{source, std::string("a file of ") + of_this->name,
@@ -112,6 +128,7 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
   bool stop = false;
   streams.progress = [&progress, &stop](double share) { return !(stop = stop || !goes_on(progress, share)); };
   streams.spill_folder = spill_folder;
+  streams.several_sources = sources.size() > 1;
   fs::path first = fs::path(sources.front()).lexically_normal();
   if (first.filename().empty()) first = first.parent_path();
   streams.name = first.filename().string();
@@ -119,6 +136,16 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
     if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done || stop)
       return stop ? stopped(sources[i]) : done.error();
   streams.progress = progress;
+  // with several sources each column of a mapping may be in any, and must be in one
+  for (const MappedColumn& column : wishes.mapping.columns) {
+    const std::string channel = column.becomes.substr(0, 7) == "truth_q" ? "truth_heading_rad" : column.becomes;
+    const bool there =
+        channel == "time_s" || std::any_of(streams.streams.begin(), streams.streams.end(), [&](const SampleSpool& s) {
+          return std::find(s.channels().begin(), s.channels().end(), channel) != s.channels().end();
+        });
+    if (!there)
+      return Error{"--map", "no column " + in_quotes(column.column) + " in any source", "one for " + column.becomes};
+  }
   return streams;
 }
 

@@ -1,4 +1,5 @@
 // Any text of rows and columns, through a mapping that a person gives.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -40,9 +41,9 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > 12 ? text + ", ..." : text;
 }
 
-bool all_numbers(const std::vector<std::string_view>& cells) {
+bool all_numbers(TextRows& rows, const std::vector<std::string_view>& cells) {
   for (std::string_view cell : cells)
-    if (!cell.empty() && !number_from(cell)) return false;
+    if (!cell.empty() && !rows.number(cell)) return false;
   return true;
 }
 
@@ -65,9 +66,13 @@ struct Layout {
 };
 
 std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::string>& header, std::size_t cells,
-                             const std::string& path, std::uint64_t line, Layout& layout) {
+                             const std::string& path, std::uint64_t line, bool one_of_several, Layout& layout) {
   for (const MappedColumn& column : mapping.columns) {
     const std::optional<std::size_t> at = column_index(column.column, header, cells);
+    if (std::count(header.begin(), header.end(), column.column) > 1)
+      return Error{path + ":" + std::to_string(line), "several columns " + in_quotes(column.column),
+                   "one, or the column's number in the mapping"};
+    if (!at && one_of_several && !header.empty()) continue;
     if (!at)
       return Error{path + ":" + std::to_string(line),
                    header.empty() ? std::to_string(cells) + " columns without names" : "the columns " + listed(header),
@@ -83,8 +88,10 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
       layout.sources.push_back(source);
     }
   }
+  if (layout.channels.empty() && layout.quaternion[2].cell == kNowhere && layout.quaternion[3].cell == kNowhere)
+    return Error{path + ":" + std::to_string(line), "the columns " + listed(header), "one that the mapping names"};
   if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0))
-    return Error{path, "a mapping without time_s", "time_s=COLUMN, or a period between rows"};
+    return Error{path, "no column for time_s", "time_s=COLUMN, or a period between rows"};
   return std::nullopt;
 }
 
@@ -103,7 +110,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
 
   // names stand in a first row that is not all numbers, or in the comment above the first row
   std::vector<std::string> header;
-  const bool named = !all_numbers(cells);
+  const bool named = !all_numbers(*rows, cells);
   if (named) {
     header.assign(cells.begin(), cells.end());
   } else if (!rows->last_comment().empty()) {
@@ -112,7 +119,8 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     if (names.size() == cells.size()) header.assign(names.begin(), names.end());
   }
   Layout layout;
-  if (auto error = lay_out(mapping, header, cells.size(), path, rows->line(), layout)) return *error;
+  if (auto error = lay_out(mapping, header, cells.size(), path, rows->line(), streams.several_sources, layout))
+    return *error;
   const bool has_quaternion = layout.quaternion[3].cell != kNowhere || layout.quaternion[2].cell != kNowhere;
   if (has_quaternion) layout.channels.push_back("truth_heading_rad");
   SampleSpool& spool = streams.add_stream(layout.channels);
@@ -128,14 +136,17 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     };
     std::optional<std::int64_t> time_ns;
     if (layout.time.cell != kNowhere) {
-      time_ns = stamp_ns(cell_of(layout.time), unit_ns(layout.time.mapped->unit));
+      time_ns = rows->stamp_ns(cell_of(layout.time), unit_ns(layout.time.mapped->unit));
       if (time_ns && layout.time.mapped->factor != 1.0)
         time_ns = whole_ns(static_cast<double>(*time_ns) * layout.time.mapped->factor);
     } else {
       time_ns = whole_ns(static_cast<double>(row_number++) * mapping.period_s * 1e9);
     }
     if (!time_ns) {
-      left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " is no time");
+      left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " is no time in " +
+                                     (layout.time.cell == kNowhere || layout.time.mapped->unit.empty()
+                                          ? std::string("s (ms, us, ns say otherwise)")
+                                          : layout.time.mapped->unit));
       continue;
     }
     if (*time_ns < last_ns) {
@@ -148,7 +159,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
       if (source.cell >= cells.size())
         problem = rows->cut() ? "the last line is cut off" : std::to_string(cells.size()) + " cells, too few";
       if (says_nothing(cell)) return kEmpty;
-      const std::optional<double> value = number_from(cell);
+      const std::optional<double> value = rows->number(cell);
       if (!value) problem = in_quotes(cell) + " is no number";
       return value ? *value * source.factor : kEmpty;
     };
@@ -177,7 +188,9 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     spool.add(*time_ns, values.data());
   }
   if (kept == 0) return left_out.error(path, "rows of numbers in the mapped columns");
-  left_out.warn(std::filesystem::path(path).filename().string(), streams.warnings);
+  const std::string name = std::filesystem::path(path).filename().string();
+  left_out.warn(name, streams.warnings);
+  if (rows->decimal_commas()) streams.warnings.push_back(name + ": commas in numbers are taken for decimal points");
   if (streams.provenance.empty()) streams.provenance = "text, by a mapping";
   return Done{};
 }

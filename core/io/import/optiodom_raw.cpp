@@ -146,9 +146,9 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
   if (!std::filesystem::exists(motive_path, failure)) {
     const std::string synchronised = with_ending(odometry_path, "_odo.csv", ".csv");
     const bool there = !synchronised.empty() && std::filesystem::exists(synchronised, failure);
-    return Error{
-        odometry_path, "the odometry alone",
-        "its _opti.csv too" + (there ? ", or the synchronised file '" + synchronised + "' instead" : std::string())};
+    return Error{odometry_path, "three columns as of OptiOdom's raw odometry, alone",
+                 "its _opti.csv too, or --map for other columns" +
+                     (there ? ", or the synchronised file '" + synchronised + "' instead" : std::string())};
   }
   if (!std::filesystem::exists(odometry_path, failure))
     return Error{motive_path, "the cameras' file alone", "its _odo.csv too"};

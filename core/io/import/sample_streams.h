@@ -16,6 +16,7 @@ struct SampleStreams {
   std::deque<SampleSpool> streams;
   std::vector<std::string> warnings;  // what a person should know, a sentence each
   std::string name, provenance;       // as in Recording
+  bool several_sources = false;       // then each may bring some of what was asked for
   std::string spill_folder;           // where samples may lie while they are sorted; empty: in memory
   Progress progress;                  // of reading and writing; where it says to stop, what was read so far is no use
 

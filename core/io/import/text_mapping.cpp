@@ -63,7 +63,8 @@ std::optional<Error> problem_in(const MappedColumn& column, const std::string& w
 
 void put(TextMapping& mapping, MappedColumn column) {
   for (MappedColumn& known : mapping.columns)
-    if (known.becomes == column.becomes) {
+    // files that are given together may call their time differently
+    if (known.becomes == column.becomes && (column.becomes != "time_s" || known.column == column.column)) {
       known = std::move(column);
       return;
     }

@@ -43,7 +43,7 @@ struct TextMapping {
 std::optional<double> unit_factor(const std::string& channel, ColumnKind kind, const std::string& unit);
 
 // "left_wheel_rad=-enc_l,deg,rate": channel, column, then unit, kind and factor in any order; a minus before the column
-// is a factor of -1. Replaces an earlier column of the same channel.
+// is a factor of -1. Replaces an earlier column of the same channel, but for another time_s.
 std::optional<Error> add_column(TextMapping& mapping, const std::string& words);
 
 // A TOML file: delimiter ("comma", "semicolon", "tab", "blank"), comment, skip_lines, period_s, and [[column]] with

@@ -21,6 +21,12 @@ Result<TextRows> TextRows::open(const std::string& path, const TextShape& shape,
   Result<FileWindow> file = FileWindow::open(path, progress);
   if (!file) return file.error();
   if (file->peek(3) == "\xEF\xBB\xBF") file->advance(3);
+  const std::string_view start = file->peek(kUsualLine);
+  if (start.substr(0, 2) == "\xFF\xFE" || start.substr(0, 2) == "\xFE\xFF")
+    return Error{path, "text in UTF-16", "text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it"};
+  if (start.size() == kUsualLine && start.find('\r') != std::string_view::npos &&
+      start.find('\n') == std::string_view::npos)
+    return Error{path, "lines that end in a carriage return alone", "lines that end as elsewhere: 'tr' makes them so"};
   TextRows rows(std::move(*file), shape);
   std::string_view line;
   for (int i = 0; i < shape.skip_lines && rows.next_line(line); ++i) {
@@ -43,6 +49,27 @@ bool TextRows::next_line(std::string_view& line) {
   file_.advance(cut_ ? bytes.size() : end + 1);
   ++line_;
   return !bytes.empty();
+}
+
+std::string_view TextRows::with_point(std::string_view cell) {
+  const std::size_t comma = shape_.delimiter == ',' ? std::string_view::npos : cell.find(',');
+  if (comma == std::string_view::npos || cell.find('.') != std::string_view::npos ||
+      cell.find(',', comma + 1) != std::string_view::npos)
+    return cell;
+  pointed_ = cell;
+  pointed_[comma] = '.';
+  return pointed_;
+}
+
+std::optional<double> TextRows::number(std::string_view cell) {
+  const std::string_view pointed = with_point(cell);
+  const std::optional<double> value = number_from(pointed);
+  if (value && pointed.data() != cell.data()) decimal_commas_ = true;
+  return value;
+}
+
+std::optional<std::int64_t> TextRows::stamp_ns(std::string_view cell, std::int64_t unit_ns) {
+  return odolab::stamp_ns(with_point(cell), unit_ns);
 }
 
 bool TextRows::next(std::vector<std::string_view>& cells) {
@@ -102,7 +129,53 @@ Error RowsLeftOut::error(const std::string& path, const std::string& expected) c
   return {path + ":" + std::to_string(first_line_), first_why_, expected};
 }
 
+namespace {
+
+// Days from 1970 to a date of the Gregorian calendar (H. Hinnant, chrono-compatible low-level date algorithms).
+std::int64_t days_from_1970(std::int64_t year, std::int64_t month, std::int64_t day) {
+  year -= month <= 2;
+  const std::int64_t era = year / 400, of_era = year - 400 * era;
+  const std::int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
+  return 146097 * era + 365 * of_era + of_era / 4 - of_era / 100 + of_year - 719468;
+}
+
+// "2024-01-31T12:00:00.25", a blank in place of the T, with Z or an offset behind or nothing.
+std::optional<std::int64_t> date_ns(std::string_view text) {
+  const auto digits = [&](std::size_t at, std::size_t n) -> std::int64_t {
+    std::int64_t value = 0;
+    for (std::size_t i = at; i < at + n; ++i) {
+      if (i >= text.size() || text[i] < '0' || text[i] > '9') return -1;
+      value = 10 * value + (text[i] - '0');
+    }
+    return value;
+  };
+  const auto is = [&](std::size_t at, char a, char b) { return at < text.size() && (text[at] == a || text[at] == b); };
+  const std::int64_t year = digits(0, 4), month = digits(5, 2), day = digits(8, 2), hour = digits(11, 2),
+                     minute = digits(14, 2), second = digits(17, 2);
+  if (!is(4, '-', '/') || !is(7, '-', '/') || !is(10, 'T', ' ') || !is(13, ':', ':') || !is(16, ':', ':') ||
+      year < 1970 || year > 2099 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 ||
+      minute < 0 || minute > 59 || second < 0 || second > 60)
+    return std::nullopt;
+  std::int64_t ns = ((days_from_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second;
+  ns *= 1'000'000'000;
+  std::size_t at = 19;
+  if (is(at, '.', ',')) {
+    std::int64_t place = 100'000'000;
+    for (++at; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at, place /= 10)
+      ns += place * (text[at] - '0');
+  }
+  if (at == text.size() || (text[at] == 'Z' && at + 1 == text.size())) return ns;
+  const std::int64_t hours = digits(at + 1, 2), minutes = digits(at + (is(at + 3, ':', ':') ? 4 : 3), 2);
+  const std::size_t whole = at + (is(at + 3, ':', ':') ? 6 : 5);
+  if (!is(at, '+', '-') || hours < 0 || minutes < 0 || text.size() != whole) return std::nullopt;
+  const std::int64_t offset_ns = (hours * 60 + minutes) * 60'000'000'000;
+  return text[at] == '+' ? ns - offset_ns : ns + offset_ns;
+}
+
+}  // namespace
+
 std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns) {
+  if (text.size() >= 19 && (text[4] == '-' || text[4] == '/')) return date_ns(text);
   const bool negative = !text.empty() && text.front() == '-';
   std::string_view digits = text;
   if (!digits.empty() && (digits.front() == '-' || digits.front() == '+')) digits.remove_prefix(1);

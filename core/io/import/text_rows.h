@@ -16,6 +16,11 @@ class TextRows {
  public:
   static Result<TextRows> open(const std::string& path, const TextShape& shape, const Progress& progress = {});
 
+  // A number of a cell: where commas do not divide cells, one in a number that has no point is its decimal point.
+  std::optional<double> number(std::string_view cell);
+  std::optional<std::int64_t> stamp_ns(std::string_view cell, std::int64_t unit_ns);
+  bool decimal_commas() const { return decimal_commas_; }  // whether there were any
+
   // The next row that holds anything; false at the end. The cells are valid until the next call; quotes around a cell
   // are taken off. A byte-order mark, CRLF and empty lines are tolerated; of a line beyond a megabyte the first one is
   // given.
@@ -29,12 +34,14 @@ class TextRows {
  private:
   TextRows(FileWindow file, TextShape shape) : file_(std::move(file)), shape_(std::move(shape)) {}
   bool next_line(std::string_view& line);
+  std::string_view with_point(std::string_view cell);
 
   FileWindow file_;
   TextShape shape_;
   std::uint64_t line_ = 0;
   bool cut_ = false;
-  std::string last_comment_;
+  bool decimal_commas_ = false;
+  std::string last_comment_, pointed_;
 };
 
 // Cells of one line at a delimiter, blanks and quotes around each taken off.
@@ -57,7 +64,8 @@ class RowsLeftOut {
 };
 
 // A stamp in decimal digits as whole nanoseconds, exact for as many digits as a file may have; `unit_ns` is 1, 1000,
-// ... of its unit. Nothing where it is no number, or beyond the year 2100.
+// ... of its unit. A date with a time ("2024-01-31 12:00:00.25", with T and an offset too) counts from 1970, UTC where
+// it does not say otherwise. Nothing where it is neither, or beyond the year 2100.
 std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns);
 std::optional<std::int64_t> whole_ns(double ns);  // rounded; within the same bounds
 

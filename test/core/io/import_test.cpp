@@ -70,7 +70,10 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint({folder.write("d.csv", "0.1,0,0,0,0,0\n0.05,0,0,0,1,1\n")}),
             "d.csv:2: column 1: found 0.05 after 0.1, expected times that never decrease");
   const std::string odometry = folder.write("a_run-01_odo.csv", "23.5,0,0\n23.55,1,2\n");
-  EXPECT_EQ(complaint({odometry}), "a_run-01_odo.csv: found the odometry alone, expected its _opti.csv too");
+  EXPECT_EQ(complaint({odometry}),
+            "a_run-01_odo.csv: found three columns as of OptiOdom's raw odometry, alone, expected its _opti.csv too, "
+            "or --map "
+            "for other columns");
   EXPECT_EQ(complaint({odometry, synchronised}),
             "run-01.csv: found a file of OptiOdom, synchronised, expected one of OptiOdom, raw as the first source");
   const std::string utias = folder.write("Robot4_Odometry.dat", "# UTIAS\n1 2 3\n");

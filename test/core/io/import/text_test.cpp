@@ -48,6 +48,69 @@ TEST(MappedText, TakesColumnsByNameUnitAndSign) {
   EXPECT_EQ(r.channel("truth_x_m")->values[2], 2.5);
 }
 
+TEST(TextStamp, ReadsDates) {
+  EXPECT_EQ(stamp_ns("2024-01-02T03:04:05.25", 1), 1704164645250000000);
+  EXPECT_EQ(stamp_ns("2024/01/02 03:04:05Z", 1), 1704164645000000000);
+  EXPECT_EQ(stamp_ns("2024-01-02T03:04:05+02:00", 1), 1704157445000000000);
+  EXPECT_EQ(stamp_ns("2024-01-02T03:04:05,5-0130", 1), 1704170045500000000);
+  EXPECT_EQ(stamp_ns("1970-01-01 00:00:00", 1), 0);
+  EXPECT_EQ(stamp_ns("2000-03-01T00:00:00", 1), 951868800000000000);  // a leap year of a full century
+  for (const char* none : {"2024-13-02T03:04:05", "2024-01-02T03:04", "2024-01-02T03:04:05x", "2024-01-02T03:04:05+2"})
+    EXPECT_FALSE(stamp_ns(none, 1)) << none;
+}
+
+// As a spreadsheet writes it where the comma is the decimal point.
+TEST(MappedText, TakesDecimalCommasWhereTheyDivideNoCells) {
+  ScratchFolder folder;
+  const std::string path =
+      folder.write("log.csv", "\xEF\xBB\xBFZeit [ms];links;rechts\r\n0,0;0,5;-1\r\n20,5;1,25;2.5\r\n");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=Zeit [ms],ms", "left_wheel_rad=links", "right_wheel_rad=rechts"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 0.0205}));
+  EXPECT_EQ(imported->recording.channel("left_wheel_rad")->values, (std::vector<double>{0.5, 1.25}));
+  EXPECT_EQ(imported->recording.channel("right_wheel_rad")->values, (std::vector<double>{-1.0, 2.5}));
+  EXPECT_EQ(imported->warnings, std::vector<std::string>{"log.csv: commas in numbers are taken for decimal points"});
+}
+
+TEST(MappedText, TakesItsColumnsFromSeveralFiles) {
+  ScratchFolder folder;
+  const std::string wheels = folder.write("wheels.csv", "stamp,l,r\n10,0,0\n11,1,2\n");
+  const std::string truth = folder.write("truth.csv", "t,x,y\n10,0,0\n10.5,1,2\n");
+  const std::vector<std::string> columns = {"time_s=stamp",      "time_s=t",    "left_wheel_rad=l",
+                                            "right_wheel_rad=r", "truth_x_m=x", "truth_y_m=y"};
+  const Result<ImportedRecording> imported = import_recording({wheels, truth}, mapped(columns));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 0.5, 1.0}));
+  std::vector<std::string> more = columns;
+  more.push_back("truth_heading_rad=yaw");
+  EXPECT_EQ(import_recording({wheels, truth}, mapped(more)).error().message(),
+            "--map: found no column 'yaw' in any source, expected one for truth_heading_rad");
+}
+
+// What a person who gives odd files is told.
+TEST(MappedText, SaysWhatIsOdd) {
+  ScratchFolder folder;
+  const auto complaint = [&](const std::string& text, const std::vector<std::string>& columns) {
+    return message_of(import_recording({folder.write("log.csv", text)}, mapped(columns)), folder.path("x"));
+  };
+  EXPECT_EQ(complaint("a;b\n1;2\n", {}),
+            "log.csv: found columns of one's own ('a', 'b'), expected --map CHANNEL=COLUMN[,UNIT] for each, such as "
+            "time_s=1,ms left_wheel_rad=2,deg (a name or a number)");
+  EXPECT_EQ(complaint("t,a,a\n1,2,3\n", {"time_s=t", "left_wheel_rad=a", "right_wheel_rad=a"}),
+            "log.csv:1: found several columns 'a', expected one, or the column's number in the mapping");
+  EXPECT_EQ(complaint("t,a\n1,2\n", {"time_s=t", "left_ticks=a"}),
+            "log.csv: found left_ticks alone, expected right_ticks with it");
+  EXPECT_EQ(complaint(std::string("\xFF\xFEt\0,\0", 6), {"time_s=t", "truth_x_m=a", "truth_y_m=a"}),
+            "log.csv: found text in UTF-16, expected text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it");
+  EXPECT_EQ(
+      complaint("t,a,b\n1700000000123456789,2,3\n", {"time_s=t", "truth_x_m=a", "truth_y_m=b"}),
+      "log.csv:2: found '1700000000123456789' is no time in s (ms, us, ns say otherwise), expected rows of numbers "
+      "in the mapped columns");
+  EXPECT_EQ(complaint("time_s;left_wheel_rad;right_wheel_rad\n0,0;1;2\n", {}),
+            "log.csv:1: found columns that no comma divides, expected commas; odolab import --map reads other text");
+}
+
 // A wheel that speeds up evenly: the integral between samples is exact by the trapezium rule.
 TEST(MappedText, AddsUpRatesOverIrregularTimesAndIncrementsOverRows) {
   ScratchFolder folder;
@@ -95,7 +158,7 @@ TEST(MappedText, SaysWhatAMappingLacks) {
   EXPECT_EQ(complaint(mapped({"time_s=stamp"})),
             "log.csv:1: found the columns 't', 'l', expected a column 'stamp' for time_s");
   EXPECT_EQ(complaint(mapped({"left_ticks=l"})),
-            "log.csv: found a mapping without time_s, expected time_s=COLUMN, or a period between rows");
+            "log.csv: found no column for time_s, expected time_s=COLUMN, or a period between rows");
   TextMapping mapping;
   EXPECT_EQ(add_column(mapping, "left_wheel_rad")->message(),
             "--map: found 'left_wheel_rad', expected CHANNEL=COLUMN, then what is known of it: "
