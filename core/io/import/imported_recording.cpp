@@ -136,13 +136,15 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
     if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done || stop)
       return stop ? stopped(sources[i]) : done.error();
   streams.progress = progress;
+  std::vector<std::string> channels;
+  for (const SampleSpool& stream : streams.streams)
+    channels.insert(channels.end(), stream.channels().begin(), stream.channels().end());
+  if (const auto lonely = without_partner(channels))
+    return Error{sources.front(), lonely->first + " alone", lonely->second + " with it"};
   // with several sources each column of a mapping may be in any, and must be in one
   for (const MappedColumn& column : wishes.mapping.columns) {
     const std::string channel = column.becomes.substr(0, 7) == "truth_q" ? "truth_heading_rad" : column.becomes;
-    const bool there =
-        channel == "time_s" || std::any_of(streams.streams.begin(), streams.streams.end(), [&](const SampleSpool& s) {
-          return std::find(s.channels().begin(), s.channels().end(), channel) != s.channels().end();
-        });
+    const bool there = channel == "time_s" || std::find(channels.begin(), channels.end(), channel) != channels.end();
     if (!there)
       return Error{"--map", "no column " + in_quotes(column.column) + " in any source", "one for " + column.becomes};
   }

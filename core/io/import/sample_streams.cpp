@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/io/number_text.h"
-#include "core/io/recording_csv.h"
 #include "core/io/whole_file.h"
 
 namespace odolab {
@@ -39,8 +38,6 @@ class Rows {
       }
       rows.heads_.push_back({&stream, 0, std::vector<double>(stream.channels().size()), true});
     }
-    if (const auto lonely = without_partner(rows.names))
-      return Error{from.name, lonely->first + " alone", lonely->second + " with it"};
     if (rows.heads_.empty()) return Error{from.name, "no sample", "wheels, commands or a truth"};
     std::int64_t zero = std::numeric_limits<std::int64_t>::max();
     for (Head& head : rows.heads_) {
