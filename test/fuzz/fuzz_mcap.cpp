@@ -6,5 +6,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = odolab::input_file(data, size, ".mcap");
   if (const auto imported = odolab::import_recording({path})) odolab::must_be_sound(imported->recording);
+  odolab::ImportWishes wishes;
+  wishes.truth = "/tf:map:base_link";
+  if (const auto imported = odolab::import_recording({path}, wishes)) odolab::must_be_sound(imported->recording);
   return 0;
 }

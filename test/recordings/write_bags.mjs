@@ -233,20 +233,22 @@ execFileSync("zstd", ["-q", "-19", folder + "plain.mcap", "-o", folder + "packed
 // Seeds of the fuzzers: three samples of everything.
 samples = 3;
 const seeds = new URL("../fuzz/seeds/", import.meta.url).pathname;
-for (const name of ["mcap", "sqlite", "messages"]) {
+for (const name of ["mcap", "packed", "sqlite", "messages"]) {
   rmSync(seeds + name, { recursive: true, force: true });
   mkdirSync(seeds + name, { recursive: true });
 }
-const few = run(), fewOfAll = allTypes();
+const few = run(), fewOfAll = allTypes(), fewChained = chained();
 await mcap("small.mcap", few, { useChunks: false });
 await mcap("small_chunks.mcap", few, { chunkSize: 500 });
 await mcap("small_zstd.mcap", few, packed("zstd", "zstd", ["-q", "-c"]));
 await mcap("small_lz4.mcap", few, packed("lz4", "lz4", ["-q", "-c"]));
 await mcap("small_all.mcap", fewOfAll, { chunkSize: 2000 });
-for (const name of ["small", "small_chunks", "small_zstd", "small_lz4", "small_all"]) {
+await mcap("small_chain.mcap", fewChained, { useChunks: false });
+for (const name of ["small", "small_chunks", "small_zstd", "small_lz4", "small_all", "small_chain"]) {
   writeFileSync(seeds + "mcap/" + name + ".mcap", withoutChecksums(readFileSync(folder + name + ".mcap")));
   rmSync(folder + name + ".mcap");
 }
+execFileSync("zstd", ["-q", seeds + "mcap/small.mcap", "-o", seeds + "packed/small.mcap.zstd"]);
 execFileSync("python3", [new URL("./write_db3.py", import.meta.url).pathname, seeds + "sqlite", "512"],
   { input: JSON.stringify(plain(few)), stdio: ["pipe", "inherit", "inherit"] });
 // the type's number as in fuzz_messages.cpp, then the message
