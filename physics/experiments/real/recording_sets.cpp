@@ -1,8 +1,10 @@
 #include "physics/experiments/real/recording_sets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 #include "core/io/import/imported_recording.h"
 
@@ -47,6 +49,45 @@ Vehicle irobot_create() {
   vehicle.name = "iRobot Create";
   vehicle.kind = drive;
   return vehicle;
+}
+
+// Neighbouring samples of a truth that comes 66 times a second have their errors in common, which a fit takes for
+// motion (README.md).
+constexpr double kUtiasTruth_s = 0.1;
+
+// The truth no more often than that, and of commands with one stamp the last, which is the one that acts.
+Recording thinned(const Recording& recording, double truth_period_s) {
+  constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
+  Recording out = recording;
+  double last_s = -std::numeric_limits<double>::infinity();
+  const std::size_t n = recording.time_s.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    bool truth = false, overruled = false;
+    for (const Channel& c : recording.channels) {
+      if (std::isnan(c.values[i])) continue;
+      if (c.name.compare(0, 6, "truth_") == 0) truth = true;
+      if (c.name.compare(0, 8, "command_") == 0)
+        for (std::size_t k = i + 1; k < n && recording.time_s[k] == recording.time_s[i]; ++k)
+          overruled = overruled || !std::isnan(c.values[k]);
+    }
+    const bool early = truth && recording.time_s[i] - last_s < truth_period_s - 1e-6;
+    if (truth && !early) last_s = recording.time_s[i];
+    for (Channel& c : out.channels)
+      if ((early && c.name.compare(0, 6, "truth_") == 0) || (overruled && c.name.compare(0, 8, "command_") == 0))
+        c.values[i] = kEmpty;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool any = std::any_of(out.channels.begin(), out.channels.end(),
+                                 [i](const Channel& c) { return !std::isnan(c.values[i]); });
+    if (!any) continue;
+    out.time_s[kept] = out.time_s[i];
+    for (Channel& c : out.channels) c.values[kept] = c.values[i];
+    ++kept;
+  }
+  out.time_s.resize(kept);
+  for (Channel& c : out.channels) c.values.resize(kept);
+  return out;
 }
 
 void read_into(RecordingSet& set, const fs::path& path) {
@@ -97,6 +138,8 @@ std::vector<RecordingSet> recording_sets(const std::string& folder, std::vector<
     RecordingSet set{name, data_set.string(), irobot_create(), true, {}, {}};
     for (const fs::path& file : entries(data_set, false))
       if (ends_in(file.filename().string(), "_Odometry.dat")) read_into(set, file);
+    for (Recording& recording : set.recordings) recording = thinned(recording, kUtiasTruth_s);
+    if (!set.recordings.empty()) set.notes.push_back(name + ": the truth is taken ten times a second");
     if (!set.recordings.empty() || !set.notes.empty()) sets.push_back(std::move(set));
   }
   if (sets.size() == before) skipped.push_back("skipped: the UTIAS recordings are not in " + folder + "/mrclam*");

@@ -23,7 +23,8 @@ struct RecordingSet {
 std::string recordings_folder(const std::string& given);
 
 // OptiOdom: every <folder>/optiodom/KIND/ID with synchronised runs is a set, and one more with its raw pairs. UTIAS:
-// every folder mrclam* is a set of robots. A kind of which nothing is there leaves a sentence in `skipped`.
+// every folder mrclam* is a set of robots, their truth thinned to 10 Hz. A kind of which nothing is there leaves a
+// sentence in `skipped`.
 std::vector<RecordingSet> recording_sets(const std::string& folder, std::vector<std::string>& skipped);
 
 }  // namespace odolab

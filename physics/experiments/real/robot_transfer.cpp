@@ -56,6 +56,8 @@ std::vector<TypicalError> gathered(const Track& estimate, const Track& truth) {
                d = pose_at(estimate, to_s);
     if (!a || !b || !c || !d) continue;
     const Pose moved = between(*a, *b), reckoned = between(*c, *d);
+    const double off_m = length(reckoned.position() - moved.position());
+    if (!std::isfinite(off_m)) continue;
     errors.push_back(
         {length(reckoned.position() - moved.position()), std::abs(wrapped(reckoned.heading_rad - moved.heading_rad))});
   }
