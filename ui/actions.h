@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/guide/guide_session.h"
+#include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
 #include "ui/diagnosis_actions.h"
 
@@ -124,6 +125,10 @@ struct SaveScenario {
 struct SaveRecording {
   std::string path;
 };
+struct SaveCurves {  // that the plot over time shows, within what it shows of it
+  std::string path;
+  Recording curves;
+};
 struct LoadFirstScenario {};
 struct SetMode {
   Mode mode = Mode::drive;
@@ -140,7 +145,8 @@ using Action =
                  ClearBenchmark, CancelJob, ShowGuides, BeginGuide, ResumeGuide, LeaveGuide, ChangeGuide,
                  ChooseGuideVehicle, DriveGuide, ExportGuide, OpenLesson, LessonStepTo, AnswerLesson, AskMystery,
                  LeaveLesson, ReplayWith, CalibrateFromRecording, RecordSimulatedRun, InDiagnosis, TakeDriveVehicle,
-                 OpenFile, SaveScenario, SaveRecording, LoadFirstScenario, SetMode, DismissMessage, SavePicture, Quit>;
+                 OpenFile, SaveScenario, SaveRecording, SaveCurves, LoadFirstScenario, SetMode, DismissMessage,
+                 SavePicture, Quit>;
 
 using Actions = std::vector<Action>;
 

@@ -67,9 +67,9 @@ struct DiagnosisView {
 
   const Diagnosis* diagnosis = nullptr;
   const std::vector<Response>* responses = nullptr;  // what the mismatch depends on; null without an answer
-  int answers = 0;            // so many were given so far
-  std::size_t worst_run = 0;  // of the answer, in the list
-  bool stale = false;         // the runs or the vehicle have changed since
+  int answers = 0;                                   // so many were given so far
+  std::size_t worst_run = 0;                         // of the answer, in the list
+  bool stale = false;                                // the runs or the vehicle have changed since
   std::string verdict;
   std::vector<FindingCard> findings;
   // Error of the simulation over a metre: calibrated alone, and with what is switched on.

@@ -153,9 +153,10 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   const auto* drive = std::get_if<DifferentialDrive>(&answer_->nominal.kind);
   if (drive && !d->next_legs.empty()) v.advised_way = advised_way_;
   v.can_simulate_advice = drive && !d->next_legs.empty() && !v.busy;
-  v.why_no_advice = v.busy                 ? "Busy " + v.job + "."
-                    : d->next_legs.empty() ? "This advice is in words alone."
-                                           : "Only a differential drive is driven so.";
+  v.why_no_advice = v.busy   ? "Busy " + v.job + "."
+                    : !drive ? "Only a differential drive is driven so by a button; this one drives it in Drive, or on "
+                               "the floor."
+                             : "This advice is in words: it has no way that could be drawn.";
   return v;
 }
 

@@ -45,7 +45,10 @@ ui::Actions actions_of(const KeyPress& press, const Session& session, ScreenStat
         choices.show_open = true;
         return {};
       case Key::s:
-        choices.show_save_recording = session.mode() != Mode::diagnose;  // there it is taken away by buttons
+        if (press.shift)
+          choices.show_save_curves = has_curves(session);
+        else
+          choices.show_save_recording = session.mode() != Mode::diagnose;  // there it is taken away by buttons
         return {};
       case Key::q:
         return {Quit{}};

@@ -275,10 +275,23 @@ Actions dialogs(const Session& session, ScreenState& state, const Theme& theme) 
       ui::path_dialog(compare ? "Save the recording as CSV" : "Save what the run has recorded so far as CSV", "Save",
                       choices.show_save_recording, state.save_recording_dialog, {}, {"recording.csv"}, theme));
   if (!recording.empty()) actions.push_back(ui::SaveRecording{recording});
+  const std::string curves =
+      expanded(ui::path_dialog("Save the curves over time as CSV, as far as they are shown", "Save",
+                               choices.show_save_curves, state.save_curves_dialog, {}, {"curves.csv"}, theme));
+  if (!curves.empty())
+    actions.push_back(ui::SaveCurves{
+        curves,
+        compare ? ui::shown_curves(compare_transport(session, theme), state.compare_transport)
+                : ui::shown_curves(drive_transport(session, theme, state.estimators.shown), state.drive_transport)});
   return actions;
 }
 
 }  // namespace
+
+bool has_curves(const Session& session) {
+  if (session.mode() == ui::Mode::compare) return session.comparison().shown() != nullptr;
+  return session.mode() == ui::Mode::drive || (session.mode() == ui::Mode::learn && !learns_by_squares(session));
+}
 
 Actions draw_screen(const Session& session, ScreenState& state, const Theme& theme) {
   Actions actions;
@@ -338,6 +351,7 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     bar.playing = session.playing();
     bar.can_undo = session.can_undo();
     bar.can_redo = session.can_redo();
+    bar.has_curves = has_curves(session);
     bar.recent_files = state.recent_files;
     bar.example_files = state.example_files;
     append(actions, ui::top_bar(bar, state.choices, theme));

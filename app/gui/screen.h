@@ -35,7 +35,7 @@ struct ScreenState {
   ui::LessonPanelState lesson;
   ui::DiagnosisState diagnosis;
   FolderListing folders;
-  ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog;
+  ui::PathDialog open_dialog, save_scenario_dialog, save_recording_dialog, save_curves_dialog;
   Scenario draft;  // of the parameters that a person is editing
   bool editing = false;
   int loads_seen = 0;
@@ -44,12 +44,17 @@ struct ScreenState {
 
 // A dialog is open: no key belongs to what lies behind it.
 inline bool asks_for_path(const ScreenState& state) {
-  return state.choices.show_open || state.choices.show_save_scenario || state.choices.show_save_recording;
+  return state.choices.show_open || state.choices.show_save_scenario || state.choices.show_save_recording ||
+         state.choices.show_save_curves;
 }
 
 inline void close_dialogs(ScreenState& state) {
-  state.choices.show_open = state.choices.show_save_scenario = state.choices.show_save_recording = false;
+  state.choices.show_open = state.choices.show_save_scenario = state.choices.show_save_recording =
+      state.choices.show_save_curves = false;
 }
+
+// The plot over time below the floor shows something.
+bool has_curves(const Session& session);
 
 // Draws one picture of everything and returns what a person wants done.
 ui::Actions draw_screen(const Session& session, ScreenState& state, const ui::Theme& theme);

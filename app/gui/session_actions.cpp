@@ -281,6 +281,9 @@ struct Session::Executor {
             write_recording_csv(a.path, recorded ? s.comparison_.recording() : s.run_->simulation().recording())))
       s.say("Recording saved as " + a.path, false);
   }
+  void operator()(const ui::SaveCurves& a) const {
+    if (s.done_or_said(write_recording_csv(a.path, a.curves))) s.say("Curves saved as " + a.path, false);
+  }
   void operator()(const ui::LoadFirstScenario&) const {
     s.edited_.forget();
     s.load(first_scenario(), nullptr, "");

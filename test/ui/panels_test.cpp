@@ -101,6 +101,27 @@ TEST_F(TransportTest, DraggingTheTimelineScrubsToTheTimeUnderTheMouse) {
   EXPECT_DOUBLE_EQ(std::get<ScrubTo>(asked.back()).time_s, 40.0);
 }
 
+TEST(ShownCurves, AreTheColumnsOfThePlotWithinItsRangeOfTime) {
+  const std::vector<double> time_s{0.0, 1.0, 2.0, 3.0}, gap_m{0.1, 0.2, 0.3, 0.4}, beside_m{0.5, 0.6, 0.7, 0.8};
+  Transport t;
+  t.position_curves = {{"position gap", &time_s, &gap_m}, {"truck A alone", &time_s, &beside_m}};
+  TransportState state;
+  Recording all = shown_curves(t, state);
+  ASSERT_EQ(all.channels.size(), 2u);
+  EXPECT_EQ(all.time_s, time_s);
+  EXPECT_EQ(all.channels[0].name, "position_gap_m");
+  EXPECT_EQ(all.channels[1].name, "truck_A_alone_m");
+  EXPECT_EQ(all.channels[1].values, beside_m);
+  state.view.fitted = false;  // zoomed
+  state.view.x0 = 0.5;
+  state.view.x1 = 2.5;
+  all = shown_curves(t, state);
+  EXPECT_EQ(all.time_s, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(all.channels[0].values, (std::vector<double>{0.2, 0.3}));
+  state.show_heading = true;  // of which there are none
+  EXPECT_TRUE(shown_curves(t, state).channels.empty());
+}
+
 TEST(Timeline, MapsPositionToTimeAndBack) {
   EXPECT_DOUBLE_EQ(time_at(150.0f, 100.0f, 200.0f, 60.0), 30.0);
   EXPECT_DOUBLE_EQ(time_at(50.0f, 100.0f, 200.0f, 60.0), 0.0);

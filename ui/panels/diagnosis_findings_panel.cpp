@@ -131,7 +131,10 @@ Actions advice_part(const DiagnosisView& view, DiagnosisState& state, const Them
   if (view.next_drive.empty()) return actions;
   heading("Drive next", theme);
   words(view.next_drive, theme.ink);
-  if (view.diagnosis->next_legs.empty()) return actions;
+  if (view.diagnosis->next_legs.empty()) {
+    if (!view.busy) note(view.why_no_advice, theme);
+    return actions;
+  }
   const float width = ImGui::GetContentRegionAvail().x, half = 0.5f * (width - ImGui::GetStyle().ItemSpacing.x);
   ButtonLook show, drive;
   show.toggled = state.show_advice;

@@ -23,6 +23,7 @@ void keys_panel(bool& open, const Theme& theme) {
       {"Q, E", "the same, to the left and to the right"},
       {"Ctrl+Z, Ctrl+Y", "undo, redo"},
       {"Ctrl+O, Ctrl+S", "open, save the recording as CSV"},
+      {"Ctrl+Shift+S", "save the curves over time as CSV, as far as shown"},
       {"1, 2, 3, 4, 5", "Drive, Calibrate, Compare, Diagnose, Learn"},
       {"Shift+drag", "in Diagnose: choose a stretch on the floor"},
       {"H", "hide and show the interface"},

@@ -24,6 +24,7 @@ void file_menu(const TopBar& bar, WindowChoices& choices, Actions& actions) {
   ImGui::Separator();
   if (ImGui::MenuItem("Save scenario…")) choices.show_save_scenario = true;
   if (ImGui::MenuItem("Save recording as CSV…", "Ctrl+S")) choices.show_save_recording = true;
+  if (ImGui::MenuItem("Save curves as CSV…", "Ctrl+Shift+S", false, bar.has_curves)) choices.show_save_curves = true;
   if (ImGui::MenuItem("Save picture", "F12")) actions.push_back(SavePicture{});
   ImGui::Separator();
   if (ImGui::MenuItem("Quit", "Ctrl+Q")) actions.push_back(Quit{});

@@ -15,6 +15,7 @@ struct TopBar {
   std::string title;  // of what is loaded
   bool playing = false;
   bool can_undo = false, can_redo = false;
+  bool has_curves = false;  // there is a plot over time
   std::vector<std::string> recent_files;
   std::vector<std::string> example_files;
 };
@@ -28,6 +29,7 @@ struct WindowChoices {
   bool show_open = false;
   bool show_save_scenario = false;
   bool show_save_recording = false;
+  bool show_save_curves = false;
   bool fit_view = false;  // set to fit the floor at the next chance
 };
 

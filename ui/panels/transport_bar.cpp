@@ -1,7 +1,9 @@
 #include "ui/panels/transport_bar.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <limits>
 
 #include "ui/look/widgets.h"
 
@@ -86,6 +88,30 @@ void timeline(const Transport& t, float left, float right, float height, const T
 }
 
 }  // namespace
+
+Recording shown_curves(const Transport& t, const TransportState& state) {
+  Recording shown;
+  shown.name = t.quantity;
+  const std::vector<TimeCurve>& curves = state.show_heading ? t.heading_curves : t.position_curves;
+  if (curves.empty()) return shown;
+  // All curves of one plot are of the same moments.
+  const std::vector<double>& time_s = *curves.front().time_s;
+  const auto is_shown = [&](double time) {
+    return state.view.fitted || (time >= state.view.x0 && time <= state.view.x1);
+  };
+  for (double time : time_s)
+    if (is_shown(time)) shown.time_s.push_back(time);
+  for (const TimeCurve& curve : curves) {
+    Channel channel;
+    for (char c : curve.label) channel.name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    channel.name += state.show_heading ? "_rad" : "_m";
+    for (std::size_t i = 0; i < std::min(time_s.size(), curve.value->size()); ++i)
+      if (is_shown(time_s[i])) channel.values.push_back((*curve.value)[i]);
+    channel.values.resize(shown.time_s.size(), std::numeric_limits<double>::quiet_NaN());
+    shown.channels.push_back(std::move(channel));
+  }
+  return shown;
+}
 
 double time_at(float x, float left, float right, double total_s) {
   if (!(right > left)) return 0.0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/recording.h"
 #include "ui/actions.h"
 #include "ui/look/theme.h"
 #include "ui/plot/plot.h"
@@ -47,6 +48,9 @@ struct TransportState {
   PlotView view;
   bool show_heading = false;
 };
+
+// The curves of the kind and the range of time that the plot shows, as columns: "position_gap_m", "dead_reckoning_rad".
+Recording shown_curves(const Transport& transport, const TransportState& state);
 
 // Where on the timeline a time lies and back: a straight map of [0, total] on [left, right], clamped.
 double time_at(float x, float left, float right, double total_s);
