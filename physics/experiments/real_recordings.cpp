@@ -233,7 +233,7 @@ void add_looked_for(const RecordingSet& set, const Diagnosis& diagnosis, Tables&
         claim.because += ": too little was driven to confirm the name or to refute it";
       report.claims.push_back(claim);
     } else {
-      row.insert(row.end(), {"-", "too little was driven, or without wheels", "", ""});
+      row.insert(row.end(), {"-", "no wheels were recorded, or too little was driven", "", ""});
     }
     tables.looked_for.rows.push_back(row);
   }

@@ -85,6 +85,16 @@ class Question {
       run.windows =
           windows_of(truth, by_turn ? half_turn_m : 1.0, by_turn ? 2.0 * half_turn_m / drive.wheelbase_m : 1.0,
                      0.5 * (truth.front().time_s + truth.back().time_s));
+      // only where the prediction says something
+      const Result<Track> track = predicted_track(r, run.vehicle, run.others);
+      if (!track) continue;
+      run.windows.erase(std::remove_if(run.windows.begin(), run.windows.end(),
+                                       [&](const Window& w) {
+                                         const std::optional<Pose> a = pose_at(*track, w.from_s),
+                                                                   b = pose_at(*track, w.to_s);
+                                         return !a || !b || !std::isfinite(a->x_m) || !std::isfinite(b->x_m);
+                                       }),
+                        run.windows.end());
       const auto judged =
           std::count_if(run.windows.begin(), run.windows.end(), [](const Window& w) { return w.judged; });
       if (judged >= kFewestWindows && static_cast<int>(run.windows.size() - judged) >= kFewestWindows)
