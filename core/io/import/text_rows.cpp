@@ -24,9 +24,10 @@ Result<TextRows> TextRows::open(const std::string& path, const TextShape& shape,
   const std::string_view start = file->peek(kUsualLine);
   if (start.substr(0, 2) == "\xFF\xFE" || start.substr(0, 2) == "\xFE\xFF")
     return Error{path, "text in UTF-16", "text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it"};
-  if (start.size() == kUsualLine && start.find('\r') != std::string_view::npos &&
+  const std::size_t carriage_return = start.find('\r');
+  if (carriage_return != std::string_view::npos && carriage_return + 1 < start.size() &&
       start.find('\n') == std::string_view::npos)
-    return Error{path, "lines that end in a carriage return alone", "lines that end as elsewhere: 'tr' makes them so"};
+    return Error{path, "lines that end in a carriage return alone", "line feeds: 'tr \"\\r\" \"\\n\"' makes them"};
   TextRows rows(std::move(*file), shape);
   std::string_view line;
   for (int i = 0; i < shape.skip_lines && rows.next_line(line); ++i) {
