@@ -144,6 +144,18 @@ TEST_F(PlotTest, TheWheelZoomsAboutTheMouse) {
   EXPECT_NEAR(view.x1 - view.x0, 100.0 * 0.85 * 0.85, 1e-6);
 }
 
+TEST_F(PlotTest, TheWheelLeadsNoFurtherOutThanToAllOfIt) {
+  screen.move(at(0.5, 0.5));
+  screen.picture(draw);
+  for (int i = 0; i < 40; ++i) {
+    screen.wheel(-1.0f);
+    screen.picture(draw);
+  }
+  EXPECT_DOUBLE_EQ(view.x0, 0.0);
+  EXPECT_DOUBLE_EQ(view.x1, 100.0);
+  EXPECT_TRUE(view.fitted);
+}
+
 TEST_F(PlotTest, ADoubleClickFitsAgain) {
   screen.drag(at(0.2, 0.5), at(0.6, 0.5), draw);
   screen.pause(draw);

@@ -91,6 +91,8 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
   view.y1 = my + 0.5 * per_px * height;
 }
 
+constexpr double kWidest = 20.0;  // times what fits
+
 void zoom(PlotView& view, double about_x, double about_y, double factor, bool both) {
   view.x0 = about_x + (view.x0 - about_x) * factor;
   view.x1 = about_x + (view.x1 - about_x) * factor;
@@ -282,9 +284,14 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   const bool inside =
       mouse.x >= result.low.x && mouse.x <= result.high.x && mouse.y >= result.low.y && mouse.y <= result.high.y;
   result.hovered = ImGui::IsItemHovered() && inside;
-  if (result.hovered && io.MouseWheel != 0.0f)
+  if (result.hovered && io.MouseWheel != 0.0f) {
     zoom(view, frame.x_of(mouse.x), frame.y_of(mouse.y), std::pow(0.85, double(io.MouseWheel)),
          what.equal_scale || io.KeyShift);
+    PlotView whole;
+    fit(what, whole, frame.width(), frame.height());
+    const double most = what.equal_scale ? kWidest : 1.0;  // beyond all of its data there is nothing to see
+    if (view.x1 - view.x0 > most * (whole.x1 - whole.x0)) view = whole;
+  }
   if (result.hovered && ImGui::IsMouseDoubleClicked(0)) {
     view.fitted = true;
     view.drag_from.reset();
