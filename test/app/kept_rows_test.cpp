@@ -38,7 +38,7 @@ TEST(KeptRows, AreTheFirstAndTheWholeLastMinuteAndNeverFurtherApartThanTheirAgeA
 
 TEST(KeptRows, GrowWithTheLogarithmOfTheTime) {
   // A minute whole and 1500 for each doubling since, and as many as came since the last thinning (500).
-  for (const std::int64_t pictures : {12000, 180000, 1440000})
+  for (const std::int64_t pictures : {12000, 90000, 360000})
     EXPECT_LE(double(after(pictures).size()), 3000.0 + 1500.0 * std::ceil(std::log2(double(pictures) / 3000.0)) + 500.0)
         << pictures;
 }
