@@ -238,7 +238,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     RelativeMotion& out = summed.motions[t];
     double* const jac = &summed.derivatives[3 * static_cast<std::size_t>(p) * t];
     const double end_s = time_of(t + 1);
-    Matrix3d wheel_noise = Matrix3d::Zero(), body_noise = Matrix3d::Zero(), count_noise = Matrix3d::Zero();
+    Matrix3d wheel_noise = Matrix3d::Zero(), body_noise = Matrix3d::Zero(), sideways_noise = Matrix3d::Zero(),
+             count_noise = Matrix3d::Zero();
     const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
     bool counts_left_behind = false;
     Pose& pose = out.motion;
@@ -330,10 +331,12 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       wheel_noise.noalias() += by_right * (right_way_m * by_right.transpose());
       if (body_is_noisy) {
         carry_noise(body_noise);
+        carry_noise(sideways_noise);
         const Vector3d by_turn = (2.0 / b) * Vector3d(-0.5 * dy, 0.5 * dx, 1.0);
-        body_noise(0, 0) += way_m;  // forward and sideways alike
-        body_noise(1, 1) += way_m;
+        const Vector3d by_forward(c, s, 0.0), by_sideways(-s, c, 0.0);
+        body_noise.noalias() += by_forward * (way_m * by_forward.transpose());
         body_noise.noalias() += by_turn * (way_m * by_turn.transpose());
+        sideways_noise.noalias() += by_sideways * (way_m * by_sideways.transpose());
       }
       if (counts_left_behind) carry_noise(count_noise);
       if (!run.settles.empty() && run.settles[i] && now_s == w0.time_s) {
@@ -360,6 +363,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     for (int k = 0; k < 3; ++k) summed.end_velocity.push_back(moved_end(k));
     add_symmetric(wheel_noise, out.wheel_noise);
     if (body_is_noisy) add_symmetric(body_noise, out.body_noise);
+    if (body_is_noisy) add_symmetric(sideways_noise, out.sideways_noise);
     if (counts_left_behind) add_symmetric(count_noise, out.count_noise);
   }
   return summed;
@@ -511,7 +515,10 @@ class PoseFilter {
     const double q2 = model_.noise.wheel_m_per_sqrt_m * model_.noise.wheel_m_per_sqrt_m;
     double noise[6];
     const double body2 = model_.noise.body_m_per_sqrt_m * model_.noise.body_m_per_sqrt_m;
-    for (int k = 0; k < 6; ++k) noise[k] = q2 * step.wheel_noise[k] + body2 * step.body_noise[k] + step.count_noise[k];
+    const double side2 = model_.noise.sideways_m_per_sqrt_m * model_.noise.sideways_m_per_sqrt_m;
+    for (int k = 0; k < 6; ++k)
+      noise[k] =
+          q2 * step.wheel_noise[k] + body2 * step.body_noise[k] + side2 * step.sideways_noise[k] + step.count_noise[k];
     Matrix3d turn;
     turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
     covariance_ = f * covariance_ * f.transpose() + turn * symmetric(noise) * turn.transpose();

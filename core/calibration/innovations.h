@@ -20,9 +20,11 @@ struct FittedNoise {
   double wheel_m_per_sqrt_m = 0.0;  // each wheel's distance error grows with the square root of its travel
   double truth_position_m = 0.0;    // of each coordinate, white
   double truth_heading_rad = 0.0;   // white
-  // Of the body as a whole, forward, sideways and as the turn of half a wheelbase, independent of each other: what
-  // scrubs while one wheel stands still. Grows with the square root of the wheels' mean travel.
+  // Of the body as a whole, forward and as the turn of half a wheelbase, independent of each other: what scrubs while
+  // one wheel stands still. Grows with the square root of the wheels' mean travel.
   double body_m_per_sqrt_m = 0.0;
+  // The same sideways, where nothing rolls: another cause, and mostly far smaller.
+  double sideways_m_per_sqrt_m = 0.0;
 };
 
 // The columns of every derivative: seven fixed ones, then the extra ones of the run.
@@ -75,8 +77,8 @@ struct InnovationRun {
   std::vector<char> set_aside;         // for each truth sample: not to be used
   std::vector<unsigned char> settles;  // for each interval: 1 where the left wheel's count comes to rest or leaves it,
                                        // 2 the right's; empty where counts do not show
-  std::vector<ExtraColumn> extra;  // the same number in each run of a set
-  int frozen = 0;                  // truth samples left out since they repeat themselves while the wheels turn
+  std::vector<ExtraColumn> extra;      // the same number in each run of a set
+  int frozen = 0;                      // truth samples left out since they repeat themselves while the wheels turn
 };
 
 // Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock.
@@ -97,6 +99,8 @@ struct RelativeMotion {
   Pose motion;
   double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
   double body_noise[6] = {};   // the same for a body noise of 1 m per root metre; 0 where the model has none
+  double sideways_noise[6] =
+      {};                      // the same for a sideways noise of 1 m per root metre; 0 where the model has no body's
   double count_noise[6] = {};  // covariance of the count fractions that a wheel takes into a rest and leaves behind
 };
 struct SummedRun {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/waves.h"
 
 namespace odolab {
 
@@ -75,8 +76,14 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const double speed_mps = std::max(0.01, count_m / 0.06);
   groups.push_back(hats_of(
       "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, speed_mps));
+  // Of what a driver steers with on a straight the same is true: what shakes the wheels is what it answers to.
+  const double straight_radps = 2.0 * speed_mps / base_m;
   groups.push_back(hats_of(
-      "yaw rate [rad/s]", views, [](const EffectStep& s) { return s.yaw_rate_radps; }, 7, 2.0 * speed_mps / base_m));
+      "yaw rate [rad/s]", views,
+      [straight_radps](const EffectStep& s) {
+        return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
+      },
+      7, straight_radps));
   groups.push_back(hats_of(
       "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6,
       speed_mps / base_m));
@@ -196,13 +203,14 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     tests[i].at = g.at;
     tests[i].waves = g.waves;
     CandidateColumns columns = joint.columns_of(*term, {});
-    // Many columns find whatever direction calibration nearly takes up, and a derivative is not known better than to a
-    // tenth: what is left below the square of that may be its error.
-    columns.least_surviving = 0.01;
+    columns.least_surviving = kLeastSurvivingOfGeneric;
     tests[i].test = joint.test(columns, -1, true);
+    tests[i].tests = n;
     tests[i].p_value =
         std::min(1.0, n * scaled_chi_square_tail(tests[i].test.judged(), tests[i].test.freedom, tests[i].test.batches));
   });
+  const std::vector<GenericTest> waves = wave_tests(joint, n);
+  tests.insert(tests.end(), waves.begin(), waves.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
   });

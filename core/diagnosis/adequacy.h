@@ -18,13 +18,19 @@ struct GenericWave {
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;
-  double p_value = 1.0;            // over all groups
+  double tests = 1.0;              // that it was chosen from
+  double p_value = 1.0;            // over all of them
   std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
   std::vector<GenericWave> waves;  // where it is periodic instead
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 
-// Best first.
+// Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known
+// better than to a fifth where the vehicle speeds up: directions of which less than the square of that is left may be
+// its error, and are not tested.
+constexpr double kLeastSurvivingOfGeneric = 0.04;
+
+// Hats, harmonics and polynomials of what the vehicle does and where it is, and waves (`waves.h`). Best first.
 std::vector<GenericTest> generic_tests(const JointModel& joint);
 
 }  // namespace odolab

@@ -21,6 +21,7 @@ namespace {
 constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
 constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
 constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
+constexpr double kWorthShowing = 0.01;    // p value of a wave in what is left
 constexpr int kFewestInnovations = 40;    // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
@@ -168,8 +169,7 @@ const GenericTest* what_is_left(const JointModel& joint, const std::vector<Gener
   for (std::size_t k = 0; k < std::min<std::size_t>(strong.size(), kMostTried); ++k) {
     const CandidateTest& t = strong[k]->test;
     const double kept = joint.minus_two_log_likelihood() - with_group(joint, *strong[k]).minus_two_log_likelihood();
-    const double p =
-        scaled_chi_square_tail(kept / t.inflation, t.freedom, t.batches) * static_cast<double>(generic.size());
+    const double p = scaled_chi_square_tail(kept / t.inflation, t.freedom, t.batches) * strong[k]->tests;
     if (p < error) return strong[k];
   }
   return nullptr;
@@ -233,6 +233,8 @@ std::vector<Response> responses_of(const JointModel& calibrated, const std::vect
     const GenericTest* now = found && left != generic_now.end() && !left->test.value.empty() ? &*left : nullptr;
     if (!g.at.empty()) responses.push_back(response_of(g, now));
     if (g.test.value.empty()) continue;  // it could not be tested
+    // Of waves that were looked for at many lengths only what was found is of interest.
+    if (g.tests > static_cast<double>(at_first.size()) && g.p_value > kWorthShowing) continue;
     for (const GenericWave& wave : g.waves) responses.push_back(response_of(g, wave, now));
   }
   return responses;

@@ -80,7 +80,8 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   model.truth = start.vehicle.truth;
   model.noise = start.noise;
   if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
-  if (model.noise.body_m_per_sqrt_m <= 0.0) model.noise.body_m_per_sqrt_m = 0.3 * model.noise.wheel_m_per_sqrt_m;
+  if (model.noise.body_m_per_sqrt_m <= 0.0)
+    model.noise.body_m_per_sqrt_m = model.noise.sideways_m_per_sqrt_m = 0.3 * model.noise.wheel_m_per_sqrt_m;
   clock_s = start.time_offset_s;
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);
@@ -249,16 +250,18 @@ void JointModel::fit(int iterations) {
 }
 
 void JointModel::fit_noise() {
-  constexpr double kUsual[4] = {0.003, 0.002, 0.0005, 0.005};
+  constexpr double kUsual[5] = {0.003, 0.002, 0.0005, 0.0005, 0.005};
+  // A model is not trusted to be truer sideways than this share of the wheels' noise.
+  constexpr double kLeastSideways = 0.05;
   constexpr double kWay_m = 0.1;
   bool any_heading = false;
   for (const InnovationRun& run : runs_) any_heading = any_heading || run.truth_has_heading;
   std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m),
-                              std::log(model.noise.body_m_per_sqrt_m)};
+                              std::log(model.noise.body_m_per_sqrt_m), std::log(model.noise.sideways_m_per_sqrt_m)};
   if (any_heading) logs.push_back(std::log(model.noise.truth_heading_rad));
   const auto noise_of = [&](const std::vector<double>& at) {
-    return FittedNoise{std::exp(at[0]), std::exp(at[1]), any_heading ? std::exp(at[3]) : model.noise.truth_heading_rad,
-                       std::exp(at[2])};
+    return FittedNoise{std::exp(at[0]), std::exp(at[1]), any_heading ? std::exp(at[4]) : model.noise.truth_heading_rad,
+                       std::exp(at[2]), std::max(std::exp(at[3]), kLeastSideways * std::exp(at[0]))};
   };
   // Twice the negative log-likelihood of the noise on these runs, of which every so many stretches are used; `scales`:
   // those of the logarithms that are free.
@@ -305,12 +308,12 @@ void JointModel::fit_noise() {
     };
     std::vector<double> start;
     for (int k : scales) start.push_back(logs[static_cast<std::size_t>(k)]);
-    const std::vector<double> best = minimised(value, start, 0.2, 0.05, 80);
+    const std::vector<double> best = minimised(value, start, 0.2, 0.05, 110);
     for (std::size_t k = 0; k < scales.size(); ++k) logs[static_cast<std::size_t>(scales[k])] = best[k];
   };
   std::vector<const InnovationRun*> whole;
   for (const LinearisedRun& l : linear_) whole.push_back(&l.run());
-  fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3} : std::vector<int>{0, 1, 2});
+  fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1, 2, 3});
   // The truth's noise shows from sample to sample; the floor's in what it adds up to.
   std::vector<InnovationRun> thin;
   for (std::size_t r = 0; r < whole.size(); ++r)
@@ -319,7 +322,7 @@ void JointModel::fit_noise() {
   int left = 0;
   for (const InnovationRun& run : thin)
     if (run.truth.size() >= 2) thinned.push_back(&run), left += static_cast<int>(run.truth.size());
-  if (thinned.size() == whole.size() && left > 3 * columns()) fitted(thinned, {0, 2});
+  if (thinned.size() == whole.size() && left > 3 * columns()) fitted(thinned, {0, 2, 3});
   model.noise = noise_of(logs);
 }
 
@@ -457,9 +460,11 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
   const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m,
                p2 = noise.truth_position_m * noise.truth_position_m,
                h2 = noise.truth_heading_rad * noise.truth_heading_rad,
-               body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m;
+               body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
+               side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
   const double turn2 = (q2 + 2.0 * body2) * left_and_right_m / (wheelbase_m * wheelbase_m), d2 = dot(along, along);
-  sum.noise_position_m2 += 4.0 * p2 + h2 * d2 + (0.25 * q2 + body2) * left_and_right_m + turn2 * d2 / 3.0;
+  sum.noise_position_m2 +=
+      4.0 * p2 + h2 * d2 + (0.25 * q2 + 0.5 * (body2 + side2)) * left_and_right_m + turn2 * d2 / 3.0;
   sum.noise_heading_rad2 += 2.0 * h2 + turn2;
 }
 
@@ -510,14 +515,21 @@ JointModel::GatheredError JointModel::gathered_error() const {
   return sum;
 }
 
-// Lag-one correlation of the whitened innovations, the largest of the three channels. That of a floor whose unevenness
-// has a length is negative, since the noise was fitted to what adds up.
+// Correlation of each whitened innovation with that before, the largest of the three channels. That of a floor whose
+// unevenness has a length is negative, since the noise was fitted to what adds up. Samples between the same two
+// readings of the encoders share their rounding and say nothing of the model: "before" is a reading and a half ago.
 bool JointModel::innovations_correlated() const {
+  constexpr double kReadings = 1.5;
   double product[3] = {}, square[3] = {};
-  for (const LinearisedRun& l : linear_) {
-    const Whitened& r = l.residual();
-    for (std::size_t i = 3; i < r.size(); ++i) {
-      product[i % 3] += r[i] * r[i - 3];
+  for (std::size_t run = 0; run < linear_.size(); ++run) {
+    const Whitened& r = linear_[run].residual();
+    const auto period_s = [](const auto& samples) {
+      return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+    };
+    const double apart = kReadings * period_s(runs_[run].wheels) / period_s(runs_[run].truth);
+    const std::size_t lag = 3 * static_cast<std::size_t>(std::clamp(apart, 1.0, 100.0));
+    for (std::size_t i = lag; i < r.size(); ++i) {
+      product[i % 3] += r[i] * r[i - lag];
       square[i % 3] += r[i] * r[i];
     }
   }
@@ -686,6 +698,11 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
     out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
   }
   return out;
+}
+
+std::vector<BodyMotion> JointModel::score_of_motions(int run) const {
+  const VectorXd left = residual_[run] - z_[run] * gram_.ldlt().solve(zr_);
+  return linear_[run].score_of_motions(left.data());
 }
 
 }  // namespace odolab

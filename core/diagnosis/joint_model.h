@@ -81,6 +81,9 @@ class JointModel {
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
   CandidateTest test(const CandidateColumns& columns, int without = -1, bool thorough = false) const;
+  // How fast the log-likelihood grows with the motion of each wheel interval of a run, everything in the model fitted
+  // anew: the score of any column is its product with this.
+  std::vector<BodyMotion> score_of_motions(int run) const;
   // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
   // what happened in it alone is unknown to the others.
   JointModel left_out(int run) const;

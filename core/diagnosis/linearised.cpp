@@ -179,6 +179,44 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
   return carried(motion, t0, t1, -1, out);
 }
 
+// `carried` and `of_motion` the other way about: each line is the transpose of one there.
+std::vector<BodyMotion> LinearisedRun::score_of_motions(const double* whitened) const {
+  std::vector<BodyMotion> score(run_->wheels.size() - 1);
+  double a0 = 0.0, a1 = 0.0, a2 = 0.0;  // by the derivative of the pose behind sample t + 1
+  for (int t = samples() - 2; t >= 0; --t) {
+    const FilterStep& step = steps_[t + 1];
+    if (step.truth_index < 0 || step.starts) {
+      a0 = a1 = a2 = 0.0;
+      continue;
+    }
+    if (step.used) {
+      const double* w = &whitener_[9 * static_cast<std::size_t>(t + 1)];
+      const double* o = whitened + 3 * (t + 1);
+      double j[3];
+      for (int k = 0; k < 3; ++k)
+        j[k] = w[k] * o[0] + w[3 + k] * o[1] + w[6 + k] * o[2] -
+               (step.gain[k] * a0 + step.gain[3 + k] * a1 + step.gain[6 + k] * a2);
+      if (step.size == 2) j[2] = 0.0;
+      a0 += j[0];
+      a1 += j[1];
+      a2 += -step.arm.y_m * j[0] + step.arm.x_m * j[1] + j[2];
+    }
+    const double c0 = turned_[t + 1].c0, s0 = turned_[t + 1].s0;
+    const double d0 = c0 * a0 + s0 * a1, d1 = -s0 * a0 + c0 * a1;
+    double d2 = a2;
+    for (int p = first_piece_[t + 1] - 1; p >= first_piece_[t]; --p) {
+      const Piece& piece = pieces_[p];
+      BodyMotion& sum = score[static_cast<std::size_t>(piece.interval)];
+      sum.forward_m += piece.share * (piece.c * d0 + piece.s * d1);
+      sum.sideways_m += piece.share * (-piece.s * d0 + piece.c * d1);
+      sum.turn_rad += piece.share * (-0.5 * piece.dy * d0 + 0.5 * piece.dx * d1 + d2);
+      d2 += -piece.dy * d0 + piece.dx * d1;
+    }
+    a2 += -step.moved.y_m * a0 + step.moved.x_m * a1;
+  }
+  return score;
+}
+
 void LinearisedRun::of_parameter(int parameter, double* out) const {
   const auto motion = [&](int t, double* d) {
     const double* jac = &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + parameter)];

@@ -35,6 +35,9 @@ class LinearisedRun {
   Stretch of_motion(const Motions& motions, double* out) const;
   // The same by one of the seven parameters of `column`.
   void of_parameter(int parameter, double* out) const;
+  // The product of `whitened` with the column of every motion at once: how fast it grows with the forward, sideways and
+  // turning motion of each wheel interval. One pass backward, whatever the number of columns asked for.
+  std::vector<BodyMotion> score_of_motions(const double* whitened) const;
   // By the rate of the wheels' clock, against the truth's, about the run's first truth sample.
   void of_clock_rate(double* out) const;
 

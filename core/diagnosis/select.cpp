@@ -16,6 +16,10 @@ constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 // Share of the evidence that a right name may lose since its form is not quite the world's.
 constexpr double kFormError = 0.1;
 
+// Where innovations are white the likelihood is believed: what dead reckoning gains by a weak effect is lost in what it
+// gains and loses by chance. What happens in one place or moment is all there, or it is not.
+constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01;
+
 double least_share(const Effect& effect) { return effect.local ? kLeastShareOfEvents : kLeastShare; }
 
 double quantile(std::vector<double> v, double share) {
@@ -214,10 +218,11 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 
 }  // namespace
 
-bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated) {
+bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
+                 bool local) {
   if (before.windows == 0 || after.windows == 0) return true;
   const double left = 0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
-  return left < (correlated ? kMaterial : 1.01);
+  return left < (correlated ? kMaterial : local ? kNoWorseByAnEvent : kNoWorse);
 }
 
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
@@ -284,7 +289,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
     for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
       const double kept = let_in(joint, *standing[tried]);
-      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated);
+      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated,
+                                           standing[tried]->effect->local);
       if (!accepted) joint = before;
     }
     if (!accepted) break;
@@ -363,7 +369,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     for (const ScoredCandidate& c : instead) {
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
-      if (taken || c.p_value > family_wise_error || c.effect->name == own.effect->name) continue;
+      if (taken || c.p_value > family_wise_error || !c.beyond_counts || c.effect->name == own.effect->name) continue;
       const bool same_moment = of_one_moment(own, c);
       const double beaten_by = std::max(2.0 * kClearlyBeaten, same_moment ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);

@@ -29,7 +29,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
 // Share of the squared error of dead reckoning that a term may leave where the innovations are correlated: the truth's
 // noise is then not what the likelihood takes it for, and small gains of likelihood mean little.
 constexpr double kMaterial = 0.985;
-bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated);
+bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
+                 bool local = false);
 
 // A log-likelihood ratio below which two names are not told apart.
 constexpr double kClearlyBeaten = 5.0;

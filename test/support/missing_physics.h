@@ -192,6 +192,14 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
     };
   if (effect == "cubic_steering")
     return [=](InjectedStep& s) { s.turn_rad += 0.06 * size * yaw(s) * yaw(s) * std::abs(speed(s)) * s.dt_s; };
+  if (effect == "waves")  // steered by waves of the floor, a metre and a half along x
+    return [=](InjectedStep& s) {
+      s.turn_rad += 0.02 * size * std::sin(2.0 * kPi * s.pose.x_m / 1.5) * std::abs(speed(s)) * s.dt_s;
+    };
+  if (effect == "gusts")  // carried to and fro, once in six seconds
+    return [=](InjectedStep& s) {
+      if (speed(s) != 0.0) s.room_m.y_m += 0.002 * size * std::sin(2.0 * kPi * s.time_s / 6.0) * s.dt_s;
+    };
   if (effect == "memory")  // twists back after a turn
   {
     auto m = std::make_shared<double>(0.0);

@@ -61,14 +61,15 @@ Effect of_wheel(Wheel wheel) {
   e.looks_like = {"castor_reversal_kick", "traction_slip"};
   e.told_apart_by = "a stop and then on in the same direction, and a turn on the spot and then a straight";
   // Where a wheel turns back its reading is off by what is hidden between two counts, one way or the other: in the mean
-  // over all reversals by a count over the root of six times their number, of which four are taken.
+  // over all reversals by a count over the root of six times their number, of which four are taken. A driver that turns
+  // back by its counts makes that one way always: play of less than a count is never told from it.
   e.beyond_counts = [wheel](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
     int reversals = 0;
     for (const DriveView& view : views) {
       if (wheel != Wheel::right) reversals += reversals_of(view, true, 3.0 * count_rad);
       if (wheel != Wheel::left) reversals += reversals_of(view, false, 3.0 * count_rad);
     }
-    return value[0] > 4.0 * count_rad / std::sqrt(6.0 * std::max(reversals, 1));
+    return value[0] > count_rad * std::max(1.0, 4.0 / std::sqrt(6.0 * std::max(reversals, 1)));
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m(view.steps.size());

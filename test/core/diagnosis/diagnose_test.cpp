@@ -1,10 +1,9 @@
-#include "core/diagnosis/diagnosis.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/joint_model.h"
 #include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
@@ -76,7 +75,7 @@ TEST(Diagnose, MeasuresAnEffectToWithinItsUncertainty) {
 }
 
 TEST(Diagnose, CallsUnknownWhatIsInNoList) {
-  for (const char* outside : {"magnet", "compass", "memory"}) {
+  for (const char* outside : {"magnet", "compass", "memory", "waves", "gusts"}) {
     const Diagnosis d = diagnosed(generated_case(short_case(outside, 2.0), 7301));
     EXPECT_EQ(d.verdict, Verdict::unknown_effect) << outside << ": " << said(d);
   }
@@ -127,8 +126,9 @@ TEST(Diagnose, ReportsAnEncoderThatStoodStillAsAFaultOfTheData) {
   }
   ASSERT_GT(start_s, 0.0);
   const Diagnosis d = diagnosed(c);
-  EXPECT_TRUE(std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "encoder_data_fault"; }))
-      << said(d);
+  EXPECT_TRUE(std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return f.effect == "encoder_data_fault";
+  })) << said(d);
   for (const Finding& f : d.findings) EXPECT_TRUE(f.effect == "encoder_data_fault") << f.effect;
 }
 
@@ -143,7 +143,8 @@ TEST(Diagnose, RefusesAnUnusableRecordingByName) {
 TEST(PredictedTrack, WithoutEffectsIsTheVehiclesOwn) {
   const Case c = generated_case(short_case("", 0.0), 7701);
   const Result<Track> a = predicted_track(c.recordings[0], c.nominal),
-                      b = predicted_track(c.recordings[0], c.nominal, {{"wheel_toe", "vehicle", {{"sideways_per_metre", 0.0}}}});
+                      b = predicted_track(c.recordings[0], c.nominal,
+                                          {{"wheel_toe", "vehicle", {{"sideways_per_metre", 0.0}}}});
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->size(), b->size());
   // Two ways through the same arithmetic: rounding only.

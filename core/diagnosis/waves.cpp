@@ -1,0 +1,252 @@
+#include "core/diagnosis/waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kBin_s = 0.1;
+constexpr double kShortestPeriod_s = 3.0, kShortestLength_m = 0.6;
+// Neighbours stand so close, in turns over the whole, that what lies between two loses a tenth of its power at most.
+constexpr double kTurnsApart = 0.4;
+constexpr std::size_t kMostWaves = 500;
+constexpr int kBands = 3;
+
+// What a wave modulates, for each metre of way or, in time, what carries the vehicle for each second that it moves.
+constexpr int kChannels = 4;
+const char* const kChannel[kChannels] = {"forward per metre [1]", "sideways per metre [1]", "turn per metre [rad/m]",
+                                         "carried across the floor"};
+
+// A wave: turns per second, or the wave vector in turns per metre.
+struct Wave {
+  bool in_time = false;
+  double per_s = 0.0;
+  Vec2 per_m;
+  int band = 0;
+  double turns(double since_start_s, const Vec2& at) const { return in_time ? per_s * since_start_s : dot(per_m, at); }
+};
+
+// How much of a channel there is in one step; the last channel has two, along x and along y of the floor.
+struct Unit {
+  BodyMotion of[2];
+};
+
+Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, bool in_time) {
+  Unit u;
+  const double way = std::abs(s.forward_m());
+  // Turning on the spot counts as way too, by the way of the wheels.
+  const double all_way = way + 0.5 * wheelbase_m * std::abs(s.turn_rad);
+  if (channel == 0) u.of[0].forward_m = way;
+  if (channel == 1) u.of[0].sideways_m = all_way;
+  if (channel == 2) u.of[0].turn_rad = all_way;
+  if (channel == 3) {
+    const double much = in_time ? (all_way > 0.0 ? s.duration_s : 0.0) : way;
+    u.of[0] = {much * s.cos_heading, -much * s.sin_heading, 0.0};
+    u.of[1] = {much * s.sin_heading, much * s.cos_heading, 0.0};
+  }
+  return u;
+}
+
+double product(const BodyMotion& a, const BodyMotion& b) {
+  return a.forward_m * b.forward_m + a.sideways_m * b.sideways_m + a.turn_rad * b.turn_rad;
+}
+
+// A stretch of a run so short that no wave turns far within it.
+struct Bin {
+  double since_start_s = 0.0;
+  Vec2 at;
+  double score[2 * kChannels + 2] = {};  // channels for each metre, the last one in x and y; then that for each second
+};
+
+std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
+  std::vector<Bin> bins;
+  const double b = view.drive.wheelbase_m;
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    if (bins.empty() || s.since_start_s > bins.back().since_start_s + kBin_s) {
+      bins.emplace_back();
+      bins.back().since_start_s = s.since_start_s;
+      bins.back().at = s.position;
+    }
+    double* sum = bins.back().score;
+    for (int channel = 0; channel < kChannels; ++channel) {
+      const Unit u = unit_of(s, b, channel, false);
+      sum[channel] += product(u.of[0], score[i]);
+      if (channel == 3) sum[4] += product(u.of[1], score[i]);
+    }
+    const Unit u = unit_of(s, b, 3, true);
+    sum[5] += product(u.of[0], score[i]);
+    sum[6] += product(u.of[1], score[i]);
+  }
+  return bins;
+}
+
+std::vector<Wave> waves_in_time(double duration_s) {
+  std::vector<Wave> waves;
+  const double step = kTurnsApart / duration_s, most = 1.0 / kShortestPeriod_s;
+  for (double f = 2.0 * step; f <= most && waves.size() < kMostWaves; f += step) {
+    Wave w;
+    w.in_time = true;
+    w.per_s = f;
+    waves.push_back(w);
+  }
+  for (std::size_t k = 0; k < waves.size(); ++k)
+    waves[k].band =
+        std::clamp(static_cast<int>(std::log(waves[k].per_s / step) / std::log(most / step) * kBands), 0, kBands - 1);
+  return waves;
+}
+
+std::vector<Wave> waves_on_the_floor(double width_m, double height_m) {
+  std::vector<Wave> waves;
+  const double dx = kTurnsApart / std::max(width_m, 0.5), dy = kTurnsApart / std::max(height_m, 0.5);
+  double most = 1.0 / kShortestLength_m;
+  most = std::min(most, std::sqrt(2.0 * static_cast<double>(kMostWaves) * dx * dy / kPi));  // half a disc of so many
+  for (int i = 0; i * dx <= most; ++i)
+    for (int j = -static_cast<int>(most / dy); j * dy <= most; ++j) {
+      if (i == 0 && j <= 0) continue;
+      Wave w;
+      w.per_m = {i * dx, j * dy};
+      const double k = length(w.per_m);
+      if (k > most) continue;
+      w.band = std::min(kBands - 1, static_cast<int>(kBands * k / most));
+      waves.push_back(w);
+    }
+  return waves;
+}
+
+std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size_t runs) {
+  auto term = std::make_shared<Effect>();
+  const std::size_t phases = wave.in_time ? runs : 1, of_each = channel == 3 ? 4 : 2;
+  term->amplitudes.resize(phases * of_each);
+  term->motions = [=](const DriveView& view, const std::vector<double>&) {
+    std::vector<Motions> out(phases * of_each);
+    const std::size_t first = wave.in_time ? static_cast<std::size_t>(view.number) * of_each : 0;
+    if (first >= out.size()) return std::vector<Motions>(out.size(), Motions(view.steps.size()));  // a run not fitted
+    for (std::size_t k = 0; k < of_each; ++k) out[first + k] = Motions(view.steps.size());
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const Unit u = unit_of(s, view.drive.wheelbase_m, channel, wave.in_time);
+      const double angle = 2.0 * kPi * wave.turns(s.since_start_s, s.position), c = std::cos(angle),
+                   sn = std::sin(angle);
+      for (std::size_t k = 0; k < of_each; ++k) {
+        const double by = k % 2 == 0 ? c : sn;
+        const BodyMotion& m = u.of[k / 2];
+        out[first + k][i] = {by * m.forward_m, by * m.sideways_m, by * m.turn_rad};
+      }
+    }
+    return out;
+  };
+  return term;
+}
+
+std::string name_of(const Wave& wave) {
+  char text[120];
+  if (wave.in_time)
+    std::snprintf(text, sizeof text, "time, in waves of %.2g s", 1.0 / wave.per_s);
+  else
+    std::snprintf(text, sizeof text, "place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
+                  std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
+  return text;
+}
+
+}  // namespace
+
+std::vector<GenericTest> wave_tests(const JointModel& joint, int other_tests) {
+  const std::vector<DriveView>& views = joint.views();
+  const std::size_t runs = views.size();
+  std::vector<std::vector<Bin>> bins(runs);
+  parallel_for(static_cast<int>(runs), [&](int r) {
+    bins[static_cast<std::size_t>(r)] = bins_of(views[static_cast<std::size_t>(r)], joint.score_of_motions(r));
+  });
+  double duration_s = 0.0, x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+  for (const std::vector<Bin>& of_run : bins)
+    for (const Bin& b : of_run) {
+      duration_s = std::max(duration_s, b.since_start_s);
+      x0 = std::min(x0, b.at.x_m), x1 = std::max(x1, b.at.x_m);
+      y0 = std::min(y0, b.at.y_m), y1 = std::max(y1, b.at.y_m);
+    }
+  if (duration_s < 2.0 * kShortestPeriod_s) return {};
+  std::vector<Wave> waves = waves_in_time(duration_s);
+  const std::vector<Wave> floor = waves_on_the_floor(x1 - x0, y1 - y0);
+  waves.insert(waves.end(), floor.begin(), floor.end());
+
+  // The square of the score of every wave in every channel.
+  std::vector<std::array<double, kChannels>> power(waves.size());
+  parallel_for(static_cast<int>(waves.size()), [&](int k) {
+    const Wave& wave = waves[static_cast<std::size_t>(k)];
+    std::array<double, kChannels> sum{};
+    double part[5][2] = {};
+    const auto close = [&] {
+      for (int c = 0; c < 5; ++c) {
+        sum[static_cast<std::size_t>(std::min(c, 3))] += part[c][0] * part[c][0] + part[c][1] * part[c][1];
+        part[c][0] = part[c][1] = 0.0;
+      }
+    };
+    for (const std::vector<Bin>& of_run : bins) {
+      for (const Bin& b : of_run) {
+        const double angle = 2.0 * kPi * wave.turns(b.since_start_s, b.at), c = std::cos(angle), s = std::sin(angle);
+        for (int j = 0; j < 5; ++j) {
+          const double score = b.score[wave.in_time && j >= 3 ? j + 2 : j];
+          part[j][0] += c * score;
+          part[j][1] += s * score;
+        }
+      }
+      if (wave.in_time) close();
+    }
+    if (!wave.in_time) close();
+    power[static_cast<std::size_t>(k)] = sum;
+  });
+
+  // The strongest of each band: shorter waves are seen less well, so that scores of one band alone can be held
+  // together.
+  struct Chosen {
+    std::size_t wave;
+    int channel;
+  };
+  std::vector<Chosen> chosen;
+  for (const bool in_time : {true, false})
+    for (int band = 0; band < kBands; ++band)
+      for (int channel = 0; channel < kChannels; ++channel) {
+        double best = 0.0;
+        std::size_t at = waves.size();
+        for (std::size_t k = 0; k < waves.size(); ++k)
+          if (waves[k].in_time == in_time && waves[k].band == band &&
+              power[k][static_cast<std::size_t>(channel)] > best)
+            best = power[k][static_cast<std::size_t>(channel)], at = k;
+        if (at < waves.size()) chosen.push_back({at, channel});
+      }
+  const double looked_at = static_cast<double>(kChannels * waves.size()) + other_tests;
+  std::vector<GenericTest> tests(chosen.size());
+  parallel_for(static_cast<int>(chosen.size()), [&](int i) {
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    const Wave& wave = waves[chosen[static_cast<std::size_t>(i)].wave];
+    const int channel = chosen[static_cast<std::size_t>(i)].channel;
+    t.variable = name_of(wave);
+    t.channel = channel == 3
+                    ? wave.in_time ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
+                    : kChannel[channel];
+    const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
+    CandidateColumns columns = joint.columns_of(*term, {});
+    columns.least_surviving = kLeastSurvivingOfGeneric;
+    t.test = joint.test(columns, -1, true);
+    t.tests = looked_at;
+    t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
+    const std::size_t of_each = channel == 3 ? 4 : 2;
+    for (std::size_t k = 0; k < (wave.in_time ? runs : 1); ++k)
+      for (std::size_t axis = 0; axis < of_each / 2; ++axis) {
+        std::string where = channel == 3 ? axis == 0 ? ", along x" : ", along y" : "";
+        if (wave.in_time && runs > 1) where += ", recording " + std::to_string(k + 1);
+        t.waves.push_back(
+            {"phase of " + t.variable + where + " [rad]", {k * of_each + 2 * axis}, {k * of_each + 2 * axis + 1}});
+      }
+    t.as_effect = term;
+  });
+  return tests;
+}
+
+}  // namespace odolab

@@ -1,0 +1,94 @@
+#include "core/diagnosis/waves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/diagnosis/quality.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab {
+namespace {
+
+JointModel calibrated(const test::Case& c) {
+  std::vector<InnovationRun> runs;
+  for (const Recording& r : c.recordings) runs.push_back(*innovation_run(r, c.nominal));
+  const LeastSquaresCalibration start = *calibrate_least_squares(c.recordings, c.nominal);
+  JointModel joint(std::move(runs), std::vector<char>(c.recordings.size(), 0), start, c.nominal);
+  joint.linearise();
+  joint.fit(3);
+  joint.fit_noise();
+  joint.fit(2);
+  return joint;
+}
+
+test::Case short_case(const std::string& effect) {
+  test::CaseSettings settings;
+  settings.effect = effect;
+  settings.size = 3.0;
+  settings.runs = 2;
+  settings.duration_s = 40.0;
+  return test::generated_case(settings, 11);
+}
+
+const GenericTest& strongest(const std::vector<GenericTest>& tests) {
+  return *std::max_element(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
+    return a.test.statistic < b.test.statistic;
+  });
+}
+
+TEST(LinearisedRun, ScoreOfMotionsIsTheProductWithTheColumnOfAnyMotion) {
+  const JointModel joint = calibrated(short_case(""));
+  const LinearisedRun& run = joint.linearised()[1];
+  const std::size_t steps = run.run().wheels.size() - 1;
+  Motions motions(steps);
+  Random random(5);
+  for (std::size_t i = 0; i < steps; ++i)
+    motions[i] = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+  std::vector<double> column(3 * static_cast<std::size_t>(run.samples()));
+  const Stretch touched = run.of_motion(motions, column.data());
+  double by_column = 0.0, by_score = 0.0, size = 0.0;
+  for (std::size_t k = 3 * static_cast<std::size_t>(touched.first); k < 3 * static_cast<std::size_t>(touched.last);
+       ++k) {
+    by_column += column[k] * run.residual()[k];
+    size += std::abs(column[k] * run.residual()[k]);
+  }
+  const std::vector<BodyMotion> score = run.score_of_motions(run.residual().data());
+  for (std::size_t i = 0; i < steps; ++i)
+    by_score += score[i].forward_m * motions[i].forward_m + score[i].sideways_m * motions[i].sideways_m +
+                score[i].turn_rad * motions[i].turn_rad;
+  EXPECT_NEAR(by_score, by_column, 1e-6 * size);  // shares of an interval are kept in single precision
+}
+
+TEST(Waves, OfTheFloorAreFoundWithTheirLengthAndDirection) {
+  const JointModel joint = calibrated(short_case("waves"));
+  const std::vector<GenericTest> tests = wave_tests(joint, 0);
+  const GenericTest& t = strongest(tests);
+  EXPECT_LT(t.p_value, 1e-6);
+  EXPECT_EQ(t.channel, "turn per metre [rad/m]");
+  // 1.5 m along x; neighbours stand two fifths of a turn over the whole floor apart
+  double length_m = 0.0, degrees = 90.0;
+  ASSERT_EQ(std::sscanf(t.variable.c_str(), "place, in waves of %lf m towards %lf", &length_m, &degrees), 2)
+      << t.variable;
+  EXPECT_NEAR(length_m, 1.5, 0.3);
+  EXPECT_NEAR(degrees, 0.0, 15.0);
+}
+
+TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
+  const JointModel joint = calibrated(short_case("gusts"));
+  const std::vector<GenericTest> tests = wave_tests(joint, 0);
+  const GenericTest& t = strongest(tests);
+  EXPECT_LT(t.p_value, 1e-3);  // over all waves; both runs have phases of their own
+  EXPECT_EQ(t.channel, "carried across the floor [m/s]");
+  double period_s = 0.0;
+  ASSERT_EQ(std::sscanf(t.variable.c_str(), "time, in waves of %lf s", &period_s), 1) << t.variable;
+  EXPECT_NEAR(period_s, 6.0, 0.5);  // neighbours are 0.4 turns in 40 s apart: 0.36 s
+}
+
+TEST(Waves, AreNotFoundInNoise) {
+  // p is over all that was looked at; one case in a thousand would fail
+  for (const GenericTest& t : wave_tests(calibrated(short_case("")), 0)) EXPECT_GT(t.p_value, 1e-3) << t.variable;
+}
+
+}  // namespace
+}  // namespace odolab
