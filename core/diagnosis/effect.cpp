@@ -95,8 +95,8 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
       l += smooth[static_cast<std::size_t>(j) + 1].left_rad - smooth[static_cast<std::size_t>(j)].left_rad;
       r += smooth[static_cast<std::size_t>(j) + 1].right_rad - smooth[static_cast<std::size_t>(j)].right_rad;
     }
-    *left = l / span;
-    *right = r / span;
+    *left = span > 0.0 ? l / span : 0.0;  // two readings may have one stamp
+    *right = span > 0.0 ? r / span : 0.0;
   };
   const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
   for (int i = 0; i < n; ++i) {

@@ -18,9 +18,13 @@ bool has_parameter(const ActiveEffect& active, const std::string& name) {
 }  // namespace
 
 std::vector<ActiveEffect> FittedModel::effects_in(const std::string& recording) const {
+  const bool has_clock =
+      std::any_of(truth_clock_s.begin(), truth_clock_s.end(), [&](const auto& of) { return of.first == recording; });
   std::vector<ActiveEffect> active;
-  for (const FittedEffect& effect : effects)
+  for (const FittedEffect& effect : effects) {
+    if (effect.active.effect == "truth_time_offset" && has_clock) continue;  // its own, and not the mean of all
     if (effect.recording.empty() || effect.recording == recording) active.push_back(effect.active);
+  }
   return active;
 }
 
@@ -37,6 +41,9 @@ FittedModel model_of(const Diagnosis& diagnosis) {
     if (finding.effect == "unknown" || finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault")
       continue;
     FittedEffect effect{finding.as_active(), {}, ""};
+    // The fit has the crawl as a turned mounting; where it is the wheels', the mounting sits as it was drawn.
+    if (finding.effect == "wheel_toe")
+      model.vehicle.truth.axle_T_tracked.heading_rad += effect.active.parameter("sideways_per_metre");
     for (const FoundParameter& p : finding.parameters) effect.stderr_values.emplace_back(p.name, p.stderr_value);
     // phases of their own, each in its recording alone
     if (has_parameter(effect.active, "phase_rad_2")) {
