@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int kBatches = 60;
 constexpr int kNoiseSamples = 5000;
+constexpr double kFewestToValidate = 4.0;
 constexpr double kPriorBatches = 6.0;  // the weight of believing that the innovations are white
 
 // An inflation of one or more from the scatter of so many batches, relative to what it should be.
@@ -689,6 +690,10 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
   out.inflation = shrunk_inflation(scatter / sum_i, count);
   out.batches = kPriorBatches + count;
+  if (count < kFewestToValidate) {  // a single kick of a castor is not fitted on one half and tried on the other
+    out.cross_validated = out.statistic;
+    return out;
+  }
   for (int half = 0; half < 2; ++half) {
     double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
     for (std::size_t n = 0; n < u.size(); ++n)
