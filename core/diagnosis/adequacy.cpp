@@ -61,6 +61,20 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
 
 }  // namespace
 
+const char* name_of_channel(int channel) {
+  static const char* const kNames[kGenericChannels] = {"forward per metre [1]", "sideways per metre [1]",
+                                                       "turn per metre [rad/m]"};
+  return kNames[channel];
+}
+
+BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
+  // Turning on the spot counts as way too, by the way of the wheels.
+  const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
+  BodyMotion m;
+  (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = way;
+  return m;
+}
+
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
@@ -167,15 +181,14 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.push_back(phases);
   groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
 
-  static const char* const kChannels[3] = {"forward per metre [1]", "sideways per metre [1]", "turn per metre [rad/m]"};
-  const int n = static_cast<int>(groups.size()) * 3;
+  const int n = static_cast<int>(groups.size()) * kGenericChannels;
   std::vector<GenericTest> tests(n);
   parallel_for(n, [&](int i) {
-    const Group& g = groups[i / 3];
-    const int channel = i % 3;
+    const Group& g = groups[i / kGenericChannels];
+    const int channel = i % kGenericChannels;
     auto term = std::make_shared<Effect>();
     term->name = g.variable;
-    term->component = kChannels[channel];
+    term->component = name_of_channel(channel);
     const auto values_of = g.values;
     term->motions = [values_of, channel](const DriveView& view, const std::vector<double>&) {
       std::vector<std::vector<double>> values;
@@ -184,12 +197,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       for (std::size_t k = 0; k < values.size(); ++k) {
         out[k] = Motions(view.steps.size());
         for (std::size_t j = 0; j < values[k].size(); ++j) {
-          const EffectStep& s = view.steps[j];
-          // Turning on the spot counts as way too, by the way of the wheels.
-          const double way =
-              std::abs(s.forward_m()) + (channel == 0 ? 0.0 : 0.5 * view.drive.wheelbase_m * std::abs(s.turn_rad));
-          BodyMotion& m = out[k][j];
-          (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = values[k][j] * way;
+          const BodyMotion m = unit_of_channel(view.steps[j], view.drive.wheelbase_m, channel);
+          const double value = values[k][j];
+          out[k][j] = {value * m.forward_m, value * m.sideways_m, value * m.turn_rad};
         }
       }
       return out;
@@ -199,7 +209,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     term->amplitudes.resize(one.size());
     tests[i].as_effect = term;
     tests[i].variable = g.variable;
-    tests[i].channel = kChannels[channel];
+    tests[i].channel = name_of_channel(channel);
     tests[i].at = g.at;
     tests[i].waves = g.waves;
     CandidateColumns columns = joint.columns_of(*term, {});

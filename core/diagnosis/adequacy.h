@@ -25,6 +25,12 @@ struct GenericTest {
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 
+// Of three channels: forward, sideways and turn, each for each metre of way. Their names, and the motion of one unit of
+// a channel in one step.
+constexpr int kGenericChannels = 3;
+const char* name_of_channel(int channel);
+BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
+
 // Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known
 // better than to a fifth where the vehicle speeds up: directions of which less than the square of that is left may be
 // its error, and are not tested.

@@ -12,15 +12,14 @@ namespace {
 
 constexpr double kBin_s = 0.1;
 constexpr double kShortestPeriod_s = 3.0, kShortestLength_m = 0.6;
-// Neighbours stand so close, in turns over the whole, that what lies between two loses a tenth of its power at most.
+// Neighbours stand so close, in turns over the whole, that what lies between two loses an eighth of its power at most.
 constexpr double kTurnsApart = 0.4;
 constexpr std::size_t kMostWaves = 500;
 constexpr int kBands = 3;
 
-// What a wave modulates, for each metre of way or, in time, what carries the vehicle for each second that it moves.
-constexpr int kChannels = 4;
-const char* const kChannel[kChannels] = {"forward per metre [1]", "sideways per metre [1]", "turn per metre [rad/m]",
-                                         "carried across the floor"};
+// What a wave modulates: the generic channels, and what carries the vehicle across the floor, for each metre of way or,
+// in time, for each second that it moves.
+constexpr int kAcross = kGenericChannels, kChannels = kGenericChannels + 1;
 
 // A wave: turns per second, or the wave vector in turns per metre.
 struct Wave {
@@ -38,17 +37,14 @@ struct Unit {
 
 Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, bool in_time) {
   Unit u;
-  const double way = std::abs(s.forward_m());
-  // Turning on the spot counts as way too, by the way of the wheels.
-  const double all_way = way + 0.5 * wheelbase_m * std::abs(s.turn_rad);
-  if (channel == 0) u.of[0].forward_m = way;
-  if (channel == 1) u.of[0].sideways_m = all_way;
-  if (channel == 2) u.of[0].turn_rad = all_way;
-  if (channel == 3) {
-    const double much = in_time ? (all_way > 0.0 ? s.duration_s : 0.0) : way;
-    u.of[0] = {much * s.cos_heading, -much * s.sin_heading, 0.0};
-    u.of[1] = {much * s.sin_heading, much * s.cos_heading, 0.0};
+  if (channel < kAcross) {
+    u.of[0] = unit_of_channel(s, wheelbase_m, channel);
+    return u;
   }
+  const bool moves = s.forward_m() != 0.0 || s.turn_rad != 0.0;
+  const double much = !in_time ? std::abs(s.forward_m()) : moves ? s.duration_s : 0.0;
+  u.of[0] = {much * s.cos_heading, -much * s.sin_heading, 0.0};
+  u.of[1] = {much * s.sin_heading, much * s.cos_heading, 0.0};
   return u;
 }
 
@@ -60,7 +56,7 @@ double product(const BodyMotion& a, const BodyMotion& b) {
 struct Bin {
   double since_start_s = 0.0;
   Vec2 at;
-  double score[2 * kChannels + 2] = {};  // channels for each metre, the last one in x and y; then that for each second
+  double score[kChannels + 3] = {};  // channels for each metre, the last one in x and y; then that for each second
 };
 
 std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
@@ -77,9 +73,9 @@ std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& s
     for (int channel = 0; channel < kChannels; ++channel) {
       const Unit u = unit_of(s, b, channel, false);
       sum[channel] += product(u.of[0], score[i]);
-      if (channel == 3) sum[4] += product(u.of[1], score[i]);
+      if (channel == kAcross) sum[4] += product(u.of[1], score[i]);
     }
-    const Unit u = unit_of(s, b, 3, true);
+    const Unit u = unit_of(s, b, kAcross, true);
     sum[5] += product(u.of[0], score[i]);
     sum[6] += product(u.of[1], score[i]);
   }
@@ -121,7 +117,7 @@ std::vector<Wave> waves_on_the_floor(double width_m, double height_m) {
 
 std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size_t runs) {
   auto term = std::make_shared<Effect>();
-  const std::size_t phases = wave.in_time ? runs : 1, of_each = channel == 3 ? 4 : 2;
+  const std::size_t phases = wave.in_time ? runs : 1, of_each = channel == kAcross ? 4 : 2;
   term->amplitudes.resize(phases * of_each);
   term->motions = [=](const DriveView& view, const std::vector<double>&) {
     std::vector<Motions> out(phases * of_each);
@@ -227,19 +223,19 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, int other_tests) {
     const Wave& wave = waves[chosen[static_cast<std::size_t>(i)].wave];
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     t.variable = name_of(wave);
-    t.channel = channel == 3
+    t.channel = channel == kAcross
                     ? wave.in_time ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
-                    : kChannel[channel];
+                    : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     CandidateColumns columns = joint.columns_of(*term, {});
     columns.least_surviving = kLeastSurvivingOfGeneric;
     t.test = joint.test(columns, -1, true);
     t.tests = looked_at;
     t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
-    const std::size_t of_each = channel == 3 ? 4 : 2;
+    const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.in_time ? runs : 1); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {
-        std::string where = channel == 3 ? axis == 0 ? ", along x" : ", along y" : "";
+        std::string where = channel == kAcross ? axis == 0 ? ", along x" : ", along y" : "";
         if (wave.in_time && runs > 1) where += ", recording " + std::to_string(k + 1);
         t.waves.push_back(
             {"phase of " + t.variable + where + " [rad]", {k * of_each + 2 * axis}, {k * of_each + 2 * axis + 1}});
