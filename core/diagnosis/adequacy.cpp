@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/waves.h"
 
 namespace odolab {

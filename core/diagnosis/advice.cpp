@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/advised_drive.h"
+#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/select.h"
 
 namespace odolab {

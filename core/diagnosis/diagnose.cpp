@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/adequacy.h"
 #include "core/diagnosis/advice.h"
+#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/intervals.h"
 #include "core/diagnosis/proof.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/chi_square.h"
 
 namespace odolab {
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/chi_square.h"
 
 namespace odolab {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/joint_model.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"

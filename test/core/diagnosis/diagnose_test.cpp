@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/joint_model.h"
 #include "core/odometry/prediction.h"

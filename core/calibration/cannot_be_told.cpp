@@ -1,0 +1,91 @@
+#include "core/calibration/cannot_be_told.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/calibration/likelihood_fit.h"
+
+namespace odolab {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+std::string text(const char* format, double a = 0.0, double b = 0.0) {
+  char buffer[240];
+  std::snprintf(buffer, sizeof buffer, format, a, b);
+  return buffer;
+}
+
+// What the robot did, for the sentences on what it did not do.
+struct Driven {
+  double travel_m = 0.0;  // of the centre, forwards and backwards alike
+  double turn_rad = 0.0;  // left and right alike
+};
+
+Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  Driven driven;
+  for (const InnovationRun& run : runs)
+    for (const DriveStep& step : drive_steps(run, drive)) {
+      driven.travel_m += 0.5 * std::abs(step.left_m + step.right_m);
+      driven.turn_rad += std::abs(step.turn_rad);
+    }
+  return driven;
+}
+
+}  // namespace
+
+std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, const std::vector<int>& active,
+                                             const MatrixXd& information, const std::vector<InnovationRun>& runs,
+                                             const DifferentialDrive& drive, bool any_heading) {
+  const Driven driven = driven_in(runs, drive);
+  std::vector<std::string> sentences;
+  const auto open = [&](int c) { return std::find(active.begin(), active.end(), c) != active.end() && !determined[c]; };
+  bool some_clock_is_open = false;
+  for (int c : active) some_clock_is_open = some_clock_is_open || (c >= column::shared && !determined[c]);
+  const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right),
+             base = open(column::wheelbase);
+  // The direction in the space of radii and wheelbase along which all of them grow together.
+  bool scale_is_open = false;
+  if (left && right && base) {
+    VectorXd together = VectorXd::Zero(information.rows());
+    for (std::size_t k = 0; k < active.size(); ++k)
+      if (active[k] <= column::wheelbase) together(static_cast<Eigen::Index>(k)) = 1.0;
+    scale_is_open = together.dot(information * together) < 1.0 / (kDetermined * kDetermined);
+  }
+  const std::string so_far = text(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
+  if (scale_is_open)
+    sentences.push_back("wheel radii and wheelbase: only their ratios show here, not the scale" + so_far +
+                        "; drive a straight of a few metres");
+  else if (left || right)
+    sentences.push_back(std::string(left && right ? "wheel_radius_left_m and wheel_radius_right_m"
+                                    : left        ? "wheel_radius_left_m"
+                                                  : "wheel_radius_right_m") +
+                        ": too little travel against the truth's noise" + so_far +
+                        "; drive a straight of a few metres");
+  if (base && !scale_is_open)
+    sentences.push_back("wheelbase_m: the robot hardly turned" + so_far +
+                        "; drive a full turn on the spot each way, or arcs");
+  if (open(column::mounting_x) || open(column::mounting_y))
+    sentences.push_back(std::string("truth_mounting.") +
+                        (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m"
+                         : open(column::mounting_x)                           ? "x_m"
+                                                                              : "y_m") +
+                        ": the tracked point's place on the vehicle shows in turns only, and its side only beside "
+                        "straights or arcs both ways" +
+                        so_far + "; drive turns on the spot and arcs with the truth sampled on the way");
+  if (open(column::mounting_heading))
+    sentences.push_back("truth_mounting.heading_rad: no straight long enough to see the direction of travel" + so_far +
+                        "; drive a straight of a few metres");
+  else if (!any_heading)
+    sentences.push_back("truth_mounting.heading_rad: the truth has no heading, so there is none to align");
+  if (some_clock_is_open)
+    sentences.push_back(
+        "truth_mounting.time_offset_s: nothing happened at a time that the truth would show; drive with "
+        "starts, stops and turns and sample the truth on the way");
+  return sentences;
+}
+}  // namespace odolab

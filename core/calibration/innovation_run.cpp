@@ -1,0 +1,129 @@
+// From a recording to what the filter reads.
+#include <algorithm>
+#include <cmath>
+
+#include "core/calibration/innovations.h"
+#include "core/calibration/rests.h"
+#include "core/calibration/smoothed_readings.h"
+#include "core/odometry/differential_drive.h"
+
+namespace odolab {
+
+namespace {
+
+// Whether rotations are whole counts: interpolated or ideal ones are not, and have no rounding error.
+bool lie_on_counts(const std::vector<WheelSample>& wheels, const DifferentialDrive& drive) {
+  const double counts_per_rad = drive.counts_per_wheel_turn() / (2.0 * kPi);
+  std::size_t on = 0;
+  const auto whole = [&](double rad, double first_rad) {
+    const double counts = (rad - first_rad) * counts_per_rad;
+    return std::abs(counts - std::round(counts)) < 0.01;
+  };
+  for (const WheelSample& w : wheels)
+    on += whole(w.left_rad, wheels.front().left_rad) && whole(w.right_rad, wheels.front().right_rad);
+  return static_cast<double>(on) > 0.95 * static_cast<double>(wheels.size());
+}
+
+// Truth that repeats itself to the last bit while the wheels drive on is not a measurement.
+int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels, const Vehicle& vehicle) {
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
+  std::vector<TruthSample> kept;
+  std::size_t k = 0;
+  std::vector<double> rolled_m(wheels.size(), 0.0);
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    rolled_m[i] = rolled_m[i - 1] +
+                  0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
+                  0.5 * drive.wheel_radius_right_m * std::abs(wheels[i].right_rad - wheels[i - 1].right_rad);
+  const auto rolled_at = [&](double time_s) {
+    while (k + 1 < wheels.size() && wheels[k].time_s < time_s) ++k;
+    return rolled_m[k];
+  };
+  for (std::size_t i = 0; i < truth.size();) {
+    std::size_t j = i + 1;
+    while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
+           truth[j].position.y_m == truth[i].position.y_m && truth[j].heading_rad == truth[i].heading_rad)
+      ++j;
+    const double before_m = rolled_at(truth[i].time_s);
+    const bool frozen = j - i >= 3 && rolled_at(truth[j - 1].time_s) - before_m > 0.02;
+    for (std::size_t n = i; n < j; ++n)
+      if (!frozen || n == i) kept.push_back(truth[n]);
+    i = j;
+  }
+  const int left_out = static_cast<int>(truth.size() - kept.size());
+  truth = std::move(kept);
+  return left_out;
+}
+}  // namespace
+
+Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle) {
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
+  const std::string where = recording.name.empty() ? "recording" : recording.name;
+  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
+    return Error{where, "", problems.front()};
+  InnovationRun run;
+  run.name = where;
+  for (const WheelSample& w : wheel_samples(recording, drive))
+    if (run.wheels.empty() || w.time_s > run.wheels.back().time_s) run.wheels.push_back(w);
+  if (run.wheels.size() < 2)
+    return Error{where, "no wheel rotation", "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks"};
+
+  // Truth may reach one wheel sample beyond the wheels: there the wheels are taken to go on as they did.
+  const double span_s = run.wheels.back().time_s - run.wheels.front().time_s;
+  const double beyond_s = span_s / static_cast<double>(run.wheels.size() - 1) + 1e-9;
+  std::vector<TruthSample> truth;
+  for (const TruthSample& t : truth_samples(recording)) {
+    const double time_s = t.time_s - vehicle.truth.time_offset_s;
+    if (time_s < run.wheels.front().time_s - beyond_s || time_s > run.wheels.back().time_s + beyond_s) continue;
+    if (truth.empty() || t.time_s > truth.back().time_s) truth.push_back(t);
+  }
+  run.frozen = leave_out_frozen(truth, run.wheels, vehicle);
+  const auto with_heading =
+      std::count_if(truth.begin(), truth.end(), [](const TruthSample& t) { return t.heading_rad.has_value(); });
+  run.truth_has_heading = 2 * with_heading > static_cast<std::ptrdiff_t>(truth.size());
+  for (const TruthSample& t : truth) {
+    if (run.truth.empty() && run.truth_has_heading && !t.heading_rad)
+      continue;  // a start needs a heading where there is one
+    run.truth.push_back(t);
+    if (!run.truth_has_heading) run.truth.back().heading_rad.reset();
+  }
+  if (run.truth.size() < 2)
+    return Error{where, std::to_string(run.truth.size()) + " truth samples within the time of the wheels",
+                 "two or more of truth_x_m and truth_y_m"};
+  run.set_aside.assign(run.truth.size(), 0);
+  run.counts_show = lie_on_counts(run.wheels, drive);
+  run.smooth = smoothed(run.wheels);
+  if (run.counts_show) {
+    run.settles.assign(run.wheels.size() - 1, 0);
+    for (std::size_t i = 1; i + 1 < run.wheels.size(); ++i) {  // the first count behind a pause, however short
+      const WheelSample &before = run.wheels[i - 1], &here = run.wheels[i], &next = run.wheels[i + 1];
+      if (here.left_rad == before.left_rad && next.left_rad != here.left_rad) run.settles[i] |= 1;
+      if (here.right_rad == before.right_rad && next.right_rad != here.right_rad) run.settles[i] |= 2;
+    }
+    for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::left_rad)) run.settles[e.interval] |= 1;
+    for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::right_rad)) run.settles[e.interval] |= 2;
+  }
+  return run;
+}
+
+std::vector<DriveStep> drive_steps(const InnovationRun& run, const DifferentialDrive& drive) {
+  std::vector<DriveStep> steps;
+  steps.reserve(run.wheels.size() - 1);
+  Pose pose{run.truth.front().position.x_m, run.truth.front().position.y_m,
+            run.truth.front().heading_rad.value_or(0.0)};
+  for (std::size_t i = 0; i + 1 < run.wheels.size(); ++i) {
+    const WheelSample &a = run.wheels[i], &b = run.wheels[i + 1];
+    DriveStep step;
+    step.time_s = 0.5 * (a.time_s + b.time_s);
+    step.duration_s = b.time_s - a.time_s;
+    step.left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad);
+    step.right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
+    step.turn_rad = (step.right_m - step.left_m) / drive.wheelbase_m;
+    const Pose next = dead_reckoned(pose, b.left_rad - a.left_rad, b.right_rad - a.right_rad, drive);
+    step.heading_rad = pose.heading_rad + 0.5 * step.turn_rad;
+    step.position = 0.5 * (pose.position() + next.position());
+    pose = next;
+    steps.push_back(step);
+  }
+  return steps;
+}
+}  // namespace odolab

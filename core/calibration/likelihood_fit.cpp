@@ -1,0 +1,247 @@
+#include "core/calibration/likelihood_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/calibration/minimise.h"
+
+namespace odolab {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr int kColumns = column::first_extra;
+constexpr double kGate = 30.0;  // squared size of an innovation; 1.4e-6 of normal ones of three channels are larger
+constexpr int kNoiseSamples = 6000;  // truth samples that the noise is fitted to
+constexpr int kNoiseStretch = 500;   // in stretches of this many
+
+}  // namespace
+
+std::vector<double> prior_sizes(const FitParameters& nominal) {
+  const DifferentialDrive& drive = nominal.shared.drive;
+  std::vector<double> sizes = {
+      0.1 * drive.wheel_radius_left_m, 0.1 * drive.wheel_radius_right_m, 0.1 * drive.wheelbase_m, 0.2, 0.2, 0.3};
+  sizes.resize(nominal.size(), 0.2);
+  return sizes;
+}
+
+double& parameter_of(FitParameters& parameters, int c) {
+  InnovationModel& model = parameters.shared;
+  switch (c) {
+    case column::wheel_radius_left:
+      return model.drive.wheel_radius_left_m;
+    case column::wheel_radius_right:
+      return model.drive.wheel_radius_right_m;
+    case column::wheelbase:
+      return model.drive.wheelbase_m;
+    case column::mounting_x:
+      return model.truth.axle_T_tracked.x_m;
+    case column::mounting_y:
+      return model.truth.axle_T_tracked.y_m;
+    case column::mounting_heading:
+      return model.truth.axle_T_tracked.heading_rad;
+    default:
+      return parameters.clock_s[c - column::shared];
+  }
+}
+
+LikelihoodFit::Sums LikelihoodFit::sums(const FitParameters& parameters, bool derivatives, int batches) const {
+  FilterOptions options;
+  options.derivatives = derivatives;
+  if (batches > 0) options.batch = std::max(1, truth_samples() / batches);
+  const int n = static_cast<int>(runs_.size());
+  std::vector<InnovationSums> of_run(n);
+  each(n, [&](int r) {
+    const InnovationModel model = parameters.of(r);
+    of_run[r] = filtered(runs_[r], summed_up(runs_[r], model), model, options);
+  });
+  Sums total = none();
+  for (int r = 0; r < n; ++r) add(total, r, of_run[r]);
+  return total;
+}
+
+void LikelihoodFit::each(int count, const std::function<void(int)>& work) const {
+  constexpr int kWorthThreads = 5000;
+  if (truth_samples() > kWorthThreads)
+    parallel_for(count, work);
+  else
+    for (int i = 0; i < count; ++i) work(i);
+}
+
+void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight, int most_iterations) {
+  const auto objective = [&](const Sums& s, const FitParameters& at) { return s.chi2 + weight * prior_of(at, active); };
+  Sums now = sums(now_, true);
+  double value = objective(now, now_);
+  double damping = 1e-6;
+  const int n = static_cast<int>(active.size());
+  for (int i = 0; i < most_iterations; ++i) {
+    MatrixXd a(n, n);
+    VectorXd g(n);
+    for (int r = 0; r < n; ++r) {
+      for (int c = 0; c < n; ++c) a(r, c) = now.information(active[r], active[c]);
+      a(r, r) += weight;
+      g(r) = now.score(active[r]) - weight * deviation(now_, active[r]);
+    }
+    bool accepted = false;
+    double size = 0.0;
+    for (int attempt = 0; attempt < 8 && !accepted; ++attempt) {
+      MatrixXd damped = a;
+      for (int r = 0; r < n; ++r) damped(r, r) *= 1.0 + damping;
+      const VectorXd step = damped.ldlt().solve(g);
+      size = step.dot(a * step);
+      FitParameters candidate = now_;
+      for (int r = 0; r < n; ++r) parameter_of(candidate, active[r]) += step(r) * prior_[active[r]];
+      if (problems_in(candidate.shared.drive).empty()) {
+        const Sums next = sums(candidate, true);
+        const double next_value = objective(next, candidate);
+        if (std::isfinite(next_value) && next_value <= value + 1e-9 * std::abs(value)) {
+          now_ = candidate;
+          now = next;
+          value = next_value;
+          accepted = true;
+          damping = std::max(damping * 0.1, 1e-9);
+          break;
+        }
+      }
+      if (size < 1e-6) break;
+      damping = std::max(damping * 10.0, 1e-4) * 3.0;
+    }
+    if (!accepted || size < 1e-6) break;  // a thousandth of a standard deviation
+  }
+}
+
+void LikelihoodFit::fit_noise(const std::vector<int>& active, double first_stride) {
+  std::vector<SummedRun> summed;
+  bool any_heading = false;
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    summed.push_back(summed_up(runs_[r], now_.of(r)));
+    any_heading = any_heading || runs_[r].truth_has_heading;
+  }
+  const std::vector<Stretch> stretches = noise_stretches();
+  const bool restricted = truth_samples() < 1000;
+  const auto noise_of = [&](const std::vector<double>& logs) {
+    return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
+                       any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad};
+  };
+  const auto objective = [&](const std::vector<double>& logs) {
+    std::vector<InnovationSums> of_stretch(stretches.size());
+    each(static_cast<int>(stretches.size()), [&](int i) {
+      const Stretch& s = stretches[i];
+      InnovationModel model = now_.of(s.run);
+      model.noise = noise_of(logs);
+      FilterOptions options;
+      options.derivatives = restricted;
+      options.first = s.first;
+      options.last = s.last;
+      of_stretch[i] = filtered(runs_[s.run], summed[s.run], model, options);
+    });
+    Sums total = none();
+    for (std::size_t i = 0; i < stretches.size(); ++i) add(total, stretches[i].run, of_stretch[i]);
+    double value = total.chi2 + total.log_determinant;
+    if (restricted) {
+      MatrixXd a(active.size(), active.size());
+      for (std::size_t r = 0; r < active.size(); ++r)
+        for (std::size_t c = 0; c < active.size(); ++c) a(r, c) = total.information(active[r], active[c]) + (r == c);
+      value += a.ldlt().vectorD().array().log().sum();
+    }
+    // Very mild priors keep a size that the recordings say nothing about finite: a factor of ten either way.
+    const double usual[3] = {0.003, 0.002, 0.005};
+    for (std::size_t k = 0; k < logs.size(); ++k) value += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
+    return value;
+  };
+  FittedNoise& noise = now_.shared.noise;
+  std::vector<double> logs = {std::log(noise.wheel_m_per_sqrt_m), std::log(noise.truth_position_m)};
+  if (any_heading) logs.push_back(std::log(noise.truth_heading_rad));
+  noise = noise_of(minimised(objective, logs, first_stride, 0.003, 150));
+}
+
+bool LikelihoodFit::gate() {
+  bool changed = false;
+  restarts_ = 0;
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    const InnovationModel model = now_.of(r);
+    InnovationSums s = filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    changed = changed || s.set_aside != runs_[r].set_aside;
+    restarts_ += s.restarts;
+    runs_[r].set_aside = std::move(s.set_aside);
+  }
+  return changed;
+}
+
+void LikelihoodFit::correlations(double* out) const {
+  double product[3] = {}, square[3] = {};
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    bool has_before = false;
+    double before[3] = {};
+    FilterOptions options;
+    options.derivatives = false;
+    options.on_innovation = [&](const Innovation& i) {
+      for (int k = 0; k < i.size; ++k) {
+        if (has_before) product[k] += before[k] * i.white[k];
+        square[k] += i.white[k] * i.white[k];
+        before[k] = i.white[k];
+      }
+      has_before = true;
+    };
+    const InnovationModel model = now_.of(r);
+    filtered(runs_[r], summed_up(runs_[r], model), model, options);
+  }
+  for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
+}
+
+LikelihoodFit::Sums LikelihoodFit::none() const {
+  const int n = now_.size();
+  Sums zero;
+  zero.information = zero.scatter = MatrixXd::Zero(n, n);
+  zero.score = VectorXd::Zero(n);
+  return zero;
+}
+
+void LikelihoodFit::add(Sums& total, int recording, const InnovationSums& s) const {
+  total.chi2 += s.chi2;
+  total.log_determinant += s.log_determinant;
+  total.scalars += s.scalars;
+  if (s.score.empty()) return;
+  std::array<int, kColumns> at;
+  for (int c = 0; c < kColumns; ++c) at[c] = c < column::shared ? c : now_.clock_of(recording);
+  for (int r = 0; r < kColumns; ++r) {
+    total.score(at[r]) += prior_[at[r]] * s.score[r];
+    for (int c = 0; c < kColumns; ++c) {
+      const double scale = prior_[at[r]] * prior_[at[c]];
+      total.information(at[r], at[c]) += scale * s.information[r * kColumns + c];
+      for (const std::vector<double>& g : s.batch_scores) total.scatter(at[r], at[c]) += scale * g[r] * g[c];
+    }
+  }
+  total.batches += static_cast<int>(s.batch_scores.size());
+}
+
+double LikelihoodFit::prior_of(const FitParameters& at, const std::vector<int>& active) const {
+  double sum = 0.0;
+  for (int c : active) sum += deviation(at, c) * deviation(at, c);
+  return sum;
+}
+
+std::vector<LikelihoodFit::Stretch> LikelihoodFit::noise_stretches() const {
+  const int every = std::max(1, (truth_samples() + kNoiseSamples - 1) / kNoiseSamples);
+  std::vector<Stretch> stretches;
+  int number = 0;
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    const int n = static_cast<int>(runs_[r].truth.size());
+    if (every == 1) {
+      stretches.push_back({r, 0, n});
+      continue;
+    }
+    for (int first = 0; first + 1 < n; first += kNoiseStretch, ++number)
+      if (number % every == 0) stretches.push_back({r, first, std::min(n, first + kNoiseStretch)});
+  }
+  return stretches;
+}
+
+}  // namespace odolab

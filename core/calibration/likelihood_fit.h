@@ -1,0 +1,111 @@
+// The fit of one set of parameters, and of the noise, to the likelihood of several runs: README.md in this folder, Eqs.
+// 10 and 11.
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <vector>
+
+#include "core/calibration/innovations.h"
+
+namespace odolab {
+
+namespace column {
+constexpr int shared = truth_clock;  // so many are of all recordings together; then a clock for each recording
+}
+
+// All parameters: what the recordings share, and the clock of each.
+struct FitParameters {
+  InnovationModel shared;
+  std::vector<double> clock_s;  // one, or one for each recording
+
+  int size() const { return column::shared + static_cast<int>(clock_s.size()); }
+  int clock_of(int recording) const { return column::shared + (clock_s.size() == 1 ? 0 : recording); }
+  InnovationModel of(int recording) const {
+    InnovationModel model = shared;
+    model.truth.time_offset_s = clock_s[clock_of(recording) - column::shared];
+    return model;
+  }
+};
+
+// A parameter by its column.
+double& parameter_of(FitParameters& parameters, int c);
+
+// How far from its nominal value each parameter may be expected: a standard deviation in its own unit.
+std::vector<double> prior_sizes(const FitParameters& nominal);
+
+// The whole likelihood of all runs, with the state of the fit.
+class LikelihoodFit {
+ public:
+  LikelihoodFit(std::vector<InnovationRun> runs, const FitParameters& nominal)
+      : runs_(std::move(runs)), nominal_(nominal), now_(nominal), prior_(prior_sizes(nominal)) {}
+
+  // Begins elsewhere than at the nominal values; the priors stay where they are.
+  void start_from(const DifferentialDrive& drive) { now_.shared.drive = drive; }
+
+  struct Sums {
+    double chi2 = 0.0;  // without the prior
+    double log_determinant = 0.0;
+    int scalars = 0;
+    Eigen::MatrixXd information;  // in units of the prior sizes
+    Eigen::VectorXd score;
+    Eigen::MatrixXd scatter;  // of the score over batches
+    int batches = 0;
+  };
+
+  // `batches` above 0: also the scatter of the score over about so many batches.
+  Sums sums(const FitParameters& parameters, bool derivatives, int batches = 0) const;
+
+  // On all cores where that is worth starting threads for.
+  void each(int count, const std::function<void(int)>& work) const;
+
+  // Levenberg and Marquardt on sum nu' S^-1 nu plus the prior of the active parameters; `weight` 0 leaves the prior
+  // out.
+  void fit_parameters(const std::vector<int>& active, double weight, int most_iterations);
+
+  // Maximum likelihood of the noise sizes with the parameters held. With few innovations the freedom that the
+  // parameters took is counted too (restricted likelihood, Patterson and Thompson 1971), so that the noise is not
+  // fitted too small.
+  void fit_noise(const std::vector<int>& active, double first_stride);
+
+  // Sets samples aside by the gate. True where that changed any.
+  bool gate();
+
+  // Lag-one correlation of the whitened innovations of x, y and heading.
+  void correlations(double* out) const;
+
+  void hold_at_nominal(int c) { parameter_of(now_, c) = value(nominal_, c); }
+  static double value(FitParameters parameters, int c) { return parameter_of(parameters, c); }
+  double deviation(const FitParameters& at, int c) const { return (value(at, c) - value(nominal_, c)) / prior_[c]; }
+  const FitParameters& now() const { return now_; }
+  const std::vector<InnovationRun>& runs() const { return runs_; }
+  double prior(int c) const { return prior_[c]; }
+  int restarts() const { return restarts_; }
+  int truth_samples() const {
+    int samples = 0;
+    for (const InnovationRun& run : runs_) samples += static_cast<int>(run.truth.size());
+    return samples;
+  }
+
+ private:
+  struct Stretch {
+    int run, first, last;
+  };
+
+  Sums none() const;
+
+  void add(Sums& total, int recording, const InnovationSums& s) const;
+
+  double prior_of(const FitParameters& at, const std::vector<int>& active) const;
+
+  // All truth, or stretches spread evenly where there is more than the noise needs.
+  std::vector<Stretch> noise_stretches() const;
+
+  std::vector<InnovationRun> runs_;
+  FitParameters nominal_;
+  FitParameters now_;
+  std::vector<double> prior_;
+  int restarts_ = 0;
+};
+
+}  // namespace odolab

@@ -1,0 +1,175 @@
+// The wheels between two truth samples, summed up: README.md in this folder, Eqs. 2 to 6.
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "core/calibration/innovations.h"
+#include "core/calibration/packed_symmetric.h"
+#include "core/calibration/wheel_line.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A wheel on which the vehicle pivots scrubs: this share of its noise comes from the other wheel's way. Without it such
+// turns would be believed without end.
+constexpr double kScrub = 0.3;
+}  // namespace
+
+SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
+  const DifferentialDrive& drive = model.drive;
+  const double b = drive.wheelbase_m;
+  const int extras = static_cast<int>(run.extra.size());
+  const int p = column::first_extra + extras;
+  const double count = count_rad(run, drive);
+  SummedRun summed;
+  summed.columns = p;
+  summed.motions.resize(run.truth.size() - 1);
+  summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
+
+  WheelLine line(run.wheels, run.speeds_are_held);
+  const bool smoothed = !run.smooth.empty();
+  const WheelLine smooth_line(smoothed ? run.smooth : run.wheels, run.speeds_are_held);
+  const auto time_of = [&](std::size_t truth_index) {
+    return run.truth[truth_index].time_s - model.truth.time_offset_s;
+  };
+  double now_s = time_of(0);
+  std::size_t i = line.interval_at(now_s);
+
+  for (std::size_t t = 0; t < summed.motions.size(); ++t) {
+    RelativeMotion& out = summed.motions[t];
+    double* const jac = &summed.derivatives[3 * static_cast<std::size_t>(p) * t];
+    const double end_s = time_of(t + 1);
+    Matrix3d wheel_noise = Matrix3d::Zero(), body_noise = Matrix3d::Zero(), sideways_noise = Matrix3d::Zero(),
+             count_noise = Matrix3d::Zero();
+    const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
+    bool counts_left_behind = false;
+    Pose& pose = out.motion;
+
+    // Body velocity at the start: the clock's derivative needs it at both ends.
+    Vector3d velocity;
+    const auto velocity_in = [&](std::size_t interval, double time_s) {
+      const WheelRates rate = smooth_line.rates(interval, time_s);
+      const double left = drive.wheel_radius_left_m * rate.left_radps,
+                   right = drive.wheel_radius_right_m * rate.right_radps;
+      Vector3d v(0.5 * (right + left), 0.0, (right - left) / b);
+      const double dt = run.wheels[interval + 1].time_s - run.wheels[interval].time_s;
+      for (const ExtraColumn& e : run.extra)
+        if (e.value != 0.0)
+          v += e.value / dt *
+               Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
+      return v;
+    };
+    i = line.interval_at(now_s);
+    const Vector3d start_velocity = velocity_in(i, now_s);
+
+    while (now_s < end_s) {
+      i = line.interval_at(now_s);
+      const bool last_interval = i + 2 >= run.wheels.size();
+      const double until_s = last_interval ? end_s : std::min(end_s, run.wheels[i + 1].time_s);
+      const WheelSample &w0 = run.wheels[i], &w1 = run.wheels[i + 1];
+      const double share = (until_s - now_s) / (w1.time_s - w0.time_s);
+      const auto [left_before, right_before] = line.turned_rad(i, now_s);
+      const auto [left_then, right_then] = line.turned_rad(i, until_s);
+      const double left_rad = left_then - left_before, right_rad = right_then - right_before;
+      const double left_m = drive.wheel_radius_left_m * left_rad, right_m = drive.wheel_radius_right_m * right_rad;
+
+      // README, Eq. 3: what the wheels say and what the extra columns add.
+      const double wheel_turn = (right_m - left_m) / b;
+      double forward = 0.5 * (right_m + left_m), sideways = 0.0, turn = wheel_turn;
+      for (const ExtraColumn& e : run.extra) {
+        if (e.value == 0.0) continue;
+        forward += share * e.value * e.per_step[i].forward_m;
+        sideways += share * e.value * e.per_step[i].sideways_m;
+        turn += share * e.value * e.per_step[i].turn_rad;
+      }
+      const double middle = pose.heading_rad + 0.5 * turn;
+      const double c = std::cos(middle), s = std::sin(middle);
+      const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
+
+      // Derivatives, Eq. 4: of the old pose by its own heading, and of the step by forward, sideways and turn.
+      const auto carry = [&](double* d, double f, double l, double w) {
+        d[0] += -dy * d[2] + c * f - s * l - 0.5 * dy * w;
+        d[1] += dx * d[2] + s * f + c * l + 0.5 * dx * w;
+        d[2] += w;
+      };
+      double left_d = left_rad, right_d = right_rad;
+      if (smoothed) {
+        const auto [left_0, right_0] = smooth_line.turned_rad(i, now_s);
+        const auto [left_1, right_1] = smooth_line.turned_rad(i, until_s);
+        left_d = left_1 - left_0;
+        right_d = right_1 - right_0;
+      }
+      carry(jac + 3 * column::wheel_radius_left, 0.5 * left_d, 0.0, -left_d / b);
+      carry(jac + 3 * column::wheel_radius_right, 0.5 * right_d, 0.0, right_d / b);
+      carry(jac + 3 * column::wheelbase, 0.0, 0.0,
+            -(drive.wheel_radius_right_m * right_d - drive.wheel_radius_left_m * left_d) / (b * b));
+      for (int e = 0; e < extras; ++e) {
+        const BodyMotion& m = run.extra[e].per_step[i];
+        carry(jac + 3 * (column::first_extra + e), share * m.forward_m, share * m.sideways_m, share * m.turn_rad);
+      }
+
+      // Noise of both wheels, Eq. 5.
+      Matrix3d f = Matrix3d::Identity();
+      f(0, 2) = -dy;
+      f(1, 2) = dx;
+      const Vector3d by_left(0.5 * c + 0.5 * dy / b, 0.5 * s - 0.5 * dx / b, -1.0 / b);
+      const Vector3d by_right(0.5 * c - 0.5 * dy / b, 0.5 * s + 0.5 * dx / b, 1.0 / b);
+      const auto carry_noise = [&](Matrix3d& m) {  // f m f' without the multiplications by 0 and 1
+        for (int k = 0; k < 3; ++k) {
+          m(0, k) += f(0, 2) * m(2, k);
+          m(1, k) += f(1, 2) * m(2, k);
+        }
+        for (int k = 0; k < 3; ++k) {
+          m(k, 0) += f(0, 2) * m(k, 2);
+          m(k, 1) += f(1, 2) * m(k, 2);
+        }
+      };
+      carry_noise(wheel_noise);
+      const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
+      const double left_way_m = (1.0 - kScrub) * std::abs(left_m) + kScrub * way_m;
+      const double right_way_m = (1.0 - kScrub) * std::abs(right_m) + kScrub * way_m;
+      wheel_noise.noalias() += by_left * (left_way_m * by_left.transpose());
+      wheel_noise.noalias() += by_right * (right_way_m * by_right.transpose());
+      if (body_is_noisy) {
+        carry_noise(body_noise);
+        carry_noise(sideways_noise);
+        const Vector3d by_turn = (2.0 / b) * Vector3d(-0.5 * dy, 0.5 * dx, 1.0);
+        const Vector3d by_forward(c, s, 0.0), by_sideways(-s, c, 0.0);
+        body_noise.noalias() += by_forward * (way_m * by_forward.transpose());
+        body_noise.noalias() += by_turn * (way_m * by_turn.transpose());
+        sideways_noise.noalias() += by_sideways * (way_m * by_sideways.transpose());
+      }
+      if (counts_left_behind) carry_noise(count_noise);
+      if (!run.settles.empty() && run.settles[i] && now_s == w0.time_s) {
+        if (run.settles[i] & 1) {
+          const double m = count * drive.wheel_radius_left_m;
+          count_noise += by_left * (m * m / 12.0 * by_left.transpose());
+          counts_left_behind = true;
+        }
+        if (run.settles[i] & 2) {
+          const double m = count * drive.wheel_radius_right_m;
+          count_noise += by_right * (m * m / 12.0 * by_right.transpose());
+          counts_left_behind = true;
+        }
+      }
+      pose = {pose.x_m + dx, pose.y_m + dy, pose.heading_rad + turn};
+      now_s = until_s;
+    }
+    velocity = velocity_in(i, end_s);
+    const Vector3d moved_end = rotation(pose.heading_rad) * velocity;
+    double* const clock = jac + 3 * column::truth_clock;  // Eq. 6: both ends move back in time
+    clock[0] += start_velocity(0) - start_velocity(2) * pose.y_m - moved_end(0);
+    clock[1] += start_velocity(1) + start_velocity(2) * pose.x_m - moved_end(1);
+    clock[2] += start_velocity(2) - moved_end(2);
+    for (int k = 0; k < 3; ++k) summed.end_velocity.push_back(moved_end(k));
+    add_symmetric(wheel_noise, out.wheel_noise);
+    if (body_is_noisy) add_symmetric(body_noise, out.body_noise);
+    if (body_is_noisy) add_symmetric(sideways_noise, out.sideways_noise);
+    if (counts_left_behind) add_symmetric(count_noise, out.count_noise);
+  }
+  return summed;
+}
+}  // namespace odolab

@@ -1,0 +1,227 @@
+// The efficient score of what the joint model does not hold yet, and how much wider than the model says it scatters.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/joint_model.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kBatches = 60;
+constexpr double kFewestToValidate = 4.0;
+constexpr double kPriorBatches = 6.0;  // the weight of believing that the innovations are white
+
+// An inflation of one or more from the scatter of so many batches, relative to what it should be.
+double shrunk_inflation(double scatter, double count) {
+  const double own = count > 1.5 ? scatter * count / (count - 1.0) : 1.0;
+  return std::max(1.0, (kPriorBatches + count * own) / (kPriorBatches + count));
+}
+}  // namespace
+
+VectorXd JointModel::inflation_of_columns() const {
+  const MatrixXd cov = covariance();
+  const VectorXd left = cov * zr_;  // what the last step of the fit did not take
+  int samples = 0;
+  for (const LinearisedRun& l : linear_) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches), q = columns();
+  VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const VectorXd res = residual_[r] - z_[r] * left;
+    const MatrixXd influence = z_[r] * cov;
+    const int n = linear_[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      const VectorXd u = influence.middleRows(3 * from, rows).transpose() * res.segment(3 * from, rows);
+      const VectorXd i = influence.middleRows(3 * from, rows).colwise().squaredNorm().transpose();
+      scatter += u.cwiseAbs2();
+      info += i;
+      square += i.cwiseAbs2();
+    }
+  }
+  VectorXd inflation = VectorXd::Ones(q);
+  for (int c = 0; c < q; ++c)
+    if (info(c) > 0.0 && square(c) > 0.0)
+      inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
+  return inflation;
+}
+
+MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
+  Eigen::Index k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, m.cols());
+  MatrixXd cross = MatrixXd::Zero(gram_.rows(), k);
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    if (c.of_run[r].size() > 0)
+      cross.noalias() += z_[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()).transpose() * c.of_run[r];
+  return gram_.ldlt().solve(cross);
+}
+
+CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<double>& shape) const {
+  CandidateColumns out;
+  out.of_run.resize(runs_.size());
+  out.stretch.resize(runs_.size());
+  std::vector<double> buffer;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
+    const int n = linear_[r].samples(), k = static_cast<int>(effect.amplitudes.size());
+    buffer.resize(3 * static_cast<std::size_t>(n));
+    if (effect.clock_rate) {
+      linear_[r].of_clock_rate(buffer.data());
+      out.stretch[r] = {0, n};
+      out.of_run[r] = Eigen::Map<VectorXd>(buffer.data(), 3 * n);
+      continue;
+    }
+    const std::vector<Motions> motions = effect.motions(views_[r], shape);
+    std::vector<Stretch> parts(k);
+    std::vector<VectorXd> made(k);
+    Stretch all{n, 0};
+    for (int j = 0; j < k; ++j) {
+      parts[j] = linear_[r].of_motion(motions[j], buffer.data());
+      const int rows = 3 * (parts[j].last - parts[j].first);
+      if (rows <= 0) continue;
+      made[j] = Eigen::Map<VectorXd>(buffer.data() + 3 * parts[j].first, rows);
+      all = {std::min(all.first, parts[j].first), std::max(all.last, parts[j].last)};
+    }
+    if (all.last <= all.first) continue;
+    out.stretch[r] = all;
+    out.of_run[r] = MatrixXd::Zero(3 * (all.last - all.first), k);
+    for (int j = 0; j < k; ++j)
+      if (made[j].size() > 0) out.of_run[r].col(j).segment(3 * (parts[j].first - all.first), made[j].size()) = made[j];
+  }
+  return out;
+}
+
+CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+  CandidateTest out;
+  int k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
+  out.freedom = k;
+  if (k == 0) return out;
+  const int q = static_cast<int>(gram_.rows());
+  // Columns that stay, and those of the effect that is taken out.
+  std::vector<int> kept, removed;
+  VectorXd taken = VectorXd::Zero(q);
+  {
+    int at = first_amplitude();
+    for (int j = 0; j < at; ++j) kept.push_back(j);
+    for (std::size_t a = 0; a < accepted.size(); ++a)
+      for (double v : accepted[a].value) {
+        if (static_cast<int>(a) == without) {
+          removed.push_back(at);
+          taken(at) = v;
+        } else {
+          kept.push_back(at);
+        }
+        ++at;
+      }
+  }
+  MatrixXd info = MatrixXd::Zero(k, k), cross = MatrixXd::Zero(q, k);
+  VectorXd score = VectorXd::Zero(k);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (c.of_run[r].size() == 0) continue;
+    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
+    info.noalias() += c.of_run[r].transpose() * c.of_run[r];
+    cross.noalias() += z_[r].middleRows(from, rows).transpose() * c.of_run[r];
+    score.noalias() += c.of_run[r].transpose() * residual_[r].segment(from, rows);
+  }
+  score += cross.transpose() * taken;
+  const VectorXd zr = zr_ + gram_ * taken;
+  MatrixXd gram(kept.size(), kept.size()), b(kept.size(), k);
+  VectorXd zk(kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    for (std::size_t j = 0; j < kept.size(); ++j) gram(i, j) = gram_(kept[i], kept[j]);
+    b.row(i) = cross.row(kept[i]);
+    zk(i) = zr(kept[i]);
+  }
+  const Eigen::LDLT<MatrixXd> solver(gram);
+  const MatrixXd beta = solver.solve(b);  // the part that calibration absorbs
+  const VectorXd base = solver.solve(zk);
+  const MatrixXd effective = info - b.transpose() * beta;
+  const VectorXd s = score - b.transpose() * base;
+  if (info.trace() <= 0.0) return out;
+  out.survives = 1.0;
+  for (int j = 0; j < k; ++j)
+    out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
+  // Directions that do not survive are left out of the test.
+  VectorXd scale(k);
+  for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * effective * scale.asDiagonal());
+  const VectorXd su = eig.eigenvectors().transpose() * (scale.asDiagonal() * s);
+  VectorXd w = VectorXd::Zero(k);
+  MatrixXd cov = MatrixXd::Zero(k, k);
+  int freedom = 0;
+  for (int j = 0; j < k; ++j) {
+    const double e = eig.eigenvalues()(j);
+    if (e < c.least_surviving) {
+      cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
+      continue;
+    }
+    ++freedom;
+    w += su(j) / e * eig.eigenvectors().col(j);
+    cov += eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose() / e;
+    out.statistic += su(j) * su(j) / e;
+  }
+  out.freedom = std::max(1, freedom);
+  const VectorXd value = scale.asDiagonal() * w;
+  out.value.assign(value.data(), value.data() + k);
+  for (int j = 0; j < k; ++j) out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+  if (!thorough || out.statistic <= 0.0) return out;
+
+  // The score along the fitted direction, batch by batch.
+  const VectorXd on_z_kept = beta * value;
+  VectorXd on_z = VectorXd::Zero(q);
+  for (std::size_t i = 0; i < kept.size(); ++i) on_z(kept[i]) = on_z_kept(static_cast<Eigen::Index>(i));
+  VectorXd base_z = -taken;  // residual = r + Z taken - Z_kept base
+  for (std::size_t i = 0; i < kept.size(); ++i) base_z(kept[i]) += base(static_cast<Eigen::Index>(i));
+  int samples = 0;
+  for (const LinearisedRun& l : linear_) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches);
+  std::vector<double> u, i;
+  double square_all = 0.0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    VectorXd column = -(z_[r] * on_z);
+    if (c.of_run[r].size() > 0)
+      column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
+    const VectorXd res = residual_[r] - z_[r] * base_z;
+    const int n = linear_[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
+      i.push_back(column.segment(3 * from, rows).squaredNorm());
+      square_all += i.back() * i.back();
+    }
+  }
+  double sum_u = 0.0, sum_i = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) sum_u += u[n], sum_i += i[n];
+  if (sum_i <= 0.0) return out;
+  const double a = sum_u / sum_i;
+  double scatter = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
+  const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
+  out.inflation = shrunk_inflation(scatter / sum_i, count);
+  out.batches = kPriorBatches + count;
+  if (count < kFewestToValidate) {  // a single kick of a castor is not fitted on one half and tried on the other
+    out.cross_validated = out.statistic;
+    return out;
+  }
+  for (int half = 0; half < 2; ++half) {
+    double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
+    for (std::size_t n = 0; n < u.size(); ++n)
+      (static_cast<int>(n % 2) == half ? fu : tu) += u[n], (static_cast<int>(n % 2) == half ? fi : ti) += i[n];
+    if (fi <= 0.0) continue;
+    const double fitted = fu / fi;
+    out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
+  }
+  return out;
+}
+
+std::vector<BodyMotion> JointModel::score_of_motions(int run) const {
+  const VectorXd left = residual_[run] - z_[run] * gram_.ldlt().solve(zr_);
+  return linear_[run].score_of_motions(left.data());
+}
+
+}  // namespace odolab
