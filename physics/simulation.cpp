@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/odometry/estimators.h"
 #include "core/scenario/effect_catalogue.h"
@@ -272,14 +273,15 @@ struct Simulation::Parts {
   }
 
   void sample_truth() {
-    if (!run.truth.empty() && run.truth.back().time_s == state.time_s) return;
+    if (last_truth && last_truth->time_s == state.time_s) return;
     Pose measured = sonar().measure(state.true_pose * mounting.axle_T_tracked, truth_noise);
     for (const auto& effect : effects) effect->measure_truth(state.time_s, measured);
-    run.truth.push_back({state.time_s, measured});
+    last_truth = {state.time_s, measured};
+    run.truth.push_back(*last_truth);
   }
 
   // The axle's pose as the last outside measurement shows it.
-  Pose measured_axle() const { return run.truth.back().pose * inverse(scenario.vehicle.truth.axle_T_tracked); }
+  Pose measured_axle() const { return last_truth->pose * inverse(scenario.vehicle.truth.axle_T_tracked); }
 
   void finish() {
     if (state.finished) return;
@@ -312,7 +314,9 @@ struct Simulation::Parts {
   std::vector<double> rotation_now;  // of the motors that a recording turns
   BaseCommand hand, hand_now, given_now;
   SimulationState state;
-  SampledRun run;
+  SampledRun run;  // but for what was taken
+  std::size_t samples_taken = 0;
+  std::optional<TimedPose> last_truth;
   std::vector<double> readings;  // of one sample
   std::vector<GaugeShape> gauges;
   VehiclePosture posture;                 // at the last sample
@@ -353,7 +357,7 @@ VehiclePosture Simulation::posture() const {
 }
 
 Pose Simulation::driven_start() const { return parts_->driven_start; }
-std::size_t Simulation::samples() const { return parts_->run.time_s.size(); }
+std::size_t Simulation::samples() const { return parts_->samples_taken + parts_->run.time_s.size(); }
 const std::vector<std::string>& Simulation::channels() const { return parts_->run.channels; }
 const std::vector<double>& Simulation::readings() const { return parts_->readings; }
 
@@ -374,10 +378,23 @@ Pose Simulation::measured_end() const { return parts_->measured_end; }
 
 TruthMounting Simulation::truth_mounting() const { return parts_->mounting; }
 
-Recording Simulation::recording() const {
+SampledRun Simulation::take_samples() {
+  SampledRun& run = parts_->run;
+  parts_->samples_taken += run.time_s.size();
+  SampledRun rest;
+  rest.channels = run.channels;
+  return std::exchange(run, std::move(rest));
+}
+
+Recording Simulation::recording(SampledRun run) const {
   const Parts& parts = *parts_;
   const bool offset = parts.mounting.time_offset_s != parts.scenario.vehicle.truth.time_offset_s;
-  SampledRun run = parts.run;
+  const auto append = [](auto& all, const auto& last) { all.insert(all.end(), last.begin(), last.end()); };
+  run.channels = parts.run.channels;
+  append(run.time_s, parts.run.time_s);
+  append(run.readings, parts.run.readings);
+  append(run.commands, parts.run.commands);
+  append(run.truth, parts.run.truth);
   if (!parts.effects.empty())
     for (double& time_s : run.time_s) time_s = parts.effects.robot_stamp_s(parts.begin_s, time_s - parts.begin_s);
   if (offset)

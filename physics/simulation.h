@@ -9,6 +9,7 @@
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/scenario/scenario.h"
+#include "physics/sampled_run.h"
 #include "physics/vehicles/vehicle_shape.h"
 
 namespace odolab {
@@ -67,8 +68,11 @@ class Simulation {
   const Track& estimated_track() const;
   // Where the truth really sits and how late its stamps are: the vehicle file's, and what effects add to them.
   TruthMounting truth_mounting() const;
-  // What the robot and the outside measurement recorded so far, each by its own clock.
-  Recording recording() const;
+  // What the robot and the outside measurement recorded so far, each by its own clock. Of a run whose samples were
+  // taken `earlier` holds all that was taken, in order.
+  Recording recording(SampledRun earlier = {}) const;
+  // Hands over what was sampled since the last time, for whoever keeps a long run elsewhere.
+  SampledRun take_samples();
   // The absolute measurements at the start and, once finished, at the end (sonar corner).
   Pose measured_start() const;
   Pose measured_end() const;

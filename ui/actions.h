@@ -73,9 +73,11 @@ struct BeginGuide {
 struct ResumeGuide {
   std::string path;
 };
-struct LeaveGuide {};  // it is kept, and can be gone on with
-struct ChangeGuide {   // what a person has entered, or another page
+struct LeaveGuide {};                          // it is kept, and can be gone on with
+enum class GuideEdit { edit, goes_on, page };  // a step for undo; the same drag or word; only another page
+struct ChangeGuide {                           // what a person has entered, or another page
   GuideSession session;
+  GuideEdit how = GuideEdit::edit;
 };
 struct ChooseGuideVehicle {  // a vehicle file
   std::string path;

@@ -40,6 +40,7 @@ void DriveRun::restart() {
   gap_heading_.clear();
   events_.clear();
   kept_ = KeptRows();
+  kept_samples_ = KeptSamples();
   samples_seen_ = 1;
   gap_ = {};
   estimates_ = RunEstimates(scenario_, simulation_);
@@ -52,6 +53,7 @@ void DriveRun::see_sample() {
   samples_seen_ = simulation_.samples();
   gap_ = between(simulation_.state().true_pose, simulation_.state().estimated_pose);
   estimates_.take(simulation_);
+  kept_samples_.take_from(simulation_);
 }
 
 void DriveRun::remember() {

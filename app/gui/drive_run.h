@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/gui/kept_rows.h"
+#include "app/gui/kept_samples.h"
 #include "app/gui/run_estimates.h"
 #include "physics/simulation.h"
 
@@ -39,6 +40,8 @@ class DriveRun {
 
   const Scenario& scenario() const { return scenario_; }
   const Simulation& simulation() const { return simulation_; }
+  // All that was recorded so far, however long ago.
+  Result<Recording> recording() const { return kept_samples_.recording(simulation_); }
   // Times are since the start of the run; in a replay its tracks begin at another time than zero.
   double start_s() const { return history_.front().time_s; }
   double shown_s() const { return shown_s_; }
@@ -80,6 +83,7 @@ class DriveRun {
   int steps_per_picture_ = 20;
   VehicleShape shape_;
   KeptRows kept_;
+  KeptSamples kept_samples_;
   std::vector<SimulationState> history_;  // a state and a posture for each picture
   std::vector<VehiclePosture> postures_;
   std::vector<double> times_, gap_m_, gap_heading_;

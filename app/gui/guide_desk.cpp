@@ -24,6 +24,7 @@ namespace odolab {
 namespace {
 
 constexpr double kSaveAfter_s = 0.4;  // of changes: less than the second that may be lost
+constexpr std::size_t kMostUndo = 100;
 
 namespace fs = std::filesystem;
 
@@ -63,6 +64,8 @@ void GuideDesk::open(const GuideSession& session, const std::string& file) {
   session_ = session;
   file_ = file;
   problem_.clear();
+  undo_.clear();
+  redo_.clear();
   internal_.reset();
   recordings_.clear();
   held_out_.clear();
@@ -128,15 +131,39 @@ void GuideDesk::show(bool on) {
   if (on && !session_) look_for_saved();
 }
 
-void GuideDesk::change(const GuideSession& session, Jobs& jobs) {
+void GuideDesk::change(const ui::ChangeGuide& change, Jobs& jobs) {
   if (!session_) return;
-  const std::size_t files = session_->recordings.size() + session_->held_out.size();
-  const int page = session_->page;
+  // To turn to a page is no step to take back, unless it begins a round there.
+  const bool turns = change.how == ui::GuideEdit::page && change.session.rounds.size() == session_->rounds.size();
+  if (!turns && change.how != ui::GuideEdit::goes_on) remember();
+  replace(change.session, jobs);
+}
+
+void GuideDesk::remember() {
+  undo_.push_back(*session_);
+  if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
+  redo_.clear();
+}
+
+void GuideDesk::step(std::vector<GuideSession>& from, std::vector<GuideSession>& to, Jobs& jobs) {
+  if (!session_ || from.empty()) return;
+  to.push_back(*session_);
+  GuideSession session = std::move(from.back());
+  from.pop_back();
+  session.reached = std::max(session.reached, session_->reached);
+  problem_.clear();
+  const bool same_files = session_->recordings == session.recordings;
+  replace(session, jobs);
+  if (same_files && !recordings_.empty()) calibrate_inside(jobs);  // the vehicle may be another
+}
+
+void GuideDesk::replace(const GuideSession& session, Jobs& jobs) {
+  const bool same_files = session_->recordings == session.recordings && session_->held_out == session.held_out;
+  if (session_->page != session.page) problem_.clear();
   session_ = session;
   session_->page = std::clamp(session.page, 0, int(guide_of(session.kind).pages.size()) - 1);
   session_->reached = std::max(session_->reached, session_->page);
-  if (session_->page != page) problem_.clear();
-  if (session_->recordings.size() + session_->held_out.size() != files) read_recordings(jobs);  // one was taken away
+  if (!same_files) read_recordings(jobs);
   changed_ = true;
   reckon();
 }
@@ -147,6 +174,7 @@ Result<Done> GuideDesk::choose_vehicle(const std::string& path, Jobs& jobs) {
   if (!session_) return Done{};
   const std::string why = why_not(guide_of(session_->kind), *vehicle);
   if (!why.empty()) return Error{path, why, "another vehicle"};
+  remember();
   session_->vehicle = *vehicle;
   changed_ = true;
   calibrate_inside(jobs);
@@ -172,6 +200,8 @@ void GuideDesk::reckon() {
 void GuideDesk::drive(Jobs& jobs) {
   if (!session_ || jobs.running()) return;
   const PageTask page = task();
+  if (page == PageTask::again && session_->rounds.size() < 2) return;
+  remember();
   problem_.clear();
   const std::uint64_t seed = seed_of_stream(scenario_.seed, 100 + 10 * session_->rounds.size() + std::uint64_t(page));
   if (page == PageTask::tape) {
@@ -199,7 +229,6 @@ void GuideDesk::drive(Jobs& jobs) {
   if (page == PageTask::runs || page == PageTask::again || page == PageTask::bumps) {
     Scenario scenario = on_guide_square(scenario_, session_->side_m, session_->runs_each_way);
     if (page == PageTask::bumps) scenario.floor.bumps = ten_cables(session_->side_m);
-    if (page == PageTask::again && session_->rounds.size() < 2) return;
     if (page == PageTask::runs) session_->rounds.assign(1, {});  // what followed from the old runs goes with them
     GuideRound& round = page == PageTask::bumps ? session_->bumped : session_->rounds.back();
     round.runs.clear();
@@ -347,6 +376,7 @@ Result<Done> GuideDesk::take(const std::string& path, const Recording& recording
       if (known == path) return Error{path, "a recording that is here already", "each once"};
     const std::string missing = missing_columns(recording, session_->vehicle);
     if (!missing.empty()) return Error{path, "no " + missing, "these columns"};
+    remember();
     session_->recordings.push_back(path);
     recordings_.push_back(recording);
     changed_ = true;
@@ -357,6 +387,7 @@ Result<Done> GuideDesk::take(const std::string& path, const Recording& recording
     if (!outcome_.calibrated) return Error{path, "no calibration yet", "one to be held against it"};
     const Result<HeldOutError> error = held_out_error(recording, session_->vehicle, *outcome_.calibrated);
     if (!error) return error.error();
+    remember();
     session_->held_out.push_back(path);
     held_out_.push_back(recording);
     changed_ = true;
@@ -370,6 +401,7 @@ Result<Done> GuideDesk::take(const std::string& path, const Recording& recording
   nominal.kind = round->runs.empty() && page != PageTask::again ? first_nominal(*session_) : round->nominal;
   const Result<GuideRun> run = run_in(recording, nominal);
   if (!run) return run.error();
+  remember();
   enter_run(*session_, page, *run);
   changed_ = true;
   reckon();

@@ -28,7 +28,12 @@ class GuideDesk {
   void begin(GuideKind kind, bool real_robot, const Scenario& scenario);
   Result<Done> resume(const std::string& path, Jobs& jobs);
   void leave();
-  void change(const GuideSession& session, Jobs& jobs);
+  void change(const ui::ChangeGuide& change, Jobs& jobs);
+  // Steps back and forth through what was entered, dropped or driven since the session was opened; page and all.
+  void undo(Jobs& jobs) { step(undo_, redo_, jobs); }
+  void redo(Jobs& jobs) { step(redo_, undo_, jobs); }
+  bool can_undo() const { return !undo_.empty(); }
+  bool can_redo() const { return !redo_.empty(); }
   Result<Done> choose_vehicle(const std::string& path, Jobs& jobs);
   // What the page asks for, driven by the simulated robot in a job.
   void drive(Jobs& jobs);
@@ -50,6 +55,9 @@ class GuideDesk {
  private:
   PageTask task() const;
   std::uint64_t inside_seed() const;  // of the machine that a calibration from the inside is about
+  void remember();
+  void step(std::vector<GuideSession>& from, std::vector<GuideSession>& to, Jobs& jobs);
+  void replace(const GuideSession& session, Jobs& jobs);
   void reckon();
   void read_recordings(Jobs& jobs);
   void drive_another_way(Jobs& jobs);
@@ -60,6 +68,7 @@ class GuideDesk {
 
   std::string folder_, file_;
   std::optional<GuideSession> session_;
+  std::vector<GuideSession> undo_, redo_;
   Scenario scenario_;  // of the simulated robot
   GuideOutcome outcome_;
   std::vector<ui::BenchExperiment> experiments_;

@@ -30,7 +30,7 @@ ui::Actions turned(const Session& session, int by) {
   const int to = guide.page + by;
   if (to < 0 || to >= int(guide_of(guide.kind).pages.size()) || (by > 0 && !still_to_do(guide).empty())) return {};
   turn_to(guide, to);
-  return {ui::ChangeGuide{guide}};
+  return {ui::ChangeGuide{guide, ui::GuideEdit::page}};
 }
 
 }  // namespace

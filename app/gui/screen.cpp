@@ -323,19 +323,23 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   const bool has_bottom = session.mode() != ui::Mode::calibrate && !learns_by_squares(session);
   const Layout l = lay_out(state, screen, has_bottom, theme);
 
-  begin_pane("centre", l.centre_low, l.centre_size, false, false,
-             session.mode() == ui::Mode::calibrate ? theme.panel : theme.panel);
+  const bool on_page = session.mode() == ui::Mode::calibrate && session.guide().shown();
+  const bool on_plots = !on_page && (session.mode() == ui::Mode::calibrate || learns_by_squares(session));
+  const float message_height = ui::message_bar_height(session.messages(), l.centre_size.x, theme);
+  state.guide.covered_below = on_page ? message_height : 0.0f;
+  ImVec2 centre_size = l.centre_size;
+  if (on_plots) centre_size.y -= message_height;
+  begin_pane("centre", l.centre_low, centre_size, false, false, theme.panel);
   append(actions, centre_pane(session, state, shown, theme));
   ImGui::End();
 
-  // Over the floor and below its tools, or over a guide's page and above its way on: a message moves nothing of what a
-  // person is looking at.
-  const float message_height = ui::message_bar_height(session.messages(), l.centre_size.x, theme);
+  // Over the floor and below its tools: a message moves nothing of what a person is looking at. A guide's page above
+  // its way on, and a plot, become shorter by it instead: they have numbers along their lower edge.
   if (message_height > 0.0f) {
-    const float tools = ImGui::GetFrameHeight() + theme.px(11);
-    const bool on_page = session.mode() == ui::Mode::calibrate && session.guide().shown();
-    const float y =
-        on_page ? l.centre_low.y + l.centre_size.y - message_height - tools - theme.px(11) : l.centre_low.y + tools;
+    const float tools = ImGui::GetFrameHeight() + theme.px(11), bottom = l.centre_low.y + l.centre_size.y;
+    const float y = on_page    ? bottom - message_height - tools - theme.px(11)
+                    : on_plots ? bottom - message_height
+                               : l.centre_low.y + tools;
     begin_pane("messages", {l.centre_low.x, y}, {l.centre_size.x, message_height}, false, false, theme.panel, true);
     append(actions, ui::message_bar(session.messages(), theme));
     ImGui::End();

@@ -83,6 +83,18 @@ void Session::forget(const std::string& text) {
       messages_.end());
 }
 
+bool Session::can_undo() const {
+  if (mode_ == ui::Mode::diagnose) return diagnosis_.can_undo();
+  if (guide_in_hand()) return guide_.can_undo() && !jobs_.running();
+  return edits_scenario() && !undo_.empty();
+}
+
+bool Session::can_redo() const {
+  if (mode_ == ui::Mode::diagnose) return diagnosis_.can_redo();
+  if (guide_in_hand()) return guide_.can_redo() && !jobs_.running();
+  return edits_scenario() && !redo_.empty();
+}
+
 std::string Session::title() const {
   const std::string& name = run_->scenario().name;
   return title_file_.empty() || name != titled_ ? name : name + " – " + title_file_;

@@ -53,13 +53,10 @@ class Session {
   const std::vector<ui::Message>& messages() const { return messages_; }
   // The scenario's name, and the file that it came from.
   std::string title() const;
-  // Of what is on the screen: a guide has a list to take things back from, a comparison has nothing to edit.
-  bool can_undo() const {
-    return mode_ == ui::Mode::diagnose ? diagnosis_.can_undo() : edits_scenario() && !undo_.empty();
-  }
-  bool can_redo() const {
-    return mode_ == ui::Mode::diagnose ? diagnosis_.can_redo() : edits_scenario() && !redo_.empty();
-  }
+  // Of what is on the screen: what was entered into a guide, the runs of a diagnosis, the scenario. A comparison has
+  // nothing to edit.
+  bool can_undo() const;
+  bool can_redo() const;
   bool wants_to_quit() const { return wants_to_quit_; }
   // True once after a person has asked for a picture.
   bool take_picture_wish();

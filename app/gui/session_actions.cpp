@@ -139,12 +139,16 @@ struct Session::Executor {
   void operator()(const ui::Undo&) const {
     if (s.mode_ == ui::Mode::diagnose)
       s.diagnosis_.undo();
+    else if (s.guide_in_hand() && s.can_undo())
+      s.guide_.undo(s.jobs_);
     else if (s.can_undo())
       swap_scenario(s.undo_, s.redo_);
   }
   void operator()(const ui::Redo&) const {
     if (s.mode_ == ui::Mode::diagnose)
       s.diagnosis_.redo();
+    else if (s.guide_in_hand() && s.can_redo())
+      s.guide_.redo(s.jobs_);
     else if (s.can_redo())
       swap_scenario(s.redo_, s.undo_);
   }
@@ -194,7 +198,7 @@ struct Session::Executor {
   void operator()(const ui::LeaveGuide&) const {
     if (!s.refuse_while_busy("something else")) s.guide_.leave();
   }
-  void operator()(const ui::ChangeGuide& a) const { s.guide_.change(a.session, s.jobs_); }
+  void operator()(const ui::ChangeGuide& a) const { s.guide_.change(a, s.jobs_); }
   void operator()(const ui::ChooseGuideVehicle& a) const { s.done_or_said(s.guide_.choose_vehicle(a.path, s.jobs_)); }
   void operator()(const ui::DriveGuide&) const {
     if (!s.refuse_while_busy("the guide's drive")) s.guide_.drive(s.jobs_);
@@ -276,9 +280,15 @@ struct Session::Executor {
     s.say("Scenario saved as " + a.path, false);
   }
   void operator()(const ui::SaveRecording& a) const {
-    const bool recorded = comparing() && s.comparison_.loaded();
-    if (s.done_or_said(
-            write_recording_csv(a.path, recorded ? s.comparison_.recording() : s.run_->simulation().recording())))
+    if (comparing() && s.comparison_.loaded()) {
+      if (s.done_or_said(write_recording_csv(a.path, s.comparison_.recording())))
+        s.say("Recording saved as " + a.path, false);
+      return;
+    }
+    const Result<Recording> recording = s.run_->recording();
+    if (!recording)
+      s.say(recording.error().message(), true);
+    else if (s.done_or_said(write_recording_csv(a.path, *recording)))
       s.say("Recording saved as " + a.path, false);
   }
   void operator()(const ui::SaveCurves& a) const {

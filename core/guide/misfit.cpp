@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/guide/rest.h"
+
 namespace odolab {
 
 namespace {
 
 constexpr double kTimesTheSpread = 5.0;
 constexpr double kMedianOfRayleigh = 1.17741002;  // sqrt(2 ln 2), in standard deviations of one coordinate
-constexpr double kLeastSpread_m = 0.0005;
 constexpr int kEnough = 4;
 
 double median(std::vector<double> values) {
@@ -46,7 +47,7 @@ std::vector<bool> misfits(const GuideRound& round) {
     }
   }
   if (counted_distances.empty()) return marked;
-  const double spread_m = std::max(kLeastSpread_m, median(counted_distances) / kMedianOfRayleigh);
+  const double spread_m = std::max(kTapeRounding_m, median(counted_distances) / kMedianOfRayleigh);
   for (std::size_t i = 0; i < marked.size(); ++i) marked[i] = distances[i] > kTimesTheSpread * spread_m;
   return marked;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/guide/misfit.h"
+#include "core/guide/rest.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -84,21 +85,17 @@ void tell_accuracy(GuideOutcome& out) {
   }
   const double before = first.largest_systematic_error_m, after = last.largest_systematic_error_m;
   if (after < before)
-    out.sentences.push_back(text_of("The systematic error went from %.1f to %.1f mm: %.0f times smaller.", 1e3 * before,
-                                    1e3 * after, before / after));
+    out.verdict.push_back(text_of("The systematic error went from %.1f to %.1f mm: %.0f times smaller.", 1e3 * before,
+                                  1e3 * after, before / after));
   else
     out.warnings.push_back(
         text_of("The systematic error went from %.1f to %.1f mm: the calibration did not help. Were "
                 "the new settings put into the robot, and were both directions entered as driven?",
                 1e3 * before, 1e3 * after));
-  out.compensate_again = last.worth_compensating && last.spread_m > 0.0;
-  if (last.spread_m == 0.0)
-    out.sentences.push_back("One run each way leaves no spread, so the rule cannot be asked.");
-  else
-    out.sentences.push_back(
-        text_of("What is left is %.1f standard errors of its own centre: a second compensation %s.",
-                last.largest_systematic_error_m / last.standard_error_m,
-                out.compensate_again ? "is likely to help" : "would fit chance, and the calibration is done"));
+  const RestOfCalibration rest = rest_of(last, out.rounds.back().runs);
+  out.compensate_again = rest.worth_another;
+  out.verdict.push_back(rest.sentence);
+  out.sentences.insert(out.sentences.end(), out.verdict.begin(), out.verdict.end());
 }
 
 void squares_outcome(GuideOutcome& out, const GuideSession& session) {

@@ -51,9 +51,10 @@ struct GuideOutcome {
   std::vector<Setting> settings;       // empty until there is a calibration
   std::optional<Vehicle> calibrated;   // with the settings in it
   std::vector<std::string> sentences;  // what was found
+  std::vector<std::string> verdict;    // those of them on what the calibration leaves
   std::vector<std::string> warnings;   // what to doubt
   std::vector<HeldOutError> held_out;
-  bool compensate_again = false;  // the rule of 3 SEM says that a second compensation is worth while
+  bool compensate_again = false;  // a second compensation is worth while (core/guide/rest.h)
 };
 
 // `internal` is what calibrate_internally found in the session's recordings; null where nothing yet, or in a guide of

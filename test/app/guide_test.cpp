@@ -37,7 +37,7 @@ class GuideTest : public ::testing::Test {
     ASSERT_EQ(still_to_do(now(session)), "");
     GuideSession s = now(session);
     turn_to(s, s.page + 1);
-    session.execute(ui::ChangeGuide{s});
+    session.execute(ui::ChangeGuide{s, ui::GuideEdit::page});
   }
   void type_runs(Session& session, const TypeErrors& errors, double wheelbase_m) {
     for (int i = 0; i < 5; ++i)
@@ -97,6 +97,64 @@ TEST_F(GuideTest, TakesARealRobotFromTheTapeToItsSettings) {
   EXPECT_NEAR(0.5 * (drive.wheel_radius_left_m + drive.wheel_radius_right_m), 0.075 * 1.005, 1e-9);
   EXPECT_NEAR(drive.wheelbase_m, 0.34 * 0.5 * kPi / (0.5 * kPi - 0.02),
               2e-4);  // Eq. 6.28; the chance is not quite even
+}
+
+TEST_F(GuideTest, TakesBackWhatWasEnteredStepByStepAndOnlyThat) {
+  Session session(false, folder);
+  session.execute(ui::SetMode{ui::Mode::calibrate});
+  session.execute(ui::BeginGuide{GuideKind::umbmark, true});
+  EXPECT_FALSE(session.can_undo());
+  next(session);
+  EXPECT_FALSE(session.can_undo());  // to turn a page is nothing to take back
+  GuideSession s = now(session);
+  s.tape = TapeReading{4.0, 4.02, 0.002};
+  session.execute(ui::ChangeGuide{s});
+  for (const double tape_m : {4.03, 4.04, 4.05}) {  // one drag of a number
+    s.tape->actual_m = tape_m;
+    session.execute(ui::ChangeGuide{s, tape_m == 4.03 ? ui::GuideEdit::edit : ui::GuideEdit::goes_on});
+  }
+  next(session);
+  next(session);
+  type_runs(session, {0.02, -0.01}, 0.34);
+  s = now(session);
+  s.rounds[0].runs[3].left_out = true;
+  session.execute(ui::ChangeGuide{s});
+  session.execute(ui::Undo{});
+  EXPECT_FALSE(now(session).rounds[0].runs[3].left_out);
+  session.execute(ui::Undo{});
+  EXPECT_EQ(now(session).rounds[0].runs.size(), 9u);
+  session.execute(ui::Redo{});
+  EXPECT_EQ(now(session).rounds[0].runs.size(), 10u);
+  for (int i = 0; i < 10; ++i) session.execute(ui::Undo{});
+  EXPECT_EQ(now(session).tape->actual_m, 4.05);
+  session.execute(ui::Undo{});
+  EXPECT_EQ(now(session).tape->actual_m, 4.02);
+  EXPECT_EQ(task(session), PageTask::tape);  // where it was entered
+  session.execute(ui::Undo{});
+  EXPECT_FALSE(now(session).tape.has_value());
+  EXPECT_FALSE(session.can_undo());
+  while (session.can_redo()) session.execute(ui::Redo{});
+  EXPECT_TRUE(now(session).rounds[0].runs[3].left_out);
+  EXPECT_NE(session.guide().view(session.jobs()).outcome->rounds.size(), 0u);
+}
+
+TEST_F(GuideTest, TakesBackADriveOfTheSimulatedRobot) {
+  Session session(false, folder);
+  session.execute(ui::SetMode{ui::Mode::calibrate});
+  session.execute(ui::BeginGuide{GuideKind::linked, false});
+  next(session);
+  next(session);
+  ASSERT_EQ(task(session), PageTask::recordings);
+  session.execute(ui::DriveGuide{});
+  ASSERT_FALSE(now(session).recordings.empty());
+  const std::size_t settings = session.guide().view(session.jobs()).outcome->settings.size();
+  EXPECT_GT(settings, 0u);
+  session.execute(ui::Undo{});
+  EXPECT_TRUE(now(session).recordings.empty());
+  EXPECT_TRUE(session.guide().view(session.jobs()).outcome->settings.empty());
+  session.execute(ui::Redo{});
+  EXPECT_EQ(session.guide().view(session.jobs()).outcome->settings.size(), settings);
+  EXPECT_EQ(session.guide().view(session.jobs()).problem, "");
 }
 
 TEST_F(GuideTest, DrivesASimulatedRobotThroughAllPages) {

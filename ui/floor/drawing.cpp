@@ -211,6 +211,77 @@ void draw_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colo
   }
 }
 
+namespace {
+
+// Where a line has been drawn, in cells of some pixels: an hour of laps has no more to draw than one.
+class Inked {
+ public:
+  Inked(ImVec2 low, ImVec2 high, float cell)
+      : low_(low),
+        cell_(cell),
+        columns_(std::max(1, int((high.x - low.x) / cell) + 1)),
+        rows_(std::max(1, int((high.y - low.y) / cell) + 1)),
+        at_(std::size_t(columns_) * std::size_t(rows_), kNever) {}
+
+  // Whether the line came by here before, longer ago than the way that it takes to leave this place.
+  bool before(ImVec2 p, float along) const {
+    const int x = column(p), y = row(p);
+    for (int j = std::max(0, y - 1); j <= std::min(rows_ - 1, y + 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(columns_ - 1, x + 1); ++i)
+        if (at_[std::size_t(j) * std::size_t(columns_) + std::size_t(i)] < along - 12.0f * cell_) return true;
+    return false;
+  }
+  void draw(ImVec2 a, ImVec2 b, float along) {
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const int steps = std::min(200, int(length / cell_) + 1);
+    for (int k = 0; k <= steps; ++k) {
+      const float u = float(k) / float(steps);
+      const ImVec2 p{a.x + u * (b.x - a.x), a.y + u * (b.y - a.y)};
+      const int x = column(p), y = row(p);
+      if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
+      float& at = at_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)];
+      at = std::min(at, along);
+    }
+  }
+
+ private:
+  static constexpr float kNever = 1e30f;
+  int column(ImVec2 p) const { return int(std::clamp(std::floor((p.x - low_.x) / cell_), -9.0f, 1e6f)); }
+  int row(ImVec2 p) const { return int(std::clamp(std::floor((p.y - low_.y) / cell_), -9.0f, 1e6f)); }
+
+  ImVec2 low_;
+  float cell_;
+  int columns_, rows_;
+  std::vector<float> at_;
+};
+
+constexpr std::size_t kLong = 3000;  // points, from which on what was drawn before is not drawn again
+
+// A long line but for what would lie on itself.
+void draw_long_stroke(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 colour, Dash dash,
+                      const Theme& theme) {
+  Inked inked(draw.GetClipRectMin(), draw.GetClipRectMax(), theme.px(2));
+  std::vector<ImVec2> piece{points.front()};
+  float along = 0.0f;
+  bool was_before = false;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    along += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+    const bool is_before = inked.before(points[i], along);
+    if (is_before && was_before) {
+      if (piece.size() > 1) draw_stroke(draw, piece, colour, dash, theme);
+      piece.clear();
+    } else {
+      if (piece.empty()) piece.push_back(points[i - 1]);
+      piece.push_back(points[i]);
+      inked.draw(points[i - 1], points[i], along);
+    }
+    was_before = is_before;
+  }
+  if (piece.size() > 1) draw_stroke(draw, piece, colour, dash, theme);
+}
+
+}  // namespace
+
 void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, double exaggeration,
                 const Theme& theme) {
   if (!line.track) return;
@@ -234,7 +305,10 @@ void draw_track(ImDrawList& draw, const Camera& camera, const TrackLine& line, d
     last = s;
   }
   if (line.end && !points.empty()) points.push_back(camera.screen(line.end->position()));
-  draw_stroke(draw, points, line.colour, line.dash, theme);
+  if (points.size() > kLong)
+    draw_long_stroke(draw, points, line.colour, line.dash, theme);
+  else
+    draw_stroke(draw, points, line.colour, line.dash, theme);
 }
 
 }  // namespace odolab::ui

@@ -50,6 +50,7 @@ void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scen
   camera.high = {high.x, high.y};
   const double magnification =
       lens_magnification(gap_m, px_per_m, 0.5 * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+  if (magnification <= 1.0) return;  // nothing to enlarge: the floor shows it
   camera.px_per_m = px_per_m * magnification;
   camera.centre = 0.5 * (reference.position() + deviating.position());
 

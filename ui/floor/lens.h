@@ -10,7 +10,8 @@ namespace odolab::ui {
 // this radius, at most 1000; below 1 where the gap is larger than the lens, so that both poses are always in it.
 double lens_magnification(double gap_m, double px_per_m, double lens_radius_px);
 
-// Draws the lens in the given square. Nothing where the scene has no two poses.
+// Draws the lens in the given square. Nothing where the scene has no two poses, or where the floor
+// shows their gap as large.
 void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scene, double px_per_m, const Theme& theme);
 
 }  // namespace odolab::ui

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/guide/rest.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -91,7 +92,6 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   const std::vector<BenchExperiment>& experiments = *bench.experiments;
   const std::size_t n = experiments.size();
   const bool lost = n > 0 && !bench.running && !experiments.back().lost.empty();
-  const bool one_run = n > 0 && experiments.back().runs.clockwise.size() == 1;
   const bool measured = n > 0 && experiments.front().calibration.has_value();
   const bool applied = n > 1, verified = applied && experiments.back().calibration.has_value();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -136,16 +136,16 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
   }
   step_heading(3, "Keep it", false, verified, theme);
   if (verified && !bench.running) {
-    const bool again = experiments.back().measure && experiments.back().measure->worth_compensating;
-    note(one_run ? "One run each way leaves no spread: whether a second calibration helps, nobody can tell."
-         : again ? "A rest is still above 3 standard errors: a second calibration is likely to help (section 6.3)."
-                 : "What is left is below 3 standard errors: another calibration is unlikely to help (section 6.3).",
-         theme);
+    const RestOfCalibration rest = experiments.back().measure
+                                       ? rest_of(*experiments.back().measure, experiments.back().runs)
+                                       : RestOfCalibration{};
+    const bool again = rest.worth_another;
+    note(rest.sentence, theme);
     ButtonLook second;
     second.primary = again;
     second.enabled = again;
     second.tip = "Calibrate once more, from the runs of the calibrated vehicle.";
-    second.why_disabled = "Below 3 standard errors of the mean, another calibration would fit noise (section 6.3).";
+    second.why_disabled = "Another calibration would fit chance (section 6.3).";
     if (text_button("Calibrate a second time", theme, second, width)) actions.push_back(ApplyCalibration{});
     ButtonLook keep;
     keep.primary = !again;

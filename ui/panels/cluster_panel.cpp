@@ -11,6 +11,8 @@ namespace odolab::ui {
 
 namespace {
 
+constexpr double kLeastEnlargement = 1.5;  // that is worth covering a corner for
+
 // Coordinates of a cloud, kept while the plot is drawn.
 struct Cloud {
   std::vector<double> x, y;
@@ -196,33 +198,42 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const PlotResult result = plot("clusters", {room.x - theme.px(10), room.y - theme.px(8)}, p, state.view, theme);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (!experiments.empty() && points > 0) labels_of(experiments.front(), result, state.view, theme);
-  if (experiments.size() < 2 || experiments.back().runs.clockwise.empty()) return;
-
+  if (experiments.empty() || points == 0) return;
+  const BenchExperiment& last = experiments.back();
+  const bool two = experiments.size() > 1 && !last.runs.clockwise.empty();
   // The calibrated runs lie close about the origin: a second, enlarged plot in the emptiest corner.
   const float side = std::round(0.44f * std::min(result.high.x - result.low.x, result.high.y - result.low.y));
-  if (side < theme.px(110)) return;  // nothing could be read in it
   const ImVec2 size{side * 1.15f, side};
+  Plot q = plot_of_errors(theme);
+  q.legend = false;
+  Clouds near;
+  add_experiment(q, near, last, true, nullptr, theme);
+  const ImVec2 area = drawing_area({size.x - theme.px(8), size.y - theme.px(10)}, theme);
+  const PlotView whole = view_of_all(q, area);
+  const double outer_per_px = (state.view.x1 - state.view.x0) / (result.high.x - result.low.x);
+  const bool enlarges = outer_per_px / ((whole.x1 - whole.x0) / area.x) > kLeastEnlargement;
+  // Too small to be read in, or no larger than what it lies on: then the last clouds are named where they are.
+  if (!two || side < theme.px(110) || (state.enlarged.fitted && !enlarges)) {
+    labels_of(two && !enlarges ? last : experiments.front(), result, state.view, theme);
+    return;
+  }
+  labels_of(experiments.front(), result, state.view, theme);
   const ImVec2 low = emptiest_corner(experiments, result, state.view, size, theme);
   const ImVec2 high{low.x + size.x, low.y + size.y};
   draw.AddRectFilled({low.x + theme.px(2), low.y + theme.px(3)}, {high.x + theme.px(2), high.y + theme.px(4)},
                      IM_COL32(0, 0, 0, 28), theme.px(5));
   draw.AddRectFilled(low, high, theme.panel, theme.px(4));
   draw.AddRect(low, high, theme.ink, theme.px(4), 0, theme.px(1.2f));
-  Plot q = plot_of_errors(theme);
-  q.legend = false;
-  Clouds near;
-  add_experiment(q, near, experiments.back(), true, nullptr, theme);
   ImGui::SetCursorScreenPos({low.x + theme.px(2), low.y + theme.px(4)});
   const PlotResult inner = plot("enlarged", {size.x - theme.px(8), size.y - theme.px(10)}, q, state.enlarged, theme);
   const double enlargement = (inner.high.x - inner.low.x) / (state.enlarged.x1 - state.enlarged.x0) /
                              ((result.high.x - result.low.x) / (state.view.x1 - state.view.x0));
   const float title_room = inner.high.x - inner.low.x;
-  std::string title = experiments.back().name + ", enlarged " + times(enlargement);
+  std::string title = last.name + ", enlarged " + times(enlargement);
   if (ImGui::CalcTextSize(title.c_str()).x > title_room) title = "enlarged " + times(enlargement);
   if (ImGui::CalcTextSize(title.c_str()).x > title_room) title = times(enlargement);
   draw.AddText({inner.high.x - ImGui::CalcTextSize(title.c_str()).x, low.y + theme.px(4)}, theme.ink, title.c_str());
-  labels_of(experiments.back(), inner, state.enlarged, theme);
+  labels_of(last, inner, state.enlarged, theme);
 }
 
 }  // namespace odolab::ui

@@ -45,7 +45,7 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   what.x_high = run.duration_s;
   what.brushes = true;
   what.empty_text = !view.diagnosis ? "The mismatch over time, once it was diagnosed"
-                    : run.held_out  ? "Held out, and not to be drawn over time: judged by the bars on the right"
+                    : run.held_out  ? "Held out, and nothing to draw over time: judged by the bars on the right"
                                     : "This run was not part of the answer";
   const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
                              run.mismatch ? run.mismatch->time_s.back() : 0.0};
@@ -74,14 +74,23 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   }
 }
 
+// "yaw rate [rad/s]" as the axes of this window have it: "yaw rate (rad/s)"; a pure number has no unit.
+std::string axis_words(const std::string& quantity) {
+  const std::size_t at = quantity.find(" [");
+  if (at == std::string::npos) return quantity;
+  std::string unit = quantity.substr(at + 2, quantity.find(']', at) - at - 2);
+  if (unit == "m/s2") unit = "m/s²";
+  return quantity.substr(0, at) + (unit == "1" ? "" : " (" + unit + ")");
+}
+
 void response(const DiagnosisView& view, DiagnosisState& state, ImVec2 size, const Theme& theme) {
   const std::vector<Response>& all = *view.responses;
   Plot what;
   what.empty_text = "No variable of the motion was tried";
   if (!all.empty()) {
     const Response& r = all[std::size_t(state.response)];
-    what.x = {r.variable, Unit{"", 1.0, 2, 0.0}};
-    what.y = {r.channel, Unit{"", 1.0, 5, 0.0}};
+    what.x = {axis_words(r.variable), Unit{"", 1.0, 2, 0.0}};
+    what.y = {axis_words(r.channel), Unit{"", 1.0, 5, 0.0}};
     what.areas.push_back({r.at.data(), r.low.data(), r.high.data(), r.at.size(), faded(theme.orange, 0.22f)});
     what.series.push_back(
         {"calibrated only", r.at.data(), r.value.data(), r.at.size(), theme.orange, Stroke::line, Marker::disc});

@@ -1,5 +1,7 @@
 #include "ui/panels/estimator_panel.h"
 
+#include <cmath>
+
 #include "ui/floor/drawing.h"
 #include "ui/look/widgets.h"
 
@@ -47,7 +49,9 @@ void row(const EstimatorRow& r, EstimatorState& state, bool finished, const Them
   text_right(shown(gap_m, mm, gap_m < 0.9995 ? 1 : 0), shown_now ? r.look.colour : theme.muted);
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  text_right(shown(wrapped(r.gap.heading_rad), degree), shown_now ? r.look.colour : theme.muted);
+  const double heading_rad = wrapped(r.gap.heading_rad);
+  text_right(shown(heading_rad, degree, std::abs(heading_rad) < radians(99.995) ? 2 : 1),
+             shown_now ? r.look.colour : theme.muted);
 }
 
 }  // namespace
@@ -61,7 +65,7 @@ EstimatorLook estimator_look(std::size_t index, const Theme& theme) {
 void estimator_panel(const Estimators& e, EstimatorState& state, const Theme& theme) {
   heading(e.finished ? "Return errors of the estimators" : "Estimators side by side", theme);
   if (!ImGui::BeginTable("estimators", 3)) return;
-  for (const float width : {2.8f, 0.7f, 0.7f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
+  for (const float width : {2.6f, 0.75f, 0.8f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TableNextColumn();

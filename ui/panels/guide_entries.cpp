@@ -8,8 +8,8 @@ namespace odolab::ui {
 
 void keep(Edited edited, GuidePageState& state, Actions& actions) {
   if (edited == Edited::no) return;
+  actions.push_back(ChangeGuide{state.draft, state.editing ? GuideEdit::goes_on : GuideEdit::edit});
   state.editing = edited == Edited::changing;
-  actions.push_back(ChangeGuide{state.draft});
 }
 
 Actions drive_button(const GuideView& view, const char* words, const Theme& theme) {

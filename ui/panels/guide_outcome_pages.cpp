@@ -106,11 +106,10 @@ void result_page(const GuideView& view, GuidePageState& state, const Theme& them
 Actions verdict_page(const GuideView& view, GuidePageState& state, const Theme& theme) {
   Actions actions;
   const GuideOutcome& out = *view.outcome;
-  for (const std::string& sentence : out.sentences)
-    if (sentence.find("standard error") != std::string::npos || sentence.find("times smaller") != std::string::npos) {
-      WithFont strong(theme.strong);
-      words(sentence, theme.ink);
-    }
+  for (const std::string& sentence : out.verdict) {
+    WithFont strong(theme.strong);
+    words(sentence, theme.ink);
+  }
   ButtonLook again;
   again.primary = out.compensate_again;
   again.enabled = out.compensate_again && !view.busy;

@@ -49,7 +49,7 @@ Actions navigation(const GuideView& view, const Theme& theme) {
   const auto to = [&](int page) {
     GuideSession next = session;
     turn_to(next, page);
-    actions.push_back(ChangeGuide{next});
+    actions.push_back(ChangeGuide{next, GuideEdit::page});
   };
   ButtonLook back;
   back.enabled = session.page > 0 && !view.busy;
@@ -81,8 +81,9 @@ Actions guide_page(const GuideView& view, GuidePageState& state, const Theme& th
   const ImVec2 pad{theme.px(18), theme.px(12)};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, pad);
   const float bottom = view.session ? ImGui::GetFrameHeight() + theme.px(22) : 0.0f;
-  ImGui::BeginChild("page", {0, ImGui::GetContentRegionAvail().y - bottom}, false,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const ImVec2 low = ImGui::GetCursorPos();
+  const float height = ImGui::GetContentRegionAvail().y - bottom;
+  ImGui::BeginChild("page", {0, height - state.covered_below}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (!view.session) {
     append(actions, choose(view, theme));
   } else {
@@ -102,6 +103,7 @@ Actions guide_page(const GuideView& view, GuidePageState& state, const Theme& th
     append(actions, guide_entries(view, page.task, state, theme));
   }
   ImGui::EndChild();
+  ImGui::SetCursorPos({low.x, low.y + height + ImGui::GetStyle().ItemSpacing.y});
   if (view.session) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos();

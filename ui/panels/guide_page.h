@@ -12,7 +12,8 @@ struct GuidePageState {
   GuideSession draft;  // what is being edited; anything else shows the session as it is
   bool editing = false;
   ClusterState clusters;
-  std::string export_folder;  // where files are proposed
+  std::string export_folder;   // where files are proposed
+  float covered_below = 0.0f;  // px of the page, by a message
 };
 
 Actions guide_page(const GuideView& view, GuidePageState& state, const Theme& theme);

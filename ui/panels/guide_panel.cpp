@@ -70,7 +70,7 @@ Actions guide_panel(const GuideView& view, const Theme& theme) {
         !view.busy) {
       GuideSession next = session;
       turn_to(next, int(i));
-      actions.push_back(ChangeGuide{next});
+      actions.push_back(ChangeGuide{next, GuideEdit::page});
     }
   ImGui::Dummy({1, theme.px(6)});
   ButtonLook leave;

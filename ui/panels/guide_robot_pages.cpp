@@ -40,8 +40,8 @@ Actions robot_page(const GuideView& view, GuidePageState& state, const Theme& th
   ImGui::SetNextItemWidth(theme.px(150));
   if (ImGui::InputText("##name", name, sizeof name)) {
     s.vehicle.name = name;
+    actions.push_back(ChangeGuide{s, state.editing ? GuideEdit::goes_on : GuideEdit::edit});
     state.editing = true;
-    actions.push_back(ChangeGuide{s});
   }
   if (auto* drive = std::get_if<DifferentialDrive>(&s.vehicle.kind)) {
     double left = 2.0 * drive->wheel_radius_left_m, right = 2.0 * drive->wheel_radius_right_m;

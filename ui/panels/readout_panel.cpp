@@ -55,7 +55,9 @@ void pose_table(const Readout& r, const Theme& theme) {
   };
   row("x", shown(t.x_m, kMetres, 4), shown(e.x_m, kMetres, 4));
   row("y", shown(t.y_m, kMetres, 4), shown(e.y_m, kMetres, 4));
-  row("heading", shown(t.heading_rad, kDegrees), shown(e.heading_rad, kDegrees));
+  // However often it has turned; the estimate beside the truth, not a turn away from it.
+  const double heading_rad = wrapped(t.heading_rad);
+  row("heading", shown(heading_rad, kDegrees), shown(heading_rad + wrapped(e.heading_rad - t.heading_rad), kDegrees));
   ImGui::EndTable();
 }
 
@@ -156,7 +158,8 @@ Actions readout_panel(const Readout& r, EstimatorState& estimators, const Theme&
   Actions actions;
   heading("Gap between estimate and truth", theme);
   const float half = 0.5f * ImGui::GetContentRegionAvail().x;
-  big_figure(shown(r.gap_m, kMillimetres), "position", theme.orange, half, theme);
+  big_figure(r.gap_m < 0.9995 ? shown(r.gap_m, kMillimetres) : shown(r.gap_m, kMetres), "position", theme.orange, half,
+             theme);
   ImGui::SameLine(0, 0);
   big_figure(shown(r.gap_heading_rad, kDegrees), "heading", theme.orange, half, theme);
   note(shown(std::abs(r.gap_along_m), kMillimetres) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") +

@@ -27,6 +27,16 @@ struct Frame {
   double y_of(float at) const { return view.y0 + double(high.y - at) / height() * (view.y1 - view.y0); }
 };
 
+// Of a plot around its drawing area, for numbers, titles and legend.
+struct Margins {
+  float left, top, right, bottom;
+};
+
+Margins margins(const Theme& theme) {
+  const float line = ImGui::GetTextLineHeight();
+  return {theme.px(52), line + theme.px(6), theme.px(8), line + theme.px(5)};
+}
+
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -180,13 +190,25 @@ std::string axis_title(const PlotAxis& axis) {
   return unit.empty() ? axis.label : axis.label.empty() ? unit : axis.label + " (" + unit + ")";
 }
 
+// Round, and as close as it takes for two numbers to stand on the axis, if there is room for them.
+double step_with_two_numbers(double low, double high, int most, float height) {
+  const double span = high - low, closest = 1.2 * double(ImGui::GetTextLineHeight()) / double(height) * span;
+  double step = round_step(span, most);
+  for (int more = most + 1; more < 4 * most && ticks_every(step, low, high).size() < 3; ++more) {
+    const double closer = round_step(span, more);
+    if (closer < closest) break;
+    step = closer;
+  }
+  return step;
+}
+
 void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const Theme& theme, ImVec2 outer_low) {
   const float line_height = ImGui::GetTextLineHeight();
   const double sx = what.x.unit.per_si, sy = what.y.unit.per_si;
   const int most_x = std::max(2, int(frame.width() / theme.px(80))),
             most_y = std::max(4, int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
-  double step_y = round_step((frame.view.y1 - frame.view.y0) * sy, most_y);
+  double step_y = step_with_two_numbers(frame.view.y0 * sy, frame.view.y1 * sy, most_y, frame.height());
   if (what.equal_scale && sx == sy) {  // the same marks on both, as close as the numbers along x allow
     const double near = std::min(step_x, step_y), px_per_unit = frame.width() / ((frame.view.x1 - frame.view.x0) * sx);
     step_x = step_y = near * px_per_unit > theme.px(46) ? near : std::max(step_x, step_y);
@@ -264,19 +286,28 @@ ImVec2 PlotResult::screen_at(double x, double y, const PlotView& view) const {
           high.y - float((y - view.y0) / (view.y1 - view.y0)) * (high.y - low.y)};
 }
 
+ImVec2 drawing_area(ImVec2 size, const Theme& theme) {
+  const Margins m = margins(theme);
+  return {std::max(size.x - m.left - m.right, 20.0f), std::max(size.y - m.top - m.bottom, 10.0f)};
+}
+
+PlotView view_of_all(const Plot& what, ImVec2 area) {
+  PlotView view;
+  fit(what, view, area.x, area.y);
+  return view;
+}
+
 PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, const Theme& theme) {
   const ImVec2 outer = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, size);
   const ImGuiIO& io = ImGui::GetIO();
-  const float line_height = ImGui::GetTextLineHeight();
-  const float left = theme.px(52), top = line_height + theme.px(6), bottom = line_height + theme.px(5),
-              right = theme.px(8);
-  PlotResult result{
-      {outer.x + left, outer.y + top},
-      {outer.x + std::max(size.x - right, left + 20.0f), outer.y + std::max(size.y - bottom, top + 10.0f)},
-      false,
-      std::nullopt,
-      std::nullopt};
+  const Margins m = margins(theme);
+  const ImVec2 area = drawing_area(size, theme);
+  PlotResult result{{outer.x + m.left, outer.y + m.top},
+                    {outer.x + m.left + area.x, outer.y + m.top + area.y},
+                    false,
+                    std::nullopt,
+                    std::nullopt};
   const Frame frame{result.low, result.high, view};
   if (view.fitted) fit(what, view, frame.width(), frame.height());
 

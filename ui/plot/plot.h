@@ -87,6 +87,11 @@ struct PlotResult {
   ImVec2 screen_at(double x, double y, const PlotView& view) const;
 };
 
+// What is left for the drawing inside the axes of a plot of this size.
+ImVec2 drawing_area(ImVec2 size, const Theme& theme);
+// What a fitted plot shows in a drawing area of this size.
+PlotView view_of_all(const Plot& what, ImVec2 area);
+
 PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, const Theme& theme);
 
 }  // namespace odolab::ui
