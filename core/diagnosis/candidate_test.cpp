@@ -95,53 +95,46 @@ CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<
   return out;
 }
 
-CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+JointModel::Absorbing JointModel::absorbing(int without) const {
+  Absorbing by;
+  by.taken = VectorXd::Zero(gram_.rows());
+  int at = first_amplitude();
+  for (int j = 0; j < at; ++j) by.kept.push_back(j);
+  for (std::size_t a = 0; a < accepted.size(); ++a)
+    for (double v : accepted[a].value) {
+      if (static_cast<int>(a) == without)
+        by.taken(at) = v;
+      else
+        by.kept.push_back(at);
+      ++at;
+    }
+  const VectorXd zr = zr_ + gram_ * by.taken;
+  MatrixXd gram(by.kept.size(), by.kept.size());
+  VectorXd zk(by.kept.size());
+  for (std::size_t i = 0; i < by.kept.size(); ++i) {
+    for (std::size_t j = 0; j < by.kept.size(); ++j) gram(i, j) = gram_(by.kept[i], by.kept[j]);
+    zk(i) = zr(by.kept[i]);
+  }
+  by.gram.compute(gram);
+  by.step = by.gram.solve(zk);
+  return by;
+}
+
+CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+                                 MatrixXd* absorbed) {
   CandidateTest out;
-  int k = 0;
-  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
+  const MatrixXd& info = products.with_itself;
+  const int k = static_cast<int>(info.rows());
   out.freedom = k;
   if (k == 0) return out;
-  const int q = static_cast<int>(gram_.rows());
-  // Columns that stay, and those of the effect that is taken out.
-  std::vector<int> kept, removed;
-  VectorXd taken = VectorXd::Zero(q);
-  {
-    int at = first_amplitude();
-    for (int j = 0; j < at; ++j) kept.push_back(j);
-    for (std::size_t a = 0; a < accepted.size(); ++a)
-      for (double v : accepted[a].value) {
-        if (static_cast<int>(a) == without) {
-          removed.push_back(at);
-          taken(at) = v;
-        } else {
-          kept.push_back(at);
-        }
-        ++at;
-      }
-  }
-  MatrixXd info = MatrixXd::Zero(k, k), cross = MatrixXd::Zero(q, k);
-  VectorXd score = VectorXd::Zero(k);
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (c.of_run[r].size() == 0) continue;
-    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
-    info.noalias() += c.of_run[r].transpose() * c.of_run[r];
-    cross.noalias() += z_[r].middleRows(from, rows).transpose() * c.of_run[r];
-    score.noalias() += c.of_run[r].transpose() * residual_[r].segment(from, rows);
-  }
-  score += cross.transpose() * taken;
-  const VectorXd zr = zr_ + gram_ * taken;
-  MatrixXd gram(kept.size(), kept.size()), b(kept.size(), k);
-  VectorXd zk(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    for (std::size_t j = 0; j < kept.size(); ++j) gram(i, j) = gram_(kept[i], kept[j]);
-    b.row(i) = cross.row(kept[i]);
-    zk(i) = zr(kept[i]);
-  }
-  const Eigen::LDLT<MatrixXd> solver(gram);
-  const MatrixXd beta = solver.solve(b);  // the part that calibration absorbs
-  const VectorXd base = solver.solve(zk);
+  VectorXd& score = products.with_residual;
+  score += products.with_model.transpose() * by.taken;
+  MatrixXd b(by.kept.size(), k);
+  for (std::size_t i = 0; i < by.kept.size(); ++i) b.row(i) = products.with_model.row(by.kept[i]);
+  const MatrixXd beta = by.gram.solve(b);  // the part that calibration absorbs
   const MatrixXd effective = info - b.transpose() * beta;
-  const VectorXd s = score - b.transpose() * base;
+  const VectorXd s = score - b.transpose() * by.step;
+  if (absorbed) *absorbed = beta;
   if (info.trace() <= 0.0) return out;
   out.survives = 1.0;
   for (int j = 0; j < k; ++j)
@@ -156,7 +149,7 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   int freedom = 0;
   for (int j = 0; j < k; ++j) {
     const double e = eig.eigenvalues()(j);
-    if (e < c.least_surviving) {
+    if (e < least_surviving) {
       cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
       continue;
     }
@@ -169,7 +162,27 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   const VectorXd value = scale.asDiagonal() * w;
   out.value.assign(value.data(), value.data() + k);
   for (int j = 0; j < k; ++j) out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+  return out;
+}
+
+CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+  int k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
+  const int q = static_cast<int>(gram_.rows());
+  CandidateProducts products{MatrixXd::Zero(k, k), MatrixXd::Zero(q, k), VectorXd::Zero(k)};
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (c.of_run[r].size() == 0) continue;
+    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
+    products.with_itself.noalias() += c.of_run[r].transpose() * c.of_run[r];
+    products.with_model.noalias() += z_[r].middleRows(from, rows).transpose() * c.of_run[r];
+    products.with_residual.noalias() += c.of_run[r].transpose() * residual_[r].segment(from, rows);
+  }
+  const Absorbing by = absorbing(without);
+  MatrixXd beta;
+  CandidateTest out = tested(by, std::move(products), c.least_surviving, &beta);
   if (!thorough || out.statistic <= 0.0) return out;
+  const VectorXd value = Eigen::Map<const VectorXd>(out.value.data(), k), &taken = by.taken, &base = by.step;
+  const std::vector<int>& kept = by.kept;
 
   // The score along the fitted direction, batch by batch.
   const VectorXd on_z_kept = beta * value;

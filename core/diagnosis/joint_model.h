@@ -35,6 +35,12 @@ struct CandidateColumns {
   double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
 };
 
+// The same of one candidate: products of its columns with each other, with those of the model, and with what is left.
+struct CandidateProducts {
+  Eigen::MatrixXd with_itself, with_model;
+  Eigen::VectorXd with_residual;
+};
+
 class JointModel {
  public:
   JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands, const LeastSquaresCalibration& start,
@@ -91,6 +97,18 @@ class JointModel {
   InnovationRun prepared(int run) const;  // with the accepted effects put in
 
  private:
+  friend class CandidateScan;
+  // The model's columns but for an effect that is taken out for the question, ready to absorb a candidate.
+  struct Absorbing {
+    std::vector<int> kept;
+    Eigen::VectorXd taken;  // amplitudes of what is taken out, at its columns
+    Eigen::LDLT<Eigen::MatrixXd> gram;
+    Eigen::VectorXd step;  // of the kept columns, from here to their best
+  };
+  Absorbing absorbing(int without) const;
+  // The test without its thorough part; `absorbed`: what the kept columns take of each of the candidate's.
+  static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+                              Eigen::MatrixXd* absorbed);
   JointModel() = default;
   int columns() const;
   int clock_column(int run) const { return 6 + run; }

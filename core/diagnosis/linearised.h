@@ -3,6 +3,7 @@
 // candidates cost no more than their own length.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,12 @@ class LinearisedRun {
   Stretch of_motion(const Motions& motions, double* out) const;
   // The same by one of the seven parameters of `column`.
   void of_parameter(int parameter, double* out) const;
+  // The sum of squares that a derivative of the pose still brings behind each sample: xx, xy, xh, yy, yh, hh.
+  using Tails = std::vector<std::array<double, 6>>;
+  Tails tails() const;
+  // Products of the columns of several motions with each other, k by k, row by row: as `of_motion` gives them, without
+  // writing them down. Costs what the motions last, and nothing for what they leave behind.
+  void products_of_motions(const std::vector<Motions>& motions, const Tails& tails, double* products) const;
   // The product of `whitened` with the column of every motion at once: how fast it grows with the forward, sideways and
   // turning motion of each wheel interval. One pass backward, whatever the number of columns asked for.
   std::vector<BodyMotion> score_of_motions(const double* whitened) const;
@@ -47,6 +54,29 @@ class LinearisedRun {
     float share;
     double dx, dy, c, s;
   };
+  // What a truth sample does to the derivative of the pose: e = F d + R jac is predicted, `out` e whitened, `on` e goes
+  // on. Nothing is whitened where the sample was not used, and nothing goes on where the filter starts anew.
+  struct Carry {
+    double c = 1.0, s = 0.0;    // R: the heading at the sample before
+    double dx = 0.0, dy = 0.0;  // F: the way since then, in the room
+    double out[9] = {}, on[9] = {};
+  };
+  void prepare_carry();
+  // Truth intervals [first, last) that the wheel intervals [first, end) touch.
+  Stretch touched(std::size_t first, std::size_t end) const;
+  // The derivative of the motion in truth interval t, in the frame of its start.
+  void add_motion(const Motions& motions, int t, double* d) const {
+    for (int p = first_piece_[t]; p < first_piece_[t + 1]; ++p) {
+      const Piece& piece = pieces_[p];
+      const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
+      const double f = piece.share * m.forward_m, l = piece.share * m.sideways_m, w = piece.share * m.turn_rad;
+      d[0] += -piece.dy * d[2] + piece.c * f - piece.s * l - 0.5 * piece.dy * w;
+      d[1] += piece.dx * d[2] + piece.s * f + piece.c * l + 0.5 * piece.dx * w;
+      d[2] += w;
+    }
+  }
+  template <int k>
+  void products(const Motions* const* motions, const Tails& tails, double* products) const;
   template <typename Motion>
   Stretch carried(Motion&& motion, int first, int last_with_motion, int parameter, double* out) const;
 
@@ -59,6 +89,7 @@ class LinearisedRun {
     double c0, s0, c1, s1;
   };
   std::vector<Turned> turned_;
+  std::vector<Carry> carry_;
   std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;
   InnovationSums sums_;

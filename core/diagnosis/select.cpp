@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/candidate_scan.h"
 #include "core/diagnosis/chi_square.h"
 
 namespace odolab {
@@ -76,7 +77,7 @@ bool near_a_rest(const InnovationRun& run, double time_s) {
   return false;
 }
 
-ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, int tests) {
+ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without, int tests) {
   ScoredCandidate best;
   best.effect = &e;
   std::vector<std::vector<double>> shapes;
@@ -99,7 +100,7 @@ ScoredCandidate best_of(const JointModel& joint, const Effect& e, int without, i
   }
   std::vector<double> statistics;
   const auto consider = [&](const std::vector<double>& shape, bool count) {
-    CandidateTest t = joint.test(joint.columns_of(e, shape), without);
+    CandidateTest t = scan.test(e, shape);
     if (count && t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
     if (t.value.empty() || !physical(e, t.value)) return false;
     if (t.statistic <= best.test.statistic) return false;
@@ -236,13 +237,14 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
   bool commands = false;
   for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
   std::vector<ScoredCandidate> scored(all.size());
+  const CandidateScan scan(joint, without);
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Effect& e = *all[i];
     scored[i].effect = &e;
     if (e.only_commands && !commands) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
-    scored[i] = best_of(joint, e, without, static_cast<int>(all.size()));
+    scored[i] = best_of(joint, scan, e, without, static_cast<int>(all.size()));
   });
   // Phases of their own need to gain what so many more parameters gain by chance one time in a thousand.
   for (ScoredCandidate& own : scored)
@@ -300,7 +302,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       AcceptedEffect& a = joint.accepted[k];
       if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
       const double now = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
-      const ScoredCandidate again = best_of(joint, *a.effect, static_cast<int>(k), 1);
+      const ScoredCandidate again =
+          best_of(joint, CandidateScan(joint, static_cast<int>(k)), *a.effect, static_cast<int>(k), 1);
       if (again.test.statistic < now + 1.0) continue;
       a.shape = again.test.shape;
       a.value = again.test.value;

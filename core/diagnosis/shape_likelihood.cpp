@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/base/random.h"
 #include "core/calibration/minimise.h"
+#include "core/diagnosis/candidate_scan.h"
 #include "core/diagnosis/intervals.h"
 
 namespace odolab {
@@ -19,11 +20,10 @@ constexpr int kRounds = 3, kSamples = 40;
 constexpr double kWorst = 1e12;  // stands for a shape that cannot be
 
 // Twice the log-likelihood that a shape loses against none, negative: lower is better.
-double misfit(const JointModel& joint, int accepted, const std::vector<double>& shape) {
-  const Effect& e = *joint.accepted[static_cast<std::size_t>(accepted)].effect;
+double misfit(const CandidateScan& scan, const Effect& e, const std::vector<double>& shape) {
   for (std::size_t k = 0; k < e.shapes.size(); ++k)
     if (shape[k] < e.shapes[k].low || shape[k] > e.shapes[k].high) return kWorst;
-  const CandidateTest t = joint.test(joint.columns_of(e, shape), accepted);
+  const CandidateTest t = scan.test(e, shape);
   if (t.value.empty()) return kWorst;
   for (std::size_t k = 0; k < t.value.size(); ++k)
     if (t.value[k] < e.amplitudes[k].low || t.value[k] > e.amplitudes[k].high) return 0.0;
@@ -49,6 +49,7 @@ double first_stride(const Effect& e, int entry, double value) {
 
 ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double inflation) {
   const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(accepted)];
+  const CandidateScan scan(joint, accepted);
   const std::vector<int> free = free_shapes(*a.effect);
   const int m = static_cast<int>(free.size());
   ShapeLikelihood out;
@@ -63,16 +64,16 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
   };
 
   // Climb, in units of the strides; twice, since a simplex may come to rest on a step.
-  double best = misfit(joint, accepted, a.shape);
+  double best = misfit(scan, *a.effect, a.shape);
   for (double size : {1.0, 0.3}) {
     const std::vector<double> from = out.best;
     const std::vector<double> at = minimised(
         [&](const std::vector<double>& x) {
-          return misfit(joint, accepted, shape_at(Eigen::Map<const VectorXd>(x.data(), m), from));
+          return misfit(scan, *a.effect, shape_at(Eigen::Map<const VectorXd>(x.data(), m), from));
         },
         std::vector<double>(m, 0.0), size, 0.02, 20 + 15 * m);
     const std::vector<double> shape = shape_at(Eigen::Map<const VectorXd>(at.data(), m), from);
-    if (const double value = misfit(joint, accepted, shape); value < best) best = value, out.best = shape;
+    if (const double value = misfit(scan, *a.effect, shape); value < best) best = value, out.best = shape;
   }
 
   // How wide it is along each entry: where it has lost about two.
@@ -84,9 +85,9 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
     const auto lost = [&](double by) {
       VectorXd x = VectorXd::Zero(m);
       x(k) = by;
-      const double up = misfit(joint, accepted, shape_at(x, centre)) - best;
+      const double up = misfit(scan, *a.effect, shape_at(x, centre)) - best;
       x(k) = -by;
-      return std::min(up, misfit(joint, accepted, shape_at(x, centre)) - best) / inflation;
+      return std::min(up, misfit(scan, *a.effect, shape_at(x, centre)) - best) / inflation;
     };
     if (lost(w) < 1.0)
       while (w < 3.0 && lost(2.0 * w) < 1.0) w *= 2.0;
@@ -115,7 +116,7 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
     }
     parallel_for(kSamples, [&](int i) {
       Sample& s = samples[from + static_cast<std::size_t>(i)];
-      s.misfit = misfit(joint, accepted, shape_at(s.at, centre));
+      s.misfit = misfit(scan, *a.effect, shape_at(s.at, centre));
     });
     for (std::size_t i = from; i < samples.size(); ++i)
       if (samples[i].misfit < best) best = samples[i].misfit, out.best = shape_at(samples[i].at, centre);
@@ -149,7 +150,7 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
   }
   out.mean = shape_at(mean, centre);
   out.covariance = stride.asDiagonal() * covariance * stride.asDiagonal();
-  out.lost = misfit(joint, accepted, out.mean) - best;
+  out.lost = misfit(scan, *a.effect, out.mean) - best;
   return out;
 }
 

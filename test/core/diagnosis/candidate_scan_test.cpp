@@ -1,0 +1,74 @@
+#include "core/diagnosis/candidate_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/support/missing_physics.h"
+
+namespace odolab {
+namespace {
+
+JointModel model_with(const Effect& accepted, test::CaseSettings::Truth truth) {
+  test::CaseSettings settings;
+  settings.runs = 2;
+  settings.duration_s = 30.0;
+  settings.truth = truth;
+  const test::Case c = test::generated_case(settings, 12);
+  std::vector<InnovationRun> runs;
+  for (const Recording& r : c.recordings) runs.push_back(*innovation_run(r, c.nominal));
+  runs[1].set_aside[runs[1].set_aside.size() / 2] = 1;  // a sample that is not used
+  const LeastSquaresCalibration start = *calibrate_least_squares(c.recordings, c.nominal);
+  JointModel joint(std::move(runs), std::vector<char>(c.recordings.size(), 0), start, c.nominal);
+  joint.accepted.push_back({&accepted, {}, {0.5 * accepted.amplitudes[0].medium}, {}});
+  joint.linearise();
+  joint.linearise();
+  return joint;
+}
+
+const Effect& lateral_slip() {
+  for (const Effect& e : catalogue())
+    if (e.name == "lateral_slip" && e.shapes.empty() && e.forms.size() < 2 && e.amplitudes.size() == 1) return e;
+  for (const Effect& e : catalogue())
+    if (e.shapes.empty() && e.forms.size() < 2 && e.amplitudes.size() == 1 && !e.clock_rate) return e;
+  return catalogue().front();
+}
+
+// Every entry of the catalogue at a few of its shapes: the same as from columns that are written down, which end where
+// a millionth of the largest is left; a difference of two products that are nearly absorbed shows the thousandfold.
+void expect_the_same(const JointModel& joint, int without) {
+  const CandidateScan scan(joint, without);
+  int asked = 0;
+  for (const Effect& e : catalogue()) {
+    if (e.only_commands) continue;
+    std::vector<std::vector<double>> shapes{{}};
+    if (e.scan) shapes = e.scan(joint.views());
+    for (std::size_t k = 0; k < 3 && !shapes.empty(); ++k) {
+      std::vector<double> shape = shapes[(2 * k + 1) * shapes.size() / 6];
+      if (e.forms.size() > 1) shape.push_back(static_cast<double>(k % e.forms.size()));
+      const CandidateTest quick = scan.test(e, shape), slow = joint.test(joint.columns_of(e, shape), without);
+      ASSERT_EQ(quick.value.size(), slow.value.size()) << e.name;
+      EXPECT_NEAR(quick.statistic, slow.statistic, 1e-4 + 1e-4 * slow.statistic) << e.name << " " << k;
+      EXPECT_NEAR(quick.survives, slow.survives, 1e-5) << e.name << " " << k;
+      for (std::size_t j = 0; j < slow.value.size(); ++j)
+        EXPECT_NEAR(quick.value[j], slow.value[j], 1e-3 * slow.stderr_value[j]) << e.name << " " << k;
+      asked += quick.value.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(asked, 30);
+}
+
+TEST(CandidateScan, SaysWhatTheColumnsSay) {
+  expect_the_same(model_with(lateral_slip(), test::CaseSettings::Truth::mocap), -1);
+}
+
+TEST(CandidateScan, SaysWhatTheColumnsSayWithAnEffectTakenOut) {
+  expect_the_same(model_with(lateral_slip(), test::CaseSettings::Truth::mocap), 0);
+}
+
+TEST(CandidateScan, SaysWhatTheColumnsSayWhereTheTruthHasNoHeadings) {
+  expect_the_same(model_with(lateral_slip(), test::CaseSettings::Truth::coarse_without_heading), -1);
+}
+
+}  // namespace
+}  // namespace odolab
