@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/packed_symmetric.h"
+#include "core/calibration/pose_covariance.h"
 
 namespace odolab {
 
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
+// A Cholesky factor's product is that far from what a double cannot hold before its logarithm is taken.
+constexpr double kSmall = 1e-100, kLarge = 1e100;
+
+// The same as `wrapped`, sooner where there is nothing to do.
+double soon_wrapped(double angle_rad) { return std::abs(angle_rad) < kPi ? angle_rad : wrapped(angle_rad); }
 
 // The heading that lays the first metres of dead reckoning onto a truth without headings.
 double heading_from_shape(const InnovationRun& run, const SummedRun& summed, const TruthMounting& mounting, int first,
@@ -50,11 +53,14 @@ class PoseFilter {
     const double left = std::pow(count * drive.wheel_radius_left_m, 2) / 12.0,
                  right = std::pow(count * drive.wheel_radius_right_m, 2) / 12.0;
     const double b = drive.wheelbase_m;
-    count_error_ << 0.25 * (left + right), 0.0, 0.5 * (right - left) / b, 0.0, 0.0, 0.0, 0.5 * (right - left) / b, 0.0,
-        (left + right) / (b * b);
-    reading_ = Vector3d(model.noise.truth_position_m * model.noise.truth_position_m,
-                        model.noise.truth_position_m * model.noise.truth_position_m,
-                        model.noise.truth_heading_rad * model.noise.truth_heading_rad);
+    count_error_.xx = 0.25 * (left + right);
+    count_error_.xh = 0.5 * (right - left) / b;
+    count_error_.hh = (left + right) / (b * b);
+    position2_ = model.noise.truth_position_m * model.noise.truth_position_m;
+    heading2_ = model.noise.truth_heading_rad * model.noise.truth_heading_rad;
+    wheel2_ = model.noise.wheel_m_per_sqrt_m * model.noise.wheel_m_per_sqrt_m;
+    body2_ = model.noise.body_m_per_sqrt_m * model.noise.body_m_per_sqrt_m;
+    sideways2_ = model.noise.sideways_m_per_sqrt_m * model.noise.sideways_m_per_sqrt_m;
   }
 
   InnovationSums run() {
@@ -82,6 +88,7 @@ class PoseFilter {
         refused = 0;
       }
     }
+    take_logarithm();
     sums_.information.assign(information_.data(), information_.data() + information_.size());
     sums_.score.assign(score_.data(), score_.data() + score_.size());
     if (p_ > 0) {  // only one half was summed
@@ -101,7 +108,7 @@ class PoseFilter {
     step_ = FilterStep{};
     step_.starts = true;
     step_.heading_before_rad = step_.heading_rad = state_.heading_rad;
-    step_.arm = rotated(model_.truth.axle_T_tracked.position(), state_.heading_rad);
+    step_.arm = arm();
     report_step(k);
   }
 
@@ -116,25 +123,24 @@ class PoseFilter {
   void place_at(int k) {
     const TruthSample& truth = run_.truth[k];
     const Pose& m = model_.truth.axle_T_tracked;
-    Vector3d error = reading_;
-    double tracked_heading;
+    double heading2 = heading2_, tracked_heading;
     if (run_.truth_has_heading && truth.heading_rad) {
       tracked_heading = *truth.heading_rad;
     } else {
       tracked_heading = heading_from_shape(run_, summed_, model_.truth, k, last_) + m.heading_rad;
-      error(2) = 1.0;  // unknown: an error of one radian
+      heading2 = 1.0;  // unknown: an error of one radian
     }
-    const double heading = tracked_heading - m.heading_rad;
-    const Vec2 arm = rotated(m.position(), heading);
-    state_ = {truth.position.x_m - arm.x_m, truth.position.y_m - arm.y_m, heading};
-    Matrix3d back = Matrix3d::Identity();  // of the pose by the reading
-    back(0, 2) = arm.y_m;
-    back(1, 2) = -arm.x_m;
-    const Matrix3d turn = rotation(heading);
-    covariance_ = back * error.asDiagonal() * back.transpose() + turn * count_error_ * turn.transpose();
+    state_.heading_rad = tracked_heading - m.heading_rad;
+    face();
+    const Vec2 arm = this->arm();
+    state_.x_m = truth.position.x_m - arm.x_m;
+    state_.y_m = truth.position.y_m - arm.y_m;
+    covariance_ = {position2_, 0.0, 0.0, position2_, 0.0, heading2};
+    covariance_ = covariance_.carried(-arm.x_m, -arm.y_m);  // back from the point to the axle
+    covariance_.add(count_error_.turned(cos_, sin_));
     if (p_ == 0) return;
     derivative_.setZero();
-    const double c = std::cos(heading), s = std::sin(heading);
+    const double c = cos_, s = sin_;
     derivative_.col(column::mounting_x) << -c, -s, 0.0;
     derivative_.col(column::mounting_y) << s, -c, 0.0;
     if (run_.truth_has_heading) derivative_.col(column::mounting_heading) << -arm.y_m, arm.x_m, -1.0;
@@ -142,7 +148,7 @@ class PoseFilter {
 
   void predict(int t) {
     const RelativeMotion& step = summed_.motions[t];
-    const double c = std::cos(state_.heading_rad), s = std::sin(state_.heading_rad);
+    const double c = cos_, s = sin_;
     const double dx = c * step.motion.x_m - s * step.motion.y_m, dy = s * step.motion.x_m + c * step.motion.y_m;
     const double* jac = p_ > 0 ? &summed_.derivatives[3 * static_cast<std::size_t>(p_) * t] : nullptr;
     for (int k = 0; k < p_; ++k, jac += 3) {
@@ -151,59 +157,66 @@ class PoseFilter {
       d[1] += dx * d[2] + s * jac[0] + c * jac[1];
       d[2] += jac[2];
     }
-    Matrix3d f = Matrix3d::Identity();
-    f(0, 2) = -dy;
-    f(1, 2) = dx;
-    const double q2 = model_.noise.wheel_m_per_sqrt_m * model_.noise.wheel_m_per_sqrt_m;
-    double noise[6];
-    const double body2 = model_.noise.body_m_per_sqrt_m * model_.noise.body_m_per_sqrt_m;
-    const double side2 = model_.noise.sideways_m_per_sqrt_m * model_.noise.sideways_m_per_sqrt_m;
-    for (int k = 0; k < 6; ++k)
-      noise[k] =
-          q2 * step.wheel_noise[k] + body2 * step.body_noise[k] + side2 * step.sideways_noise[k] + step.count_noise[k];
-    Matrix3d turn;
-    turn << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-    covariance_ = f * covariance_ * f.transpose() + turn * symmetric(noise) * turn.transpose();
+    PoseCovariance noise = PoseCovariance::packed(step.count_noise);
+    noise.add(PoseCovariance::packed(step.wheel_noise), wheel2_);
+    noise.add(PoseCovariance::packed(step.body_noise), body2_);
+    noise.add(PoseCovariance::packed(step.sideways_noise), sideways2_);
+    covariance_ = covariance_.carried(dx, dy);
+    covariance_.add(noise.turned(c, s));
     if (options_.on_step) {
       step_.moved = {dx, dy};
       step_.heading_before_rad = state_.heading_rad;
     }
     state_ = {state_.x_m + dx, state_.y_m + dy, state_.heading_rad + step.motion.heading_rad};
+    face();
     step_.heading_rad = state_.heading_rad;
+  }
+
+  // Cosine and sine of the heading, for all that asks.
+  void face() {
+    cos_ = std::cos(state_.heading_rad);
+    sin_ = std::sin(state_.heading_rad);
+  }
+  Vec2 arm() const {  // from the axle to the tracked point, in the room
+    const Pose& m = model_.truth.axle_T_tracked;
+    return {cos_ * m.x_m - sin_ * m.y_m, sin_ * m.x_m + cos_ * m.y_m};
+  }
+
+  void take_logarithm() {
+    sums_.log_determinant += 2.0 * std::log(root_determinant_);
+    root_determinant_ = 1.0;
   }
 
   // README, Eqs. 8 and 9. False where the gate refuses the sample.
   bool update(int k) {
     const TruthSample& truth = run_.truth[k];
     const Pose& m = model_.truth.axle_T_tracked;
-    const Vec2 arm = rotated(m.position(), state_.heading_rad);
+    const Vec2 arm = this->arm();
     const int n = truth.heading_rad && run_.truth_has_heading ? 3 : 2;
-    Vector3d residual(truth.position.x_m - state_.x_m - arm.x_m, truth.position.y_m - state_.y_m - arm.y_m,
-                      n == 3 ? wrapped(*truth.heading_rad - state_.heading_rad - m.heading_rad) : 0.0);
-    Matrix3d h = Matrix3d::Identity();
-    h(0, 2) = -arm.y_m;
-    h(1, 2) = arm.x_m;
-    const Matrix3d turn = rotation(state_.heading_rad);
-    const Matrix3d predicted = covariance_ + turn * count_error_ * turn.transpose();
-    Matrix3d s = h * predicted * h.transpose();
-    s.diagonal() += reading_;
+    const double residual[3] = {truth.position.x_m - state_.x_m - arm.x_m, truth.position.y_m - state_.y_m - arm.y_m,
+                                n == 3 ? soon_wrapped(*truth.heading_rad - state_.heading_rad - m.heading_rad) : 0.0};
+    PoseCovariance s = covariance_;
+    s.add(count_error_.turned(cos_, sin_));
+    s = s.carried(arm.x_m, arm.y_m);
+    s.xx += position2_;
+    s.yy += position2_;
+    s.hh += heading2_;
     if (n == 2) {  // a heading that was not read: infinitely uncertain, and no residual
-      s.row(2).setZero();
-      s.col(2).setZero();
-      s(2, 2) = 1.0;
+      s.xh = s.yh = 0.0;
+      s.hh = 1.0;
     }
     // Cholesky factor of S by hand: lower l, S = l l'.
-    const double l00 = std::sqrt(s(0, 0)), l10 = s(1, 0) / l00, l20 = s(2, 0) / l00;
-    const double l11 = std::sqrt(std::max(s(1, 1) - l10 * l10, 1e-300)), l21 = (s(2, 1) - l20 * l10) / l11;
-    const double l22 = std::sqrt(std::max(s(2, 2) - l20 * l20 - l21 * l21, 1e-300));
+    const double l00 = std::sqrt(s.xx), l10 = s.xy / l00, l20 = s.xh / l00;
+    const double l11 = std::sqrt(std::max(s.yy - l10 * l10, 1e-300)), l21 = (s.yh - l20 * l10) / l11;
+    const double l22 = std::sqrt(std::max(s.hh - l20 * l20 - l21 * l21, 1e-300));
     const auto whiten = [&](double* v) {
       v[0] /= l00;
       v[1] = (v[1] - l10 * v[0]) / l11;
       v[2] = (v[2] - l20 * v[0] - l21 * v[1]) / l22;
     };
-    Vector3d white = residual;
-    whiten(white.data());
-    const double squared = white.squaredNorm();
+    double white[3] = {residual[0], residual[1], residual[2]};
+    whiten(white);
+    const double squared = white[0] * white[0] + white[1] * white[1] + white[2] * white[2];
     const bool refused = options_.gate > 0.0 && squared > (n == 3 ? options_.gate : 0.9 * options_.gate);
     if (options_.on_innovation) {
       Innovation out;
@@ -211,10 +224,10 @@ class PoseFilter {
       out.truth_index = k;
       out.size = n;
       for (int j = 0; j < 3; ++j) {
-        out.residual[j] = residual(j);
-        out.white[j] = white(j);
+        out.residual[j] = residual[j];
+        out.white[j] = white[j];
       }
-      add_symmetric(s, out.covariance);
+      s.pack(out.covariance);
       out.squared = squared;
       out.set_aside = refused;
       options_.on_innovation(out);
@@ -225,21 +238,32 @@ class PoseFilter {
       return false;
     }
     sums_.chi2 += squared;
-    sums_.log_determinant += 2.0 * (std::log(l00 * l11) + (n == 3 ? std::log(l22) : 0.0));
+    root_determinant_ *= l00 * l11 * (n == 3 ? l22 : 1.0);
+    if (root_determinant_ < kSmall || root_determinant_ > kLarge) take_logarithm();
     sums_.scalars += n;
 
     // The gain acts on the error of the pose alone, not on the rounding of this very reading of the encoders: that part
     // of S is uncorrelated with the pose before and after.
-    Matrix3d hc = h * covariance_;
-    if (n == 2) hc.row(2).setZero();
-    Matrix3d white_hc = hc;
-    for (int j = 0; j < 3; ++j) whiten(&white_hc(0, j));
-    const Matrix3d gain_white = white_hc.transpose();  // K = gain_white l^-1
-    const Vector3d moved = gain_white * white;
-    covariance_ -= gain_white * white_hc;
+    double by[3][3];  // by[j]: l^-1 H P of column j, so that K = by l^-1
+    const double p[3][3] = {{covariance_.xx, covariance_.xy, covariance_.xh},
+                            {covariance_.xy, covariance_.yy, covariance_.yh},
+                            {covariance_.xh, covariance_.yh, covariance_.hh}};
+    for (int j = 0; j < 3; ++j) {
+      by[j][0] = p[0][j] - arm.y_m * p[2][j];
+      by[j][1] = p[1][j] + arm.x_m * p[2][j];
+      by[j][2] = n == 2 ? 0.0 : p[2][j];
+      whiten(by[j]);
+    }
+    const auto product = [](const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    covariance_.xx -= product(by[0], by[0]);
+    covariance_.xy -= product(by[0], by[1]);
+    covariance_.xh -= product(by[0], by[2]);
+    covariance_.yy -= product(by[1], by[1]);
+    covariance_.yh -= product(by[1], by[2]);
+    covariance_.hh -= product(by[2], by[2]);
 
     if (p_ > 0) {
-      const double c = std::cos(state_.heading_rad), sn = std::sin(state_.heading_rad);
+      const double c = cos_, sn = sin_;
       for (int j = 0; j < p_; ++j) {
         const double* d = &derivative_(0, j);
         double* o = &jacobian_(0, j);
@@ -257,29 +281,32 @@ class PoseFilter {
         const double a0 = jacobian_(0, r), a1 = jacobian_(1, r), a2 = jacobian_(2, r);
         for (int q = 0; q <= r; ++q)
           information_(r, q) += a0 * jacobian_(0, q) + a1 * jacobian_(1, q) + a2 * jacobian_(2, q);
-        score_(r) += a0 * white(0) + a1 * white(1) + a2 * white(2);
+        score_(r) += a0 * white[0] + a1 * white[1] + a2 * white[2];
       }
       if (options_.batch > 0) {
         const std::size_t number = static_cast<std::size_t>(k / options_.batch);
         if (sums_.batch_scores.size() <= number) sums_.batch_scores.resize(number + 1, std::vector<double>(p_, 0.0));
         for (int r = 0; r < p_; ++r)
           sums_.batch_scores[number][r] +=
-              jacobian_(0, r) * white(0) + jacobian_(1, r) * white(1) + jacobian_(2, r) * white(2);
+              jacobian_(0, r) * white[0] + jacobian_(1, r) * white[1] + jacobian_(2, r) * white[2];
       }
-      derivative_.noalias() -= gain_white * jacobian_;
+      for (int j = 0; j < p_; ++j)
+        for (int r = 0; r < 3; ++r) derivative_(r, j) -= product(by[r], &jacobian_(0, j));
     }
-    state_ = {state_.x_m + moved(0), state_.y_m + moved(1), state_.heading_rad + moved(2)};
+    state_ = {state_.x_m + product(by[0], white), state_.y_m + product(by[1], white),
+              state_.heading_rad + product(by[2], white)};
+    face();
     if (options_.on_step) {
       step_.used = true;
       step_.size = n;
       step_.arm = arm;
-      for (int j = 0; j < 3; ++j) step_.residual[j] = residual(j);
-      add_symmetric(s, step_.covariance);
-      // K = gain_white l^-1, column by column from the last.
+      for (int j = 0; j < 3; ++j) step_.residual[j] = residual[j];
+      s.pack(step_.covariance);
+      // K, column by column from the last.
       for (int r = 0; r < 3; ++r) {
-        const double g2 = gain_white(r, 2) / l22;
-        const double g1 = (gain_white(r, 1) - g2 * l21) / l11;
-        const double g0 = (gain_white(r, 0) - g1 * l10 - g2 * l20) / l00;
+        const double g2 = by[r][2] / l22;
+        const double g1 = (by[r][1] - g2 * l21) / l11;
+        const double g0 = (by[r][0] - g1 * l10 - g2 * l20) / l00;
         step_.gain[3 * r] = g0;
         step_.gain[3 * r + 1] = g1;
         step_.gain[3 * r + 2] = g2;
@@ -296,9 +323,10 @@ class PoseFilter {
   int p_;
   int last_;
   Pose state_;
-  Matrix3d covariance_ = Matrix3d::Zero();
-  Matrix3d count_error_;
-  Vector3d reading_;
+  double cos_ = 1.0, sin_ = 0.0;  // of its heading
+  PoseCovariance covariance_, count_error_;
+  double position2_, heading2_, wheel2_, body2_, sideways2_;  // variances
+  double root_determinant_ = 1.0;                             // of the samples since the last logarithm
   Eigen::Matrix<double, 3, Eigen::Dynamic> derivative_, jacobian_;
   Eigen::MatrixXd information_;
   Eigen::VectorXd score_;

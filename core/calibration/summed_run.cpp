@@ -3,14 +3,13 @@
 #include <cmath>
 
 #include "core/calibration/innovations.h"
-#include "core/calibration/packed_symmetric.h"
+#include "core/calibration/pose_covariance.h"
 #include "core/calibration/wheel_line.h"
 
 namespace odolab {
 
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // A wheel on which the vehicle pivots scrubs: this share of its noise comes from the other wheel's way. Without it such
@@ -42,8 +41,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     RelativeMotion& out = summed.motions[t];
     double* const jac = &summed.derivatives[3 * static_cast<std::size_t>(p) * t];
     const double end_s = time_of(t + 1);
-    Matrix3d wheel_noise = Matrix3d::Zero(), body_noise = Matrix3d::Zero(), sideways_noise = Matrix3d::Zero(),
-             count_noise = Matrix3d::Zero();
+    PoseCovariance wheel_noise, body_noise, sideways_noise, count_noise;
     const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
     bool counts_left_behind = false;
     Pose& pose = out.motion;
@@ -112,46 +110,31 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       }
 
       // Noise of both wheels, Eq. 5.
-      Matrix3d f = Matrix3d::Identity();
-      f(0, 2) = -dy;
-      f(1, 2) = dx;
       const Vector3d by_left(0.5 * c + 0.5 * dy / b, 0.5 * s - 0.5 * dx / b, -1.0 / b);
       const Vector3d by_right(0.5 * c - 0.5 * dy / b, 0.5 * s + 0.5 * dx / b, 1.0 / b);
-      const auto carry_noise = [&](Matrix3d& m) {  // f m f' without the multiplications by 0 and 1
-        for (int k = 0; k < 3; ++k) {
-          m(0, k) += f(0, 2) * m(2, k);
-          m(1, k) += f(1, 2) * m(2, k);
-        }
-        for (int k = 0; k < 3; ++k) {
-          m(k, 0) += f(0, 2) * m(k, 2);
-          m(k, 1) += f(1, 2) * m(k, 2);
-        }
-      };
-      carry_noise(wheel_noise);
+      wheel_noise = wheel_noise.carried(dx, dy);
       const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
       const double left_way_m = (1.0 - kScrub) * std::abs(left_m) + kScrub * way_m;
       const double right_way_m = (1.0 - kScrub) * std::abs(right_m) + kScrub * way_m;
-      wheel_noise.noalias() += by_left * (left_way_m * by_left.transpose());
-      wheel_noise.noalias() += by_right * (right_way_m * by_right.transpose());
+      wheel_noise.add(left_way_m, by_left(0), by_left(1), by_left(2));
+      wheel_noise.add(right_way_m, by_right(0), by_right(1), by_right(2));
       if (body_is_noisy) {
-        carry_noise(body_noise);
-        carry_noise(sideways_noise);
-        const Vector3d by_turn = (2.0 / b) * Vector3d(-0.5 * dy, 0.5 * dx, 1.0);
-        const Vector3d by_forward(c, s, 0.0), by_sideways(-s, c, 0.0);
-        body_noise.noalias() += by_forward * (way_m * by_forward.transpose());
-        body_noise.noalias() += by_turn * (way_m * by_turn.transpose());
-        sideways_noise.noalias() += by_sideways * (way_m * by_sideways.transpose());
+        body_noise = body_noise.carried(dx, dy);
+        sideways_noise = sideways_noise.carried(dx, dy);
+        body_noise.add(way_m, c, s, 0.0);
+        body_noise.add(way_m, -dy / b, dx / b, 2.0 / b);  // the turn
+        sideways_noise.add(way_m, -s, c, 0.0);
       }
-      if (counts_left_behind) carry_noise(count_noise);
+      if (counts_left_behind) count_noise = count_noise.carried(dx, dy);
       if (!run.settles.empty() && run.settles[i] && now_s == w0.time_s) {
         if (run.settles[i] & 1) {
           const double m = count * drive.wheel_radius_left_m;
-          count_noise += by_left * (m * m / 12.0 * by_left.transpose());
+          count_noise.add(m * m / 12.0, by_left(0), by_left(1), by_left(2));
           counts_left_behind = true;
         }
         if (run.settles[i] & 2) {
           const double m = count * drive.wheel_radius_right_m;
-          count_noise += by_right * (m * m / 12.0 * by_right.transpose());
+          count_noise.add(m * m / 12.0, by_right(0), by_right(1), by_right(2));
           counts_left_behind = true;
         }
       }
@@ -159,16 +142,18 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       now_s = until_s;
     }
     velocity = velocity_in(i, end_s);
-    const Vector3d moved_end = rotation(pose.heading_rad) * velocity;
+    const double c_end = std::cos(pose.heading_rad), s_end = std::sin(pose.heading_rad);
+    const Vector3d moved_end(c_end * velocity(0) - s_end * velocity(1), s_end * velocity(0) + c_end * velocity(1),
+                             velocity(2));
     double* const clock = jac + 3 * column::truth_clock;  // Eq. 6: both ends move back in time
     clock[0] += start_velocity(0) - start_velocity(2) * pose.y_m - moved_end(0);
     clock[1] += start_velocity(1) + start_velocity(2) * pose.x_m - moved_end(1);
     clock[2] += start_velocity(2) - moved_end(2);
     for (int k = 0; k < 3; ++k) summed.end_velocity.push_back(moved_end(k));
-    add_symmetric(wheel_noise, out.wheel_noise);
-    if (body_is_noisy) add_symmetric(body_noise, out.body_noise);
-    if (body_is_noisy) add_symmetric(sideways_noise, out.sideways_noise);
-    if (counts_left_behind) add_symmetric(count_noise, out.count_noise);
+    wheel_noise.pack(out.wheel_noise);
+    body_noise.pack(out.body_noise);
+    sideways_noise.pack(out.sideways_noise);
+    count_noise.pack(out.count_noise);
   }
   return summed;
 }
