@@ -1,5 +1,7 @@
 #include "core/diagnosis/units/held_out_residuals.h"
 
+#include <cmath>
+
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/predicted_mismatch.h"
 #include "core/diagnosis/units/unit_models.h"
@@ -9,6 +11,39 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kFirst = 0;
+constexpr int kHalvings = 10;  // of the range of the noise, which begins a hundredfold
+
+FittedNoise times(FittedNoise noise, double factor) {
+  noise.wheel_m_per_sqrt_m *= factor;
+  noise.body_m_per_sqrt_m *= factor;
+  noise.sideways_m_per_sqrt_m *= factor;
+  return noise;
+}
+
+// The noise of a fit without effects holds what they did. So much of what adds up is left that the normalised squares
+// of the recordings fitted are 1 with the effects.
+Result<FittedNoise> noise_beside_effects(const FittedModel& model, const std::vector<Recording>& fitted) {
+  const Result<LeastSquaresCalibration> fit = calibrate_least_squares(fitted, model.vehicle);
+  if (!fit) return fit.error();
+  const auto squared = [&](double factor) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const Recording& recording : fitted)
+      if (const Result<Residuals> r = residuals_under(model, times(fit->noise, factor), recording, model.vehicle))
+        for (const double s : r->squared) {
+          sum += s;
+          ++count;
+        }
+    return count > 0 ? sum / static_cast<double>(count) : 1.0;
+  };
+  double low = std::log(0.01), high = 0.0;  // squares fall as the noise grows
+  if (model.effects.empty() || squared(1.0) >= 1.0) return fit->noise;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (squared(std::exp(middle)) < 1.0 ? high : low) = middle;
+  }
+  return times(fit->noise, std::exp(high));
+}
 
 }  // namespace
 
@@ -18,16 +53,15 @@ Diagnosis with_held_out_residuals_of_units(const Diagnosis& diagnosis, const std
   const FittedModel calibrated = calibrated_model_of(diagnosis), found = model_of(diagnosis);
   const std::string name = units_of(nominal)[kFirst].name;
   const FittedModel calibrated_unit = model_of_unit(calibrated, kFirst), found_unit = model_of_unit(found, kFirst);
-  const Result<LeastSquaresCalibration> fit =
-      calibrate_least_squares(recordings_of_unit(fitted, found, kFirst), found_unit.vehicle);
-  if (!fit) return all;
+  if (held_out.empty()) return all;
+  const Result<FittedNoise> noise = noise_beside_effects(found_unit, recordings_of_unit(fitted, found, kFirst));
+  if (!noise) return all;
   for (const Recording& recording : held_out) {
     const std::vector<Recording> by_calibrated = recordings_of_unit({recording}, calibrated, kFirst),
                                  by_found = recordings_of_unit({recording}, found, kFirst);
     if (by_calibrated.empty() || by_found.empty()) continue;
-    Result<Residuals> before =
-        residuals_under(calibrated_unit, fit->noise, by_calibrated.front(), calibrated_unit.vehicle);
-    Result<Residuals> after = residuals_under(found_unit, fit->noise, by_found.front(), found_unit.vehicle);
+    Result<Residuals> before = residuals_under(calibrated_unit, *noise, by_calibrated.front(), calibrated_unit.vehicle);
+    Result<Residuals> after = residuals_under(found_unit, *noise, by_found.front(), found_unit.vehicle);
     if (!before || !after || before->time_s.empty()) continue;
     before->recording = after->recording = name.empty() ? recording.name : recording.name + ", " + name;
     all.residuals_before.push_back(std::move(*before));
