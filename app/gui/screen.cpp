@@ -35,6 +35,8 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                    ImGuiWindowFlags_NoNavFocus;
 
+constexpr float kMostAside = 0.68f;  // of the width, for both panes beside the middle
+
 // Where the panes are, in pixels.
 struct Layout {
   ImVec2 top_size, left_low, left_size, centre_low, centre_size, right_low, right_size, bottom_low, bottom_size;
@@ -48,9 +50,13 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, const T
   const float bottom = has_bottom && !state.choices.hide_interface
                            ? std::min(theme.px(float(state.bottom_height)), 0.6f * screen.y)
                            : 0.0f;
-  const float left = state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.left_width)), 0.4f * screen.x);
-  const float right =
-      state.choices.hide_interface ? 0.0f : std::min(theme.px(float(state.right_width)), 0.4f * screen.x);
+  float left = state.choices.hide_interface ? 0.0f : theme.px(float(state.left_width));
+  float right = state.choices.hide_interface ? 0.0f : theme.px(float(state.right_width));
+  const float too_wide = (left + right) / (kMostAside * screen.x);  // the middle is what people look at
+  if (too_wide > 1.0f) {
+    left = std::round(left / too_wide);
+    right = std::round(right / too_wide);
+  }
   const float begin = top, height = std::max(40.0f, screen.y - begin - bottom);
   l.top_size = {screen.x, top};
   l.left_low = {0, begin};

@@ -33,8 +33,12 @@ RestOfCalibration rest_of(const UmbmarkMeasure& measure, const UmbmarkRuns& runs
                           1e3 * rest_m, times)};
   if (rest_m < kTapeRounding_m)
     return {false, text_of("Nothing is left to correct: %.1f mm is less than a tape tells apart.", 1e3 * rest_m)};
-  return {false, text_of("Nothing is left to correct: %.1f mm is within the spread of the returns, %.1f standard "
-                         "errors of its own centre.",
+  if (rest_m <= measure.spread_m)
+    return {false, text_of("Nothing is left to correct: %.1f mm is within the spread of the returns, %.1f standard "
+                           "errors of its own centre.",
+                           1e3 * rest_m, times)};
+  return {false, text_of("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation would "
+                         "fit chance.",
                          1e3 * rest_m, times)};
 }
 

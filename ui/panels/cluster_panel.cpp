@@ -208,16 +208,17 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   q.legend = false;
   Clouds near;
   add_experiment(q, near, last, true, nullptr, theme);
-  const ImVec2 area = drawing_area({size.x - theme.px(8), size.y - theme.px(10)}, theme);
+  const ImVec2 area = drawing_area(q, {size.x - theme.px(8), size.y - theme.px(10)}, theme);
   const PlotView whole = view_of_all(q, area);
   const double outer_per_px = (state.view.x1 - state.view.x0) / (result.high.x - result.low.x);
   const bool enlarges = outer_per_px / ((whole.x1 - whole.x0) / area.x) > kLeastEnlargement;
-  // Too small to be read in, or no larger than what it lies on: then the last clouds are named where they are.
-  if (!two || side < theme.px(110) || (state.enlarged.fitted && !enlarges)) {
-    labels_of(two && !enlarges ? last : experiments.front(), result, state.view, theme);
+  const bool readable = side >= theme.px(110);
+  if (two && readable && !enlarges && state.enlarged.fitted) {  // the last clouds are seen where they are
+    labels_of(last, result, state.view, theme);
     return;
   }
   labels_of(experiments.front(), result, state.view, theme);
+  if (!two || !readable) return;
   const ImVec2 low = emptiest_corner(experiments, result, state.view, size, theme);
   const ImVec2 high{low.x + size.x, low.y + size.y};
   draw.AddRectFilled({low.x + theme.px(2), low.y + theme.px(3)}, {high.x + theme.px(2), high.y + theme.px(4)},

@@ -98,8 +98,11 @@ void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme)
   if (number_field(factor, state.exaggeration, theme.px(52), theme) != Edited::no) state.exaggerate = true;
 }
 
+// 0 where there is no room for one that says anything.
 float lens_side(const Camera& camera, const Theme& theme) {
-  return std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+  const float side =
+      std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
+  return side < theme.px(90) ? 0.0f : side;
 }
 
 // Everything worth seeing, for a fit.
@@ -174,14 +177,19 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
 void mismatch_scale(ImDrawList& draw, const FloorViewState& state, float y, const Theme& theme) {
   const float line = ImGui::GetTextLineHeight(), swatch = theme.px(20), gap = theme.px(12);
   const char* title = "recorded, by its mismatch";
-  float total = ImGui::CalcTextSize(title).x + gap;
+  float total = 0.0f;
   for (int k = 0; k < kMismatchLevels; ++k)
     total += swatch + theme.px(5) + ImGui::CalcTextSize(mismatch_level_text(k)).x + (k + 1 < kMismatchLevels ? gap : 0);
   float x = state.camera.low.x + theme.px(12);
-  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total + theme.px(6), y + line + theme.px(4)},
+  const float with_title = total + ImGui::CalcTextSize(title).x + gap;
+  const bool titled = x + with_title < state.camera.high.x;
+  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)},
+                     {x + (titled ? with_title : total) + theme.px(6), y + line + theme.px(4)},
                      faded(theme.paper, 0.85f), theme.px(4));
-  draw.AddText({x, y}, theme.muted, title);
-  x += ImGui::CalcTextSize(title).x + gap;
+  if (titled) {
+    draw.AddText({x, y}, theme.muted, title);
+    x += ImGui::CalcTextSize(title).x + gap;
+  }
   for (int k = 0; k < kMismatchLevels; ++k) {
     const float middle = y + 0.5f * line;
     draw.AddLine({x, middle}, {x + swatch, middle}, mismatch_colour(k, theme), mismatch_width(k, theme) + theme.px(1));
@@ -269,8 +277,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   if (state.brushing)
     draw.AddRectFilled(camera.screen(state.brush_from), ImGui::GetIO().MousePos, faded(theme.sky, 0.25f));
   draw_scale_bar(draw, camera, theme);
-  if (state.show_lens) {
-    const float side = lens_side(camera, theme);
+  if (const float side = lens_side(camera, theme); state.show_lens && side > 0.0f) {
     const float margin = theme.px(14), below = margin + 2.0f * ImGui::GetTextLineHeight() + theme.px(16);
     draw_lens(draw, {camera.high.x - margin - side, camera.high.y - below - side},
               {camera.high.x - margin, camera.high.y - below}, scene, camera.px_per_m, theme);

@@ -5,6 +5,8 @@ namespace odolab::ui {
 
 namespace {
 
+constexpr float kNarrow = 470;  // a page, at scale 1
+
 // The number with its unit as the workshop has it: millimetres, degrees.
 Unit unit_of(const Setting& s) {
   if (s.unit == "rad") return {"°", kDegrees.per_si, 3, 0.0};
@@ -21,24 +23,8 @@ std::optional<double> true_value(const Setting& s, const std::optional<Vehicle>&
   return std::nullopt;
 }
 
-}  // namespace
-
-void result_page(const GuideView& view, GuidePageState& state, const Theme& theme) {
+void settings_table(const GuideView& view, bool truth, const Theme& theme) {
   const GuideOutcome& out = *view.outcome;
-  if (out.settings.empty()) {
-    if (!out.extended) note(view.busy ? "Still reckoning…" : "There is no result yet.", theme);
-    if (out.extended) {
-      WithFont large(theme.large);
-      ImGui::TextUnformatted(
-          (shown(out.extended->mean_absolute_heading_error_rad, kDegrees) + " for ten bumps").c_str());
-    }
-    return;
-  }
-  bool ros2 = false, truth = false;
-  for (const Setting& s : out.settings) {
-    ros2 = ros2 || !s.ros2.empty();
-    truth = truth || true_value(s, view.actual).has_value();
-  }
   const int columns = 4 + truth;
   if (!ImGui::BeginTable("settings", columns, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
@@ -86,6 +72,46 @@ void result_page(const GuideView& view, GuidePageState& state, const Theme& them
     }
   }
   ImGui::EndTable();
+}
+
+// Where a table would leave no room for words.
+void settings_below_each_other(const GuideView& view, const Theme& theme) {
+  for (const Setting& s : view.outcome->settings) {
+    const Unit unit = unit_of(s);
+    words(s.words + ": " +
+              (!s.determined          ? std::string("not determined, as before")
+               : s.stderr_value > 0.0 ? shown_with_error(s.value, s.stderr_value, unit, unit.decimals)
+                                      : shown(s.value, unit)),
+          theme.ink);
+    const auto value = true_value(s, view.actual);
+    note("before " + shown(s.before, unit) + (value ? ", true " + shown(*value, unit) : "") +
+             "; vehicle file: " + s.key + (s.ros2.empty() ? "" : "; ROS 2: " + s.ros2),
+         theme);
+  }
+}
+
+}  // namespace
+
+void result_page(const GuideView& view, GuidePageState& state, const Theme& theme) {
+  const GuideOutcome& out = *view.outcome;
+  if (out.settings.empty()) {
+    if (!out.extended) note(view.busy ? "Still reckoning…" : "There is no result yet.", theme);
+    if (out.extended) {
+      WithFont large(theme.large);
+      ImGui::TextUnformatted(
+          (shown(out.extended->mean_absolute_heading_error_rad, kDegrees) + " for ten bumps").c_str());
+    }
+    return;
+  }
+  bool ros2 = false, truth = false;
+  for (const Setting& s : out.settings) {
+    ros2 = ros2 || !s.ros2.empty();
+    truth = truth || true_value(s, view.actual).has_value();
+  }
+  if (ImGui::GetContentRegionAvail().x < theme.px(kNarrow))
+    settings_below_each_other(view, theme);
+  else
+    settings_table(view, truth, theme);
   if (ros2)
     note(
         "In ROS 2's diff_drive_controller these go into three multipliers; the last page writes them. Uncertainties "

@@ -45,7 +45,7 @@ Actions navigation(const GuideView& view, const Theme& theme) {
   Actions actions;
   const GuideSession& session = *view.session;
   const Guide& guide = guide_of(session.kind);
-  const float button = theme.px(120), width = ImGui::GetContentRegionAvail().x;
+  const float width = ImGui::GetContentRegionAvail().x, button = std::min(theme.px(120), 0.46f * width);
   const auto to = [&](int page) {
     GuideSession next = session;
     turn_to(next, page);
@@ -62,7 +62,7 @@ Actions navigation(const GuideView& view, const Theme& theme) {
   next.enabled = missing.empty() && !view.busy;
   next.why_disabled = view.busy ? "Busy " + view.job + "." : missing;
   ImGui::SameLine();
-  if (!missing.empty() && !view.busy) {
+  if (!missing.empty() && !view.busy && width > 3.0f * button) {
     const std::string why = fitted(missing, width - 2.0f * button - theme.px(40));
     ImGui::AlignTextToFramePadding();
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(8));

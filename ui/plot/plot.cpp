@@ -32,9 +32,37 @@ struct Margins {
   float left, top, right, bottom;
 };
 
-Margins margins(const Theme& theme) {
+std::string axis_title(const PlotAxis& axis) {
+  const std::string unit = axis.unit.name;
+  return unit.empty() ? axis.label : axis.label.empty() ? unit : axis.label + " (" + unit + ")";
+}
+
+float legend_entry_width(const PlotSeries& s, const Theme& theme) {
+  return theme.px(20) + theme.px(5) + ImGui::CalcTextSize(s.label.c_str()).x + theme.px(14);
+}
+
+// The lines that a legend takes below that of the y axis' title: none where it stands beside the title.
+int legend_lines(const Plot& what, float width, const Theme& theme) {
+  float total = 0.0f, x = 0.0f;
+  int lines = 1;
+  for (const PlotSeries& s : what.series) {
+    if (s.label.empty()) continue;
+    const float entry = legend_entry_width(s, theme);
+    if (x > 0.0f && x + entry > width) {
+      ++lines;
+      x = 0.0f;
+    }
+    x += entry;
+    total += entry;
+  }
+  const float title = ImGui::CalcTextSize(axis_title(what.y).c_str()).x;
+  return !what.legend || total == 0.0f || title + total < width ? 0 : lines;
+}
+
+Margins margins(const Plot& what, ImVec2 size, const Theme& theme) {
   const float line = ImGui::GetTextLineHeight();
-  return {theme.px(52), line + theme.px(6), theme.px(8), line + theme.px(5)};
+  return {theme.px(52), line * float(1 + legend_lines(what, size.x, theme)) + theme.px(6), theme.px(8),
+          line + theme.px(5)};
 }
 
 struct Range {
@@ -185,11 +213,6 @@ void draw_area(ImDrawList& draw, const PlotArea& a, const Frame& frame) {
   draw.Flags = flags;
 }
 
-std::string axis_title(const PlotAxis& axis) {
-  const std::string unit = axis.unit.name;
-  return unit.empty() ? axis.label : axis.label.empty() ? unit : axis.label + " (" + unit + ")";
-}
-
 // Round, and as close as it takes for two numbers to stand on the axis, if there is room for them.
 double step_with_two_numbers(double low, double high, int most, float height) {
   const double span = high - low, closest = 1.2 * double(ImGui::GetTextLineHeight()) / double(height) * span;
@@ -238,23 +261,28 @@ void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const The
   draw.AddText({outer_low.x + theme.px(2), outer_low.y}, theme.muted, axis_title(what.y).c_str());
 }
 
-// Returns the x where the legend begins.
-float draw_legend(ImDrawList& draw, const Plot& what, const Frame& frame, float top, const Theme& theme) {
+// Beside the y axis' title, at the right end; where there is no room in lines of its own below it.
+void draw_legend(ImDrawList& draw, const Plot& what, const Frame& frame, ImVec2 outer, float width,
+                 const Theme& theme) {
+  const float swatch = theme.px(20), gap = theme.px(14), line = ImGui::GetTextLineHeight();
+  const bool beside = legend_lines(what, width, theme) == 0;
   float total = 0.0f;
-  const float swatch = theme.px(20), gap = theme.px(14);
   for (const PlotSeries& s : what.series)
-    if (!s.label.empty()) total += swatch + theme.px(5) + ImGui::CalcTextSize(s.label.c_str()).x + gap;
-  const float begin = frame.high.x - total + gap;
-  float x = begin;
-  const float middle = top + 0.5f * ImGui::GetTextLineHeight();
+    if (!s.label.empty()) total += legend_entry_width(s, theme);
+  float x = beside ? frame.high.x - total + gap : outer.x, top = beside ? outer.y : outer.y + line;
   for (const PlotSeries& s : what.series) {
     if (s.label.empty()) continue;
+    const float entry = legend_entry_width(s, theme);
+    if (!beside && x > outer.x && x + entry > outer.x + width) {
+      x = outer.x;
+      top += line;
+    }
+    const float middle = top + 0.5f * line;
     stroke_line(draw, {{x, middle}, {x + swatch, middle}}, s.stroke, s.colour, theme.px(2), theme);
     marker(draw, s.marker, {x + 0.5f * swatch, middle}, s.colour, theme);
     draw.AddText({x + swatch + theme.px(5), top}, theme.ink, s.label.c_str());
-    x += swatch + theme.px(5) + ImGui::CalcTextSize(s.label.c_str()).x + gap;
+    x += entry;
   }
-  return begin;
 }
 
 std::string read_out(const Plot& what, const Frame& frame, ImVec2 mouse) {
@@ -286,8 +314,8 @@ ImVec2 PlotResult::screen_at(double x, double y, const PlotView& view) const {
           high.y - float((y - view.y0) / (view.y1 - view.y0)) * (high.y - low.y)};
 }
 
-ImVec2 drawing_area(ImVec2 size, const Theme& theme) {
-  const Margins m = margins(theme);
+ImVec2 drawing_area(const Plot& what, ImVec2 size, const Theme& theme) {
+  const Margins m = margins(what, size, theme);
   return {std::max(size.x - m.left - m.right, 20.0f), std::max(size.y - m.top - m.bottom, 10.0f)};
 }
 
@@ -301,8 +329,8 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   const ImVec2 outer = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(id, size);
   const ImGuiIO& io = ImGui::GetIO();
-  const Margins m = margins(theme);
-  const ImVec2 area = drawing_area(size, theme);
+  const Margins m = margins(what, size, theme);
+  const ImVec2 area = drawing_area(what, size, theme);
   PlotResult result{{outer.x + m.left, outer.y + m.top},
                     {outer.x + m.left + area.x, outer.y + m.top + area.y},
                     false,
@@ -392,7 +420,7 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
                        faded(theme.sky, 0.25f));
   draw.PopClipRect();
   draw.AddRect(result.low, result.high, theme.line);
-  if (what.legend) draw_legend(draw, what, frame, outer.y, theme);
+  if (what.legend) draw_legend(draw, what, frame, outer, size.x, theme);
   if (!any && !what.empty_text.empty()) {
     const ImVec2 text = ImGui::CalcTextSize(what.empty_text.c_str());
     const ImVec2 at{std::round(0.5f * (result.low.x + result.high.x - text.x)),

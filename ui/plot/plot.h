@@ -88,7 +88,7 @@ struct PlotResult {
 };
 
 // What is left for the drawing inside the axes of a plot of this size.
-ImVec2 drawing_area(ImVec2 size, const Theme& theme);
+ImVec2 drawing_area(const Plot& what, ImVec2 size, const Theme& theme);
 // What a fitted plot shows in a drawing area of this size.
 PlotView view_of_all(const Plot& what, ImVec2 area);
 
