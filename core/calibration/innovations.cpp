@@ -336,6 +336,14 @@ class PoseFilter {
 
 }  // namespace
 
+FittedNoise as_large_as_any_real(FittedNoise noise) {
+  constexpr double kLeast = 2e-5;
+  noise.wheel_m_per_sqrt_m = std::max(noise.wheel_m_per_sqrt_m, kLeast);
+  noise.truth_position_m = std::max(noise.truth_position_m, kLeast);
+  noise.truth_heading_rad = std::max(noise.truth_heading_rad, kLeast);
+  return noise;
+}
+
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options) {
   return PoseFilter(run, summed, model, options).run();

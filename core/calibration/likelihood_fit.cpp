@@ -124,8 +124,8 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active, double first_strid
   const std::vector<Stretch> stretches = noise_stretches();
   const bool restricted = truth_samples() < 1000;
   const auto noise_of = [&](const std::vector<double>& logs) {
-    return FittedNoise{std::exp(logs[0]), std::exp(logs[1]),
-                       any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad};
+    return as_large_as_any_real({std::exp(logs[0]), std::exp(logs[1]),
+                                 any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad});
   };
   const auto objective = [&](const std::vector<double>& logs) {
     std::vector<InnovationSums> of_stretch(stretches.size());

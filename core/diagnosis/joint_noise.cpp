@@ -26,8 +26,9 @@ void JointModel::fit_noise() {
                               std::log(model.noise.body_m_per_sqrt_m), std::log(model.noise.sideways_m_per_sqrt_m)};
   if (any_heading) logs.push_back(std::log(model.noise.truth_heading_rad));
   const auto noise_of = [&](const std::vector<double>& at) {
-    return FittedNoise{std::exp(at[0]), std::exp(at[1]), any_heading ? std::exp(at[4]) : model.noise.truth_heading_rad,
-                       std::exp(at[2]), std::max(std::exp(at[3]), kLeastSideways * std::exp(at[0]))};
+    return as_large_as_any_real({std::exp(at[0]), std::exp(at[1]),
+                                 any_heading ? std::exp(at[4]) : model.noise.truth_heading_rad, std::exp(at[2]),
+                                 std::max(std::exp(at[3]), kLeastSideways * std::exp(at[0]))});
   };
   // Twice the negative log-likelihood of the noise on these runs, of which every so many stretches are used; `scales`:
   // those of the logarithms that are free.
