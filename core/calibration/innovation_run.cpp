@@ -4,6 +4,7 @@
 
 #include "core/calibration/innovations.h"
 #include "core/calibration/rests.h"
+#include "core/calibration/slow_counts.h"
 #include "core/calibration/smoothed_readings.h"
 #include "core/odometry/differential_drive.h"
 
@@ -91,17 +92,13 @@ Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& 
                  "two or more of truth_x_m and truth_y_m"};
   run.set_aside.assign(run.truth.size(), 0);
   run.counts_show = lie_on_counts(run.wheels, drive);
-  run.smooth = smoothed(run.wheels);
   if (run.counts_show) {
     run.settles.assign(run.wheels.size() - 1, 0);
-    for (std::size_t i = 1; i + 1 < run.wheels.size(); ++i) {  // the first count behind a pause, however short
-      const WheelSample &before = run.wheels[i - 1], &here = run.wheels[i], &next = run.wheels[i + 1];
-      if (here.left_rad == before.left_rad && next.left_rad != here.left_rad) run.settles[i] |= 1;
-      if (here.right_rad == before.right_rad && next.right_rad != here.right_rad) run.settles[i] |= 2;
-    }
     for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::left_rad)) run.settles[e.interval] |= 1;
     for (const RestEdge& e : rest_edges(run.wheels, &WheelSample::right_rad)) run.settles[e.interval] |= 2;
+    run.wheels = with_slow_counts_drawn(run.wheels, count_rad(run, drive));
   }
+  run.smooth = smoothed(run.wheels);
   return run;
 }
 

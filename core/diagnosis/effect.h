@@ -87,9 +87,10 @@ struct Effect {
   std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
-  // Whether such amplitudes are more than whole counts can feign; empty: anything is. What happens at a moment is asked
-  // only where a wheel sets off or stops.
-  std::function<bool(const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views)>
+  // Whether such amplitudes are more than whole counts can feign, beside what holds for all that happens in one place
+  // or at one moment: that it carries a wheel by a count or more. Empty: anything is.
+  std::function<bool(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
+                     const std::vector<DriveView>& views)>
       beyond_counts;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;

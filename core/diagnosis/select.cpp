@@ -68,13 +68,57 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
   return near;
 }
 
-// Where a wheel sets off or stops its count is off by what is hidden between two counts; on the way that averages out.
 bool near_a_rest(const InnovationRun& run, double time_s) {
   constexpr double kNear_s = 0.5;
   for (std::size_t i = 0; i < run.settles.size(); ++i)
     if (run.settles[i] && std::abs(0.5 * (run.wheels[i].time_s + run.wheels[i + 1].time_s) - time_s) < kNear_s)
       return true;
   return false;
+}
+
+// How far a wheel, or the vehicle sideways, is carried in one go at most.
+double furthest_m(const std::vector<Motions>& motions, const std::vector<double>& value, double wheelbase_m) {
+  std::size_t first = static_cast<std::size_t>(-1), end = 0;
+  for (const Motions& m : motions)
+    if (!m.empty()) first = std::min(first, m.first()), end = std::max(end, m.end());
+  double furthest = 0.0;
+  BodyMotion carried;
+  for (std::size_t i = first; i < end; ++i) {
+    BodyMotion by;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const BodyMotion m = motions[k].at(i);
+      by.forward_m += value[k] * m.forward_m;
+      by.sideways_m += value[k] * m.sideways_m;
+      by.turn_rad += value[k] * m.turn_rad;
+    }
+    if (by.forward_m == 0.0 && by.sideways_m == 0.0 && by.turn_rad == 0.0) carried = {};
+    carried.forward_m += by.forward_m;
+    carried.sideways_m += by.sideways_m;
+    carried.turn_rad += by.turn_rad;
+    furthest = std::max({furthest, std::abs(carried.sideways_m),
+                         std::abs(carried.forward_m) + 0.5 * wheelbase_m * std::abs(carried.turn_rad)});
+  }
+  return furthest;
+}
+
+// A wheel's count is off by what is hidden between two of them: that averages out on the way, but not at an even speed
+// that is nearly a whole number of counts from one reading to the next; and it stays where the wheel stops.
+bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest& test) {
+  constexpr double kCounts = 1.0, kCountsAtRest = 2.0;
+  const DifferentialDrive& drive = joint.model.drive;
+  const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+  double furthest = 0.0, least = 0.0;
+  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
+    const double count = count_rad(joint.runs()[r], drive);
+    if (e.beyond_counts && !e.beyond_counts(test.value, test.shape, count, joint.views())) return false;
+    if (!e.local || count == 0.0) continue;
+    const DriveView& view = joint.views()[r];
+    if (e.of_one_recording && view.number != static_cast<int>(test.shape[0])) continue;
+    furthest = std::max(furthest, furthest_m(e.motions(view, test.shape), test.value, drive.wheelbase_m));
+    const bool at_rest = e.of_one_recording && near_a_rest(joint.runs()[r], test.shape[1]);
+    least = std::max(least, (at_rest ? kCountsAtRest : kCounts) * count * radius_m);
+  }
+  return least == 0.0 || furthest > least;
 }
 
 ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without, int tests) {
@@ -159,14 +203,7 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
         std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
     best.test.cross_validated = best.test.statistic;
   }
-  if (e.beyond_counts && !best.test.value.empty())
-    for (std::size_t r = 0; r < joint.runs().size(); ++r) {
-      if (e.of_one_recording && (joint.views()[r].number != static_cast<int>(best.test.shape[0]) ||
-                                 !near_a_rest(joint.runs()[r], best.test.shape[1])))
-        continue;
-      const double count = count_rad(joint.runs()[r], joint.model.drive);
-      best.beyond_counts = best.beyond_counts && e.beyond_counts(best.test.value, count, joint.views());
-    }
+  if (!best.test.value.empty()) best.beyond_counts = beyond_counts(joint, e, best.test);
   const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
   best.p_value = std::min(1.0, tail * std::exp(log_tests));
   return best;

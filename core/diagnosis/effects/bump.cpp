@@ -81,10 +81,6 @@ Effect once(Wheel wheel) {
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm"};
   e.of_one_recording = true;
-  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
-    const DifferentialDrive& drive = views.front().drive;
-    return value[0] > 2.0 * count_rad * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-  };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};
     return std::vector<Motions>{at_moment(view, wheel, shape[1], kLength_m[static_cast<int>(shape.back())])};

@@ -22,11 +22,6 @@ std::vector<Effect> collision() {
   e.form_of_the_scan = 1;  // half of the others' length is found by both
   e.of_one_recording = true;
   // Both wheels may stop half a count off, the other way than they set off.
-  e.beyond_counts = [](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
-    const DifferentialDrive& drive = views.front().drive;
-    const double count_m = count_rad * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-    return std::abs(value[2]) > 2.0 * count_m / drive.wheelbase_m || std::hypot(value[0], value[1]) > 2.0 * count_m;
-  };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);

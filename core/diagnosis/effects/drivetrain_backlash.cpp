@@ -63,7 +63,8 @@ Effect of_wheel(Wheel wheel) {
   // Where a wheel turns back its reading is off by what is hidden between two counts, one way or the other: in the mean
   // over all reversals by a count over the root of six times their number, of which four are taken. A driver that turns
   // back by its counts makes that one way always: play of less than a count is never told from it.
-  e.beyond_counts = [wheel](const std::vector<double>& value, double count_rad, const std::vector<DriveView>& views) {
+  e.beyond_counts = [wheel](const std::vector<double>& value, const std::vector<double>&, double count_rad,
+                            const std::vector<DriveView>& views) {
     int reversals = 0;
     for (const DriveView& view : views) {
       if (wheel != Wheel::right) reversals += reversals_of(view, true, 3.0 * count_rad);

@@ -8,6 +8,13 @@ namespace odolab::effects {
 
 namespace {
 
+// The way of one wheel before and behind a time, in whichever it went less.
+double lesser_way_m(const DriveView& view, double at_s, double EffectStep::*way_m) {
+  double before = 0.0, behind = 0.0;
+  for (const EffectStep& s : view.steps) (s.time_s < at_s ? before : behind) += std::abs(s.*way_m);
+  return std::min(before, behind);
+}
+
 // `loaded` says from when on, in the recording's time; infinity for never.
 Effect from_when(std::function<double(const DriveView&, const std::vector<double>& shape)> loaded) {
   Effect e;
@@ -21,6 +28,21 @@ Effect from_when(std::function<double(const DriveView&, const std::vector<double
   e.tests_of_a_shape = 6.0;
   e.looks_like = {"radius_drift"};
   e.told_apart_by = "a longer run, with the same straight several times";
+  // The first count of a run has a remainder of its own: with what comes before the load, or behind it, it must be
+  // felt.
+  e.beyond_counts = [loaded](const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
+                             const std::vector<DriveView>& views) {
+    double felt_rad = -1.0;
+    for (const DriveView& view : views) {
+      const double at_s = loaded(view, shape);
+      if (view.steps.empty() || at_s <= view.steps.front().time_s || at_s >= view.steps.back().time_s) continue;
+      felt_rad = std::max(
+          {felt_rad,
+           std::abs(value[0]) * lesser_way_m(view, at_s, &EffectStep::left_m) / view.drive.wheel_radius_left_m,
+           std::abs(value[1]) * lesser_way_m(view, at_s, &EffectStep::right_m) / view.drive.wheel_radius_right_m});
+    }
+    return felt_rad < 0.0 || felt_rad > count_rad;  // between two recordings it is felt in the whole of them
+  };
   e.motions = [loaded](const DriveView& view, const std::vector<double>& shape) {
     const std::size_t from = view.step_at(loaded(view, shape));
     const double b = view.drive.wheelbase_m;
