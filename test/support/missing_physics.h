@@ -25,6 +25,7 @@ struct CaseSettings {
   double duration_s = 60.0;
   enum class Truth { mocap, coarse, coarse_without_heading, ends } truth = Truth::mocap;
   enum class Drive { rich, squares } drive = Drive::rich;
+  bool without_noise = false;  // nor whole counts
 };
 
 // Smooth driving of many kinds, other at each seed and run: straights, arcs, turns on the spot, stops, reverse.
@@ -260,6 +261,10 @@ inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
     g.truth_has_heading = c.truth != CaseSettings::Truth::coarse_without_heading;
   }
   g.truth.time_offset_s = 0.0;
+  if (c.without_noise) {
+    g.counts = false;
+    g.wheel_noise = g.truth_position_noise_m = g.truth_heading_noise_rad = 0.0;
+  }
   Case out;
   out.effect = c.effect;
   out.actual = g.drive;

@@ -47,6 +47,22 @@ TEST(Diagnose, FindsNothingWhereNothingIsMissingWhateverTheNoiseAndWhereverCalib
   EXPECT_LE(alarms, 1);
 }
 
+TEST(Diagnose, TakesNothingForAnEffectWhereThereIsNoNoiseAtAll) {
+  // Only the path between two readings is left, some hundredths of a millimetre.
+  CaseSettings c = short_case("", 0.0);
+  c.without_noise = true;
+  const Diagnosis d = diagnosed(generated_case(c, 7050));
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+}
+
+TEST(Diagnose, NamesAnEffectAloneWhereThereIsNoNoiseAtAll) {
+  CaseSettings c = short_case("lateral_slip", 1.0);
+  c.without_noise = true;
+  const Diagnosis d = diagnosed(generated_case(c, 7051));
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings.front().effect, "lateral_slip");
+}
+
 class NamesEffect : public testing::TestWithParam<const char*> {};
 
 TEST_P(NamesEffect, FirstWhereItIsStrong) {
