@@ -234,11 +234,12 @@ TEST(LeastSquares, CalibratesASlowRobotWithCoarseCountsAndAFineTruth) {
   g.wheel_period_s = 0.005;
   g.truth_period_s = 1.0 / 120.0;
   g.truth_position_noise_m = g.truth_heading_noise_rad = 2e-4;
+  g.wheel_noise = 0.0;
   Vehicle drawing = labmate();
   std::get<DifferentialDrive>(drawing.kind).encoder_counts_per_revolution = 360;
-  const SpeedProfile slowly = [](double t) {
-    const WheelSpeedsAt w = test::rich_driving(t);
-    return WheelSpeedsAt{0.4 * w.left_radps, 0.4 * w.right_radps};
+  const test::SpeedProfile slowly = [](double t) {
+    const test::WheelSpeedsAt w = test::rich_driving(t);
+    return test::WheelSpeedsAt{0.4 * w.left_radps, 0.4 * w.right_radps};
   };
   const auto result = calibrate_least_squares({generated(g, slowly, random)}, drawing);
   ASSERT_TRUE(result.ok());
