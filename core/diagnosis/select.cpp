@@ -121,6 +121,10 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
   return least == 0.0 || furthest > least;
 }
 
+void judge(ScoredCandidate& c) {
+  c.p_value = std::min(1.0, chi_square_tail(c.test.judged(), c.test.freedom) * std::exp(c.log_tests));
+}
+
 ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without, int tests) {
   ScoredCandidate best;
   best.effect = &e;
@@ -204,9 +208,21 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
     best.test.cross_validated = best.test.statistic;
   }
   if (!best.test.value.empty()) best.beyond_counts = beyond_counts(joint, e, best.test);
-  const double tail = chi_square_tail(best.test.judged(), best.test.freedom);
-  best.p_value = std::min(1.0, tail * std::exp(log_tests));
+  best.log_tests = log_tests;
+  judge(best);
   return best;
+}
+
+// What happens in one place or at one moment is judged by how large it seems in all others. While it is left out of the
+// model it shows in all that comes behind it, the more so the smaller the noise is: others' scatter is then taken from
+// the model that has it.
+void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<ScoredCandidate>& left_out) {
+  for (ScoredCandidate& c : left_out) {
+    if (!c.effect->local) continue;
+    for (const ScoredCandidate& other : with_all)
+      if (other.effect == c.effect) c.test.inflation = other.test.inflation;
+    judge(c);
+  }
 }
 
 bool stands(const ScoredCandidate& c, double family_wise_error) {
@@ -378,8 +394,11 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     }
     return all > 0.0 ? own / all : 1.0;
   };
+  std::vector<ScoredCandidate> with_all;
   for (std::size_t k = 0; k < joint.accepted.size();) {
+    if (with_all.empty()) with_all = scored_candidates(joint, family_wise_error);
     std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
+    judge_locals_by(with_all, instead);
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
@@ -395,6 +414,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
                           is_material(without.gathered_error(), joint.gathered_error(), true);
       if (!needed) {
         joint = without;
+        with_all.clear();
         out.evidence.clear();
         out.alternatives.clear();
         k = 0;

@@ -13,6 +13,7 @@ struct ScoredCandidate {
   const Effect* effect = nullptr;
   CandidateTest test;
   double p_value = 1.0;       // family-wise
+  double log_tests = 0.0;     // logarithm of how many it was chosen from
   bool beyond_counts = true;  // more than whole counts can feign
 };
 
