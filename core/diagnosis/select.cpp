@@ -276,7 +276,9 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
                  bool local) {
   if (before.windows == 0 || after.windows == 0) return true;
-  const double left = 0.5 * (after.position_m2 / before.position_m2 + after.heading_rad2 / before.heading_rad2);
+  constexpr double kNothing = 4e-10;  // 0.02 mm or 0.02 mrad, squared: what no floor or camera resolves
+  const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
+                             (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));
   return left < (correlated ? kMaterial : local ? kNoWorseByAnEvent : kNoWorse);
 }
 
@@ -341,6 +343,18 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       }
     const bool correlated = joint.innovations_correlated();
     const JointModel before = joint;
+    // A score is what one step promises, and its scatter is that of what it does not explain yet: where another promises
+    // more before that is allowed for, what both come to decides.
+    const auto strongest = std::max_element(
+        standing.begin(), standing.end(),
+        [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });
+    if (strongest != standing.end() && strongest != standing.begin()) {
+      JointModel first = joint, other = joint;
+      let_in(first, *standing.front());
+      let_in(other, **strongest);
+      if (other.minus_two_log_likelihood() + 2.0 * kClearlyBeaten < first.minus_two_log_likelihood())
+        std::rotate(standing.begin(), strongest, strongest + 1);
+    }
     bool accepted = false;
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
     for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
