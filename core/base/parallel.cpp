@@ -28,6 +28,12 @@ int parallel_for(int count, const std::function<void(int, const std::atomic<bool
   };
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::vector<std::thread> threads;
+  if (!done && !progress) {  // nobody waits for a part: the caller works too
+    for (int t = 1; t < std::min(cores, count); ++t) threads.emplace_back(worker);
+    worker();
+    for (std::thread& thread : threads) thread.join();
+    return count;
+  }
   for (int t = 0; t < std::min(cores, count); ++t) threads.emplace_back(worker);
   int in_order = 0;
   while (in_order < count && !stopped) {

@@ -15,16 +15,15 @@ CandidateScan::CandidateScan(const JointModel& joint, int without)
     : joint_(joint), without_(without), absorbing_(joint.absorbing(without)), of_run_(joint.runs_.size()) {
   parallel_for(static_cast<int>(of_run_.size()), [&](int r) {
     OfRun& of = of_run_[static_cast<std::size_t>(r)];
-    const LinearisedRun& linear = joint.linear_[static_cast<std::size_t>(r)];
-    const MatrixXd& z = joint.z_[static_cast<std::size_t>(r)];
+    const LinearisedRun& linear = joint.now_->runs[static_cast<std::size_t>(r)];
+    const MatrixXd& z = joint.now_->z[static_cast<std::size_t>(r)];
     of.tails = linear.tails();
-    for (int c = 0; c < static_cast<int>(z.cols()); ++c)
-      if (!z.col(c).isZero(0.0)) of.columns.push_back(c);
+    of.columns = joint.now_->columns[static_cast<std::size_t>(r)];
     const std::size_t wide = of.columns.size() + 1, steps = linear.run().wheels.size() - 1;
     of.per_motion.resize(3 * wide * steps);
     for (std::size_t k = 0; k < wide; ++k) {
-      const double* column =
-          k + 1 < wide ? z.col(of.columns[k]).data() : joint.residual_[static_cast<std::size_t>(r)].data();
+      const double* column = k + 1 < wide ? z.col(static_cast<Eigen::Index>(k)).data()
+                                          : joint.now_->residual[static_cast<std::size_t>(r)].data();
       const std::vector<BodyMotion> by = linear.score_of_motions(column);
       for (std::size_t i = 0; i < steps; ++i) {
         double* to = &of.per_motion[3 * wide * i + k];
@@ -45,7 +44,7 @@ CandidateTest CandidateScan::test(const Effect& effect, const std::vector<double
   for (std::size_t r = 0; r < of_run_.size(); ++r) {
     if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
     const OfRun& of = of_run_[r];
-    const std::vector<Motions> motions = effect.motions(joint_.views_[r], shape);
+    const std::vector<Motions> motions = effect.motions(joint_.now_->views[r], shape);
     const std::size_t wide = of.columns.size() + 1;
     for (std::size_t j = 0; j < motions.size(); ++j) {
       const Motions& m = motions[j];
@@ -62,7 +61,7 @@ CandidateTest CandidateScan::test(const Effect& effect, const std::vector<double
       sum.with_residual(column) += with[wide - 1];
     }
     products.resize(motions.size() * motions.size());
-    joint_.linear_[r].products_of_motions(motions, of.tails, products.data());
+    joint_.now_->runs[r].products_of_motions(motions, of.tails, products.data());
     sum.with_itself += Eigen::Map<const MatrixXd>(products.data(), k, k);
   }
   if (!acts) return {};

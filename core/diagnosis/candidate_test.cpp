@@ -27,13 +27,16 @@ VectorXd JointModel::inflation_of_columns() const {
   const MatrixXd cov = covariance();
   const VectorXd left = cov * zr_;  // what the last step of the fit did not take
   int samples = 0;
-  for (const LinearisedRun& l : linear_) samples += l.samples();
+  for (const LinearisedRun& l : now_->runs) samples += l.samples();
   const int batch = std::max(1, samples / kBatches), q = columns();
   VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const VectorXd res = residual_[r] - z_[r] * left;
-    const MatrixXd influence = z_[r] * cov;
-    const int n = linear_[r].samples();
+    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, left);
+    MatrixXd of_acting(now_->z[r].cols(), q);
+    for (Eigen::Index c = 0; c < of_acting.rows(); ++c)
+      of_acting.row(c) = cov.row(now_->columns[r][static_cast<std::size_t>(c)]);
+    const MatrixXd influence = now_->z[r] * of_acting;
+    const int n = now_->runs[r].samples();
     for (int from = 0; from < n; from += batch) {
       const int rows = 3 * (std::min(n, from + batch) - from);
       const VectorXd u = influence.middleRows(3 * from, rows).transpose() * res.segment(3 * from, rows);
@@ -56,7 +59,7 @@ MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
   MatrixXd cross = MatrixXd::Zero(gram_.rows(), k);
   for (std::size_t r = 0; r < runs_.size(); ++r)
     if (c.of_run[r].size() > 0)
-      cross.noalias() += z_[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()).transpose() * c.of_run[r];
+      now_->add_products(r, now_->z[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()), c.of_run[r], cross);
   return gram_.ldlt().solve(cross);
 }
 
@@ -67,20 +70,20 @@ CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<
   std::vector<double> buffer;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
-    const int n = linear_[r].samples(), k = static_cast<int>(effect.amplitudes.size());
+    const int n = now_->runs[r].samples(), k = static_cast<int>(effect.amplitudes.size());
     buffer.resize(3 * static_cast<std::size_t>(n));
     if (effect.clock_rate) {
-      linear_[r].of_clock_rate(buffer.data());
+      now_->runs[r].of_clock_rate(buffer.data());
       out.stretch[r] = {0, n};
       out.of_run[r] = Eigen::Map<VectorXd>(buffer.data(), 3 * n);
       continue;
     }
-    const std::vector<Motions> motions = effect.motions(views_[r], shape);
+    const std::vector<Motions> motions = effect.motions(now_->views[r], shape);
     std::vector<Stretch> parts(k);
     std::vector<VectorXd> made(k);
     Stretch all{n, 0};
     for (int j = 0; j < k; ++j) {
-      parts[j] = linear_[r].of_motion(motions[j], buffer.data());
+      parts[j] = now_->runs[r].of_motion(motions[j], buffer.data());
       const int rows = 3 * (parts[j].last - parts[j].first);
       if (rows <= 0) continue;
       made[j] = Eigen::Map<VectorXd>(buffer.data() + 3 * parts[j].first, rows);
@@ -174,8 +177,8 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
     if (c.of_run[r].size() == 0) continue;
     const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
     products.with_itself.noalias() += c.of_run[r].transpose() * c.of_run[r];
-    products.with_model.noalias() += z_[r].middleRows(from, rows).transpose() * c.of_run[r];
-    products.with_residual.noalias() += c.of_run[r].transpose() * residual_[r].segment(from, rows);
+    now_->add_products(r, now_->z[r].middleRows(from, rows), c.of_run[r], products.with_model);
+    products.with_residual.noalias() += c.of_run[r].transpose() * now_->residual[r].segment(from, rows);
   }
   const Absorbing by = absorbing(without);
   MatrixXd beta;
@@ -191,16 +194,16 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   VectorXd base_z = -taken;  // residual = r + Z taken - Z_kept base
   for (std::size_t i = 0; i < kept.size(); ++i) base_z(kept[i]) += base(static_cast<Eigen::Index>(i));
   int samples = 0;
-  for (const LinearisedRun& l : linear_) samples += l.samples();
+  for (const LinearisedRun& l : now_->runs) samples += l.samples();
   const int batch = std::max(1, samples / kBatches);
   std::vector<double> u, i;
   double square_all = 0.0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    VectorXd column = -(z_[r] * on_z);
+    VectorXd column = -(now_->z[r] * now_->acting(r, on_z));
     if (c.of_run[r].size() > 0)
       column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
-    const VectorXd res = residual_[r] - z_[r] * base_z;
-    const int n = linear_[r].samples();
+    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, base_z);
+    const int n = now_->runs[r].samples();
     for (int from = 0; from < n; from += batch) {
       const int rows = 3 * (std::min(n, from + batch) - from);
       u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
@@ -233,8 +236,9 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
 }
 
 std::vector<BodyMotion> JointModel::score_of_motions(int run) const {
-  const VectorXd left = residual_[run] - z_[run] * gram_.ldlt().solve(zr_);
-  return linear_[run].score_of_motions(left.data());
+  const VectorXd left =
+      now_->residual[run] - now_->z[run] * now_->acting(static_cast<std::size_t>(run), gram_.ldlt().solve(zr_));
+  return now_->runs[run].score_of_motions(left.data());
 }
 
 }  // namespace odolab

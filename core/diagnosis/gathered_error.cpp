@@ -39,7 +39,7 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
 JointModel::GatheredError JointModel::gathered_error() const {
   std::vector<GatheredError> of(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
-    const InnovationRun& run = linear_[r].run();
+    const InnovationRun& run = now_->runs[r].run();
     if (!run.truth_has_heading) return;
     Track guess, truth;
     Pose pose;
@@ -89,8 +89,8 @@ JointModel::GatheredError JointModel::gathered_error() const {
 bool JointModel::innovations_correlated() const {
   constexpr double kReadings = 1.5;
   double product[3] = {}, square[3] = {};
-  for (std::size_t run = 0; run < linear_.size(); ++run) {
-    const Whitened& r = linear_[run].residual();
+  for (std::size_t run = 0; run < now_->runs.size(); ++run) {
+    const Whitened& r = now_->runs[run].residual();
     const auto period_s = [](const auto& samples) {
       return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
     };

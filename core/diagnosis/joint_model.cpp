@@ -55,7 +55,9 @@ InnovationModel JointModel::model_of(int run) const {
   return m;
 }
 
-InnovationRun JointModel::prepared(int r) const {
+InnovationRun JointModel::prepared(int r) const { return prepared(r, now_->read_views[r]); }
+
+InnovationRun JointModel::prepared(int r, const DriveView& view) const {
   InnovationRun run = runs_[r];
   ExtraColumn sum;
   sum.name = "effects";
@@ -80,7 +82,7 @@ InnovationRun JointModel::prepared(int r) const {
       put_clock_right(run, a.value[0], clock_s[r]);
       continue;
     }
-    const std::vector<Motions> motions = a.effect->motions(read_views_[r], a.shape);
+    const std::vector<Motions> motions = a.effect->motions(view, a.shape);
     any = true;
     for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum.per_step, a.value[k]);
   }
@@ -94,16 +96,24 @@ int JointModel::columns() const {
   return n;
 }
 
-void JointModel::linearise() {
+VectorXd JointModel::Linearisation::acting(std::size_t run, const VectorXd& of_all) const {
+  VectorXd out(static_cast<Eigen::Index>(columns[run].size()));
+  for (std::size_t c = 0; c < columns[run].size(); ++c) out(static_cast<Eigen::Index>(c)) = of_all(columns[run][c]);
+  return out;
+}
+
+void JointModel::linearise(bool with_columns) {
   const int n = static_cast<int>(runs_.size());
   std::vector<Track> track(n);
-  if (linear_.size() == runs_.size())
+  if (now_)
     for (int r = 0; r < n; ++r) track[r] = poses(r);
-  views_.resize(n);
-  read_views_.resize(n);
+  const auto next = std::make_shared<Linearisation>();
+  next->views.resize(n);
+  next->read_views.resize(n);
+  next->columns.resize(n);
+  next->z.resize(n);
+  next->residual.resize(n);
   std::vector<std::vector<LinearisedRun>> made(n);
-  z_.assign(n, {});
-  residual_.assign(n, {});
   const int q = columns();
   parallel_for(n, [&](int r) {
     const InnovationModel m = model_of(r);
@@ -112,43 +122,62 @@ void JointModel::linearise() {
       for (const FilterStep& s : first.steps())
         if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
     }
-    views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::smoothed);
+    if (with_columns)
+      next->views[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::smoothed);
     if (!accepted.empty())
-      read_views_[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
-    made[r].emplace_back(prepared(r), m);
+      next->read_views[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
+    made[r].emplace_back(prepared(r, next->read_views[r]), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
-    MatrixXd& z = z_[r];
-    z = MatrixXd::Zero(rows, q);
+    next->residual[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);
+    if (!with_columns) return;
+    // First which columns act, then these.
+    std::vector<int>& acting = next->columns[r];
     for (int c = 0; c < 6; ++c)
-      if (nuisance_active[c]) linear.of_parameter(c, z.col(c).data());
-    if (clock_active[r]) linear.of_parameter(column::truth_clock, z.col(clock_column(r)).data());
-    if (runs_[r].counts_show) {
-      const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
-      for (int k = 0; k < 2; ++k) linear.of_motion(of_wheel[k], z.col(half_count_column(k)).data());
-    }
-    int k = first_amplitude();
+      if (nuisance_active[c]) acting.push_back(c);
+    if (clock_active[r]) acting.push_back(clock_column(r));
+    if (runs_[r].counts_show)
+      for (int k = 0; k < 2; ++k) acting.push_back(half_count_column(k));
+    std::vector<Motions> of_effects;
+    int column = first_amplitude();
     for (const AcceptedEffect& a : accepted) {
-      if (a.effect->clock_rate) {
-        linear.of_clock_rate(z.col(k++).data());
-        continue;
+      std::vector<Motions> motions(a.effect->clock_rate ? 1 : 0);
+      if (!a.effect->clock_rate) motions = a.effect->motions(next->views[r], a.shape);
+      for (Motions& m_k : motions) {
+        if (a.effect->clock_rate || !m_k.empty()) {
+          acting.push_back(column);
+          of_effects.push_back(std::move(m_k));
+        }
+        ++column;
       }
-      for (const Motions& m_k : a.effect->motions(views_[r], a.shape)) linear.of_motion(m_k, z.col(k++).data());
     }
-    residual_[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);
+    MatrixXd& z = next->z[r];
+    z = MatrixXd::Zero(rows, static_cast<Eigen::Index>(acting.size()));
+    Eigen::Index at = 0;
+    for (int c = 0; c < 6; ++c)
+      if (nuisance_active[c]) linear.of_parameter(c, z.col(at++).data());
+    if (clock_active[r]) linear.of_parameter(column::truth_clock, z.col(at++).data());
+    if (runs_[r].counts_show)
+      for (const Motions& of_wheel : counts_at_rest(runs_[r], model.drive))
+        linear.of_motion(of_wheel, z.col(at++).data());
+    for (const Motions& motions : of_effects) {
+      if (motions.empty())
+        linear.of_clock_rate(z.col(at++).data());
+      else
+        linear.of_motion(motions, z.col(at++).data());
+    }
   });
-  linear_.clear();
-  for (auto& one : made) linear_.push_back(std::move(one[0]));
+  for (auto& one : made) next->runs.push_back(std::move(one[0]));
+  now_ = next;
   gram_ = MatrixXd::Zero(q, q);
   zr_ = VectorXd::Zero(q);
   chi2_ = log_determinant_ = 0.0;
   scalars_ = 0;
   for (int r = 0; r < n; ++r) {
-    gram_.noalias() += z_[r].transpose() * z_[r];
-    zr_.noalias() += z_[r].transpose() * residual_[r];
-    chi2_ += linear_[r].sums().chi2;
-    log_determinant_ += linear_[r].sums().log_determinant;
-    scalars_ += linear_[r].sums().scalars;
+    add_products(r, gram_, zr_);
+    chi2_ += now_->runs[r].sums().chi2;
+    log_determinant_ += now_->runs[r].sums().log_determinant;
+    scalars_ += now_->runs[r].sums().scalars;
   }
   // Priors as in calibration: wide, so that what these runs do not determine stays where it was.
   const DifferentialDrive& d = std::get<DifferentialDrive>(nominal_.kind);
@@ -168,6 +197,19 @@ void JointModel::linearise() {
     zr_(half_count_column(k)) -= half_counts[k];
   }
   for (int k = first_amplitude(); k < q; ++k) gram_(k, k) += 1e-12;
+}
+
+void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
+  const std::vector<int>& acting = now_->columns[run];
+  const MatrixXd& z = now_->z[run];
+  if (z.size() == 0) return;
+  const MatrixXd own = z.transpose() * z;
+  const VectorXd with_residual = z.transpose() * now_->residual[run];
+  for (std::size_t i = 0; i < acting.size(); ++i) {
+    for (std::size_t j = 0; j < acting.size(); ++j)
+      gram(acting[i], acting[j]) += own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    zr(acting[i]) += with_residual(static_cast<Eigen::Index>(i));
+  }
 }
 
 void JointModel::fit(int iterations) {
@@ -220,9 +262,11 @@ int JointModel::first_column(int which) const {
 }
 
 JointModel JointModel::left_out(int run) const {
-  const MatrixXd own = z_[run].transpose() * z_[run];
+  MatrixXd own = MatrixXd::Zero(gram_.rows(), gram_.cols());
+  VectorXd own_zr = VectorXd::Zero(zr_.size());
+  add_products(run, own, own_zr);
   MatrixXd gram = gram_ - own;
-  VectorXd zr = zr_ - z_[run].transpose() * residual_[run];
+  VectorXd zr = zr_ - own_zr;
   JointModel one;  // of that run: a copy of all runs would cost more than the step
   one.model = model;
   one.half_counts = half_counts;
@@ -261,16 +305,16 @@ JointModel JointModel::left_out(int run) const {
   keep(one.masked_, masked_);
   keep(one.clock_s, clock_s);
   keep(one.clock_active, clock_active);
-  keep(one.views_, views_);
-  keep(one.read_views_, read_views_);
-  keep(one.linear_, linear_);
-  one.linearise();
+  const auto kept = std::make_shared<Linearisation>();
+  keep(kept->runs, now_->runs);  // where it was is where its effects act
+  one.now_ = kept;
+  one.linearise(false);
   return one;
 }
 
 Track JointModel::poses(int run) const {
   Track track;
-  for (const FilterStep& s : linear_[run].steps())
+  for (const FilterStep& s : now_->runs[run].steps())
     if (s.truth_index >= 0) track.push_back({runs_[run].truth[s.truth_index].time_s - clock_s[run], s.pose});
   return track;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "core/diagnosis/effect.h"
@@ -50,7 +51,8 @@ class JointModel {
   void fit(int iterations = 4);
   void fit_noise();
   void gate();  // isolated contradictions only; longer ones are left to be explained
-  void linearise();
+  // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted.
+  void linearise(bool with_columns = true);
 
   std::vector<AcceptedEffect> accepted;
   InnovationModel model;  // without the clocks
@@ -59,9 +61,9 @@ class JointModel {
   std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
 
-  const std::vector<DriveView>& views() const { return views_; }
+  const std::vector<DriveView>& views() const { return now_->views; }
   const std::vector<InnovationRun>& runs() const { return runs_; }
-  const std::vector<LinearisedRun>& linearised() const { return linear_; }
+  const std::vector<LinearisedRun>& linearised() const { return now_->runs; }
   double chi2() const { return chi2_; }
   double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
   int scalars() const { return scalars_; }
@@ -98,6 +100,23 @@ class JointModel {
 
  private:
   friend class CandidateScan;
+  // About the model as it was when it was linearised last; shared by its copies, since it is large.
+  struct Linearisation {
+    std::vector<DriveView> views;       // smoothed, for columns
+    std::vector<DriveView> read_views;  // for what the accepted effects move
+    std::vector<LinearisedRun> runs;
+    std::vector<std::vector<int>> columns;  // those that act in a run
+    std::vector<Eigen::MatrixXd> z;         // of each run: only these
+    std::vector<Eigen::VectorXd> residual;
+    // Of all columns, those that act in a run; and z' by, put where they belong.
+    Eigen::VectorXd acting(std::size_t run, const Eigen::VectorXd& of_all) const;
+    template <typename Rows, typename By>
+    void add_products(std::size_t run, const Rows& rows_of_z, const By& by, Eigen::MatrixXd& sum) const {
+      const Eigen::MatrixXd product = rows_of_z.transpose() * by;
+      for (std::size_t c = 0; c < columns[run].size(); ++c)
+        sum.row(columns[run][c]) += product.row(static_cast<Eigen::Index>(c));
+    }
+  };
   // The model's columns but for an effect that is taken out for the question, ready to absorb a candidate.
   struct Absorbing {
     std::vector<int> kept;
@@ -110,6 +129,8 @@ class JointModel {
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
   JointModel() = default;
+  InnovationRun prepared(int run, const DriveView& view) const;
+  void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
   int columns() const;
   int clock_column(int run) const { return 6 + run; }
   int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }
@@ -120,11 +141,7 @@ class JointModel {
   std::vector<char> from_commands_;
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
-  std::vector<DriveView> views_;       // smoothed, for columns
-  std::vector<DriveView> read_views_;  // for what the accepted effects move
-  std::vector<LinearisedRun> linear_;
-  std::vector<Eigen::MatrixXd> z_;  // of each run
-  std::vector<Eigen::VectorXd> residual_;
+  std::shared_ptr<const Linearisation> now_;
   Eigen::MatrixXd gram_;  // with priors
   Eigen::VectorXd zr_;
   double chi2_ = 0.0, log_determinant_ = 0.0;

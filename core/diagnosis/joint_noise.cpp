@@ -79,7 +79,7 @@ void JointModel::fit_noise() {
     for (std::size_t k = 0; k < scales.size(); ++k) logs[static_cast<std::size_t>(scales[k])] = best[k];
   };
   std::vector<const InnovationRun*> whole;
-  for (const LinearisedRun& l : linear_) whole.push_back(&l.run());
+  for (const LinearisedRun& l : now_->runs) whole.push_back(&l.run());
   fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1, 2, 3});
   // The truth's noise shows from sample to sample; the floor's in what it adds up to.
   std::vector<InnovationRun> thin;

@@ -32,9 +32,9 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   JointModel j(std::move(runs), std::move(commands), start, nominal);
   for (const AcceptedEffect& a : source.accepted)
     if (!a.effect->of_one_recording) j.accepted.push_back(a);
-  j.linearise();
+  j.linearise(false);
   j.gate();
-  j.linearise();
+  j.linearise(false);
   return j;
 }
 
@@ -128,12 +128,12 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     return t;
   };
   using Models = std::vector<JointModel>;
-  const auto with_one_noise = [&](JointModel m) {
+  const auto with_one_noise = [&](JointModel m, bool with_columns) {
     m.model.noise = noise;
-    m.linearise();
+    m.linearise(with_columns);
     return m;
   };
-  d.train = table([&](const JointModel& m, bool) { return Models{with_one_noise(m)}; });
+  d.train = table([&](const JointModel& m, bool) { return Models{with_one_noise(m, false)}; });
   if (!ready_held_out.empty()) {
     std::vector<InnovationRun> runs;
     std::vector<char> commands;
@@ -149,7 +149,7 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
   } else if (train.size() > 1) {
     d.left_out_in_turn = true;
     d.held_out = table([&](const JointModel& m, bool as_it_is) {
-      const JointModel all = with_one_noise(m);
+      const JointModel all = with_one_noise(m, !as_it_is);
       if (as_it_is) return Models{all};
       std::vector<std::optional<JointModel>> of_run(train.size());
       parallel_for(static_cast<int>(train.size()), [&](int r) { of_run[r] = all.left_out(r); });

@@ -57,6 +57,11 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   std::string_view rest = *file;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
 
+  const std::size_t carriage_return = rest.find('\r');
+  if (carriage_return != std::string_view::npos && carriage_return + 1 < rest.size() &&
+      rest.find('\n') == std::string_view::npos)
+    return Error{path, "lines that end in a carriage return alone", "line feeds: 'tr \"\\r\" \"\\n\"' makes them"};
+
   CsvTable table;
   std::vector<std::string_view> cells;
   std::vector<CsvCells> kinds;

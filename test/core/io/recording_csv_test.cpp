@@ -65,6 +65,9 @@ TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint(""), "run.csv: found an empty file, expected a header line with a column 'time_s'");
   EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n"),
             "run.csv:1: found a header without rows, expected one row or more");
+  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\r0,0,0\r1,2,3\r"),
+            "run.csv: found lines that end in a carriage return alone, expected line feeds: 'tr \"\\r\" \"\\n\"' makes "
+            "them");
   EXPECT_EQ(complaint("t,left_ticks\n0,1\n"),
             "run.csv:1: found the columns 't', 'left_ticks', expected a column 'time_s'");
   EXPECT_EQ(complaint("time_s,left_ticks\n0,1\n"),

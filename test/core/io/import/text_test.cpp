@@ -101,6 +101,9 @@ TEST(MappedText, SaysWhatIsOdd) {
             "log.csv:1: found several columns 'a', expected one, or the column's number in the mapping");
   EXPECT_EQ(complaint("t,a\n1,2\n", {"time_s=t", "left_ticks=a"}),
             "log.csv: found left_ticks alone, expected right_ticks with it");
+  EXPECT_EQ(complaint("t,a,b\r0,0,0\r1,2,3\r", {"time_s=t", "truth_x_m=a", "truth_y_m=b"}),
+            "log.csv: found lines that end in a carriage return alone, expected line feeds: 'tr \"\\r\" \"\\n\"' makes "
+            "them");
   EXPECT_EQ(complaint(std::string("\xFF\xFEt\0,\0", 6), {"time_s=t", "truth_x_m=a", "truth_y_m=a"}),
             "log.csv: found text in UTF-16, expected text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it");
   EXPECT_EQ(
