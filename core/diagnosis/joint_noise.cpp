@@ -20,6 +20,7 @@ void JointModel::fit_noise() {
   // A model is not trusted to be truer sideways than this share of the wheels' noise.
   constexpr double kLeastSideways = 0.05;
   constexpr double kWay_m = 0.1;
+  constexpr double kUsualWithin = 2.3, kSampledWithin = 0.5;  // of logarithms: a factor of ten, and of 1.6
   bool any_heading = false;
   for (const InnovationRun& run : runs_) any_heading = any_heading || run.truth_has_heading;
   std::vector<double> logs = {std::log(model.noise.wheel_m_per_sqrt_m), std::log(model.noise.truth_position_m),
@@ -32,7 +33,8 @@ void JointModel::fit_noise() {
   };
   // Twice the negative log-likelihood of the noise on these runs, of which every so many stretches are used; `scales`:
   // those of the logarithms that are free.
-  const auto fitted = [&](const std::vector<const InnovationRun*>& runs, const std::vector<int>& scales) {
+  const auto fitted = [&](const std::vector<const InnovationRun*>& runs, const std::vector<int>& scales,
+                          const std::vector<double>& usual, double within) {
     std::vector<SummedRun> summed;
     int samples = 0;
     for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -70,7 +72,8 @@ void JointModel::fit_noise() {
       for (std::size_t r = 0; r < runs.size(); ++r) sum += sum_of[r], scalars += scalars_of[r];
       // The freedom that the parameters took, as an average: exact where all scales move together.
       if (every == 1 && scalars > 2 * parameters) sum -= parameters * (free[0] + free[1]);
-      for (std::size_t k = 0; k < scales.size(); ++k) sum += std::pow((free[k] - std::log(kUsual[scales[k]])) / 2.3, 2);
+      for (std::size_t k = 0; k < scales.size(); ++k)
+        sum += std::pow((free[k] - usual[static_cast<std::size_t>(scales[k])]) / within, 2);
       return sum;
     };
     std::vector<double> start;
@@ -80,8 +83,11 @@ void JointModel::fit_noise() {
   };
   std::vector<const InnovationRun*> whole;
   for (const LinearisedRun& l : now_->runs) whole.push_back(&l.run());
-  fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1, 2, 3});
-  // The truth's noise shows from sample to sample; the floor's in what it adds up to.
+  std::vector<double> usual;
+  for (double size : kUsual) usual.push_back(std::log(size));
+  fitted(whole, any_heading ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 1, 2, 3}, usual, kUsualWithin);
+  // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
+  // samples say: of a small sideways noise it says nothing.
   std::vector<InnovationRun> thin;
   for (std::size_t r = 0; r < whole.size(); ++r)
     thin.push_back(thinned_truth(*whole[r], model_of(static_cast<int>(r)), kWay_m));
@@ -89,7 +95,7 @@ void JointModel::fit_noise() {
   int left = 0;
   for (const InnovationRun& run : thin)
     if (run.truth.size() >= 2) thinned.push_back(&run), left += static_cast<int>(run.truth.size());
-  if (thinned.size() == whole.size() && left > 3 * columns()) fitted(thinned, {0, 2, 3});
+  if (thinned.size() == whole.size() && left > 3 * columns()) fitted(thinned, {0, 2, 3}, logs, kSampledWithin);
   model.noise = noise_of(logs);
 }
 
