@@ -275,8 +275,9 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 
 bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
                  bool local) {
-  if (before.windows == 0 || after.windows == 0) return true;
   constexpr double kNothing = 4e-10;  // 0.02 mm or 0.02 mrad, squared: what no floor or camera resolves
+  if (before.windows > 0 && before.position_m2 < kNothing && before.heading_rad2 < kNothing) return false;
+  if (before.windows == 0 || after.windows == 0) return true;
   const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
                              (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));
   return left < (correlated ? kMaterial : local ? kNoWorseByAnEvent : kNoWorse);
@@ -343,8 +344,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       }
     const bool correlated = joint.innovations_correlated();
     const JointModel before = joint;
-    // A score is what one step promises, and its scatter is that of what it does not explain yet: where another promises
-    // more before that is allowed for, what both come to decides.
+    // A score is what one step promises, and its scatter is that of what it does not explain yet: where another
+    // promises more before that is allowed for, what both come to decides.
     const auto strongest = std::max_element(
         standing.begin(), standing.end(),
         [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });

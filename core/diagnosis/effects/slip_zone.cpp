@@ -6,6 +6,11 @@
 
 namespace odolab::effects {
 
+namespace {
+// A patch that a wheel does no more than graze is told from a bump by nothing.
+constexpr double kLeastWay_m = 0.15;
+}  // namespace
+
 std::vector<Effect> slip_zone() {
   Effect e;
   e.name = "slip_zone";
@@ -26,6 +31,7 @@ std::vector<Effect> slip_zone() {
     view.steps_near(centre, shape[2] + 0.5 * b, [&](std::size_t i) { near.push_back(i); });
     if (near.empty()) return std::vector<Motions>{Motions()};
     Motions m(near.front(), near.back() + 1);
+    double left_way_m = 0.0, right_way_m = 0.0;  // on the patch
     for (const std::size_t i : near) {
       const EffectStep& s = view.steps[i];
       const Vec2 to = s.position - centre;
@@ -33,11 +39,16 @@ std::vector<Effect> slip_zone() {
       const Vec2 left = to + side, right = to - side;
       if (shape.back() < 0.5) {
         const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;
+        left_way_m += std::abs(l);
+        right_way_m += std::abs(r);
         m[i] = {0.5 * (l + r), 0.0, (r - l) / b};
       } else if (dot(to, to) < r2) {
+        left_way_m += std::abs(s.left_m);
+        right_way_m += std::abs(s.right_m);
         m[i] = {-s.forward_m(), 0.0, shape.back() < 1.5 ? -s.turn_rad : 0.0};
       }
     }
+    if (std::max(left_way_m, right_way_m) < kLeastWay_m) return std::vector<Motions>{Motions()};
     return std::vector<Motions>{m};
   };
   e.scan = [](const std::vector<DriveView>& views) {
