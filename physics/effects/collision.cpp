@@ -11,14 +11,14 @@ class Collision final : public Effect {
  public:
   Collision(const ActiveEffect& a, double step_s)
       : way_{a.parameter("dx_m"), a.parameter("dy_m"), a.parameter("dheading_rad")},
-        at_s_(a.parameter("at_s")),
         lasts_s_(a.parameter("lasts_s", 0.25)),
+        begins_s_(a.parameter("at_s") - 0.5 * lasts_s_),
         step_s_(step_s) {}
 
   void creep(const VehicleMotion& motion, Creep& creep) override {
     // Share of the way at the step's end, a raised cosine over the push; its rise is the speed that the vehicle is
     // given.
-    const double u = std::clamp((motion.time_s + 0.5 * step_s_ - at_s_) / lasts_s_, 0.0, 1.0);
+    const double u = std::clamp((motion.time_s + 0.5 * step_s_ - begins_s_) / lasts_s_, 0.0, 1.0);
     const double share = 0.5 * (1.0 - std::cos(kPi * u));
     const double rate = (share - share_) / step_s_, change = (rate - rate_) / step_s_;
     share_ = share;
@@ -32,7 +32,7 @@ class Collision final : public Effect {
 
  private:
   Pose way_;  // in the floor's frame
-  double at_s_, lasts_s_, step_s_;
+  double lasts_s_, begins_s_, step_s_;
   double share_ = 0.0, rate_ = 0.0;
 };
 

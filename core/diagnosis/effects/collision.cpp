@@ -27,19 +27,21 @@ std::vector<Effect> collision() {
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);
     const double lasts_s = kLasts_s[static_cast<int>(shape.back())];
     double total_s = 0.0;
-    // How much of the way is done: it begins at `at_s` and ends softly. At least the interval in which it begins.
+    // How much of the way is done: it begins and ends softly, and `at_s` is its middle. At least the interval in which
+    // that lies.
+    const double begins_s = shape[1] - 0.5 * lasts_s;
     const auto done = [&](double t) {
-      return 0.5 - 0.5 * std::cos(kPi * std::clamp((t - shape[1]) / lasts_s, 0.0, 1.0));
+      return 0.5 - 0.5 * std::cos(kPi * std::clamp((t - begins_s) / lasts_s, 0.0, 1.0));
     };
     const auto within = [&](const EffectStep& s) {
       const double from = s.time_s - 0.5 * s.duration_s, to = s.time_s + 0.5 * s.duration_s;
       if (lasts_s <= 0.0) return shape[1] > from - 1e-9 && shape[1] <= to + 1e-9 && total_s == 0.0 ? to - from : 0.0;
-      return to < shape[1] || from > shape[1] + lasts_s ? 0.0 : done(to) - done(from);
+      return to < begins_s || from > begins_s + lasts_s ? 0.0 : done(to) - done(from);
     };
     std::vector<std::pair<std::size_t, double>> acts;
-    const std::size_t at = view.step_at(shape[1]);
+    const std::size_t at = view.step_at(begins_s);
     for (std::size_t i = at > 0 ? at - 1 : 0; i < view.steps.size(); ++i) {
-      if (view.steps[i].time_s - 0.5 * view.steps[i].duration_s > shape[1] + lasts_s) break;
+      if (view.steps[i].time_s - 0.5 * view.steps[i].duration_s > begins_s + lasts_s) break;
       if (const double share = within(view.steps[i]); share > 0.0) {
         acts.emplace_back(i, share);
         total_s += share;

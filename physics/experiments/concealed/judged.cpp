@@ -42,15 +42,10 @@ void judge_names(Judged& j, const Diagnosis& d) {
       std::any_of(j.listed.begin(), j.listed.end(), [&](const std::string& a) { return contains(j.truth, a); });
 }
 
-// When an event happens: a push in the middle of its quarter of a second.
-double moment_s(const DrawnEffect& e) {
-  return e.active.parameter("at_s") + (e.active.effect == "collision" ? 0.125 : 0.0);
-}
-
 // The true value of a parameter of a finding; none where the two are not the same thing.
 std::optional<double> true_value(const DrawnEffect& e, const std::string& name) {
   if (e.active.effect == "collision" && (name == "dx_m" || name == "dy_m")) return std::nullopt;  // frames differ
-  if (e.only_in_run >= 0 && name == "at_s") return moment_s(e);
+  if (e.only_in_run >= 0 && name == "at_s") return e.active.parameter("at_s");
   for (const auto& [key, value] : e.active.parameters)
     if (key == name) return value;
   return std::nullopt;
@@ -97,7 +92,7 @@ void judge_place(Judged& j, const DrawnCase& c, const Diagnosis& d) {
     for (std::size_t r = 0; r < c.given.size(); ++r) {
       if (c.given[r].driven.recording.name != f.where.recording || f.where.time_s.empty()) continue;
       const double at_s = 0.5 * (f.where.time_s.front().first + f.where.time_s.front().second);
-      if (event && static_cast<int>(r) == e.only_in_run) j.time_error_s = std::abs(at_s - moment_s(e));
+      if (event && static_cast<int>(r) == e.only_in_run) j.time_error_s = std::abs(at_s - e.active.parameter("at_s"));
       if (!bump) continue;
       for (double t : times_on_bump(c.given[r], e, c.robot.scenario.actual.wheelbase_m))
         j.time_error_s = std::min(*j.time_error_s, std::abs(at_s - t));
