@@ -22,7 +22,10 @@ constexpr double kFormError = 0.1;
 // gains and loses by chance. What happens in one place or moment is all there, or it is not.
 constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01;
 
-double least_share(const Effect& effect) { return effect.local ? kLeastShareOfEvents : kLeastShare; }
+// Where innovations are correlated a small share is believed as little as an event's.
+double least_share(const Effect& effect, bool correlated) {
+  return effect.local || correlated ? kLeastShareOfEvents : kLeastShare;
+}
 
 double quantile(std::vector<double> v, double share) {
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
@@ -326,10 +329,11 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
                        .statistic;
     std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
     if (step == 0) out.first_look = scored;
+    const bool correlated = joint.innovations_correlated();
     std::vector<const ScoredCandidate*> standing;
     for (const ScoredCandidate& c : scored)
       if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
-          c.test.statistic > explained * least_share(*c.effect))
+          c.test.statistic > explained * least_share(*c.effect, correlated))
         standing.push_back(&c);
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
@@ -342,14 +346,14 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
                     standing.begin() + static_cast<std::ptrdiff_t>(k) + 1);
         break;
       }
-    const bool correlated = joint.innovations_correlated();
     const JointModel before = joint;
     // A score is what one step promises, and its scatter is that of what it does not explain yet: where another
     // promises more before that is allowed for, what both come to decides.
     const auto strongest = std::max_element(
         standing.begin(), standing.end(),
         [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });
-    if (strongest != standing.end() && strongest != standing.begin()) {
+    if (strongest != standing.end() && strongest != standing.begin() &&
+        !of_one_moment(**strongest, *standing.front())) {
       JointModel first = joint, other = joint;
       let_in(first, *standing.front());
       let_in(other, **strongest);
@@ -417,7 +421,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
-    if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least_share(*joint.accepted[k].effect)) {
+    const double least = least_share(*joint.accepted[k].effect, joint.innovations_correlated());
+    if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
       // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
       JointModel without = joint;
       without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
@@ -425,8 +430,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
       without.fit_noise();
       without.fit(2);
-      const bool needed = lost > 100.0 && share_of(k) > least_share(*joint.accepted[k].effect) &&
-                          is_material(without.gathered_error(), joint.gathered_error(), true);
+      const bool needed =
+          lost > 100.0 && share_of(k) > least && is_material(without.gathered_error(), joint.gathered_error(), true);
       if (!needed) {
         joint = without;
         with_all.clear();
