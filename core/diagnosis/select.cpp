@@ -321,6 +321,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
 
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
   Selected out;
+  std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
   double share = 0.3;
   for (int step = 0; step < kMostEffects; ++step) {
     double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
@@ -368,7 +369,10 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
                                            standing[tried]->effect->local);
       if (!accepted) joint = before;
     }
-    if (!accepted) break;
+    if (!accepted) {
+      with_all = std::move(scored);
+      break;
+    }
     // Its place and time were found under the noise that it made itself.
     for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
       AcceptedEffect& a = joint.accepted[k];
@@ -413,7 +417,6 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     }
     return all > 0.0 ? own / all : 1.0;
   };
-  std::vector<ScoredCandidate> with_all;
   for (std::size_t k = 0; k < joint.accepted.size();) {
     if (with_all.empty()) with_all = scored_candidates(joint, family_wise_error);
     std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
