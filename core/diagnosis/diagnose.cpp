@@ -348,6 +348,12 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     k = joint.accepted.size();
   }
 
+  // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
+  if (joint.accepted.empty()) {
+    joint = calibrated;
+    intervals = refined(joint, {});
+  }
+
   std::vector<Finding> named;
   double explained = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
@@ -469,6 +475,12 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
   prove(d, joint, calibrated, generic.front().as_effect, train, ready_held_out, nominal);
+  if (named.empty()) {  // then the calibration alone is the model, to the last digit
+    d.calibration = d.calibration_alone;
+    d.fitted_vehicle = d.calibration_alone.vehicle;
+    for (std::size_t r = 0; r < d.truth_clock_s.size(); ++r)
+      d.truth_clock_s[r].second = d.calibration_alone.time_offset_s[r];
+  }
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);
 
