@@ -478,8 +478,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (named.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;
-    for (std::size_t r = 0; r < d.truth_clock_s.size(); ++r)
-      d.truth_clock_s[r].second = d.calibration_alone.time_offset_s[r];
+    const std::vector<double>& clocks = d.calibration_alone.time_offset_s;
+    for (std::size_t r = 0; r < std::min(clocks.size(), d.truth_clock_s.size()); ++r)
+      d.truth_clock_s[r].second = clocks[r];
   }
   d.residuals_before = residuals_of(calibrated);
   d.residuals_after = residuals_of(joint);
