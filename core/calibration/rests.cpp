@@ -3,7 +3,6 @@
 namespace odolab {
 
 std::vector<RestEdge> rest_edges(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
-  constexpr double kRest_s = 0.2;
   std::vector<RestEdge> edges;
   int moved = -1;
   double direction = 1.0;

@@ -7,13 +7,15 @@
 
 namespace odolab {
 
+constexpr double kRest_s = 0.2;  // a wheel that waits longer for its next count rests
+
 struct RestEdge {
   int interval = 0;        // between readings [interval] and [interval + 1]: the last movement before, the first behind
   bool sets_off = false;   // else it stops
   double direction = 1.0;  // of the movement before the rest
 };
 
-// Of one wheel, in order; a rest lasts 0.2 s or more: a slow wheel also waits for its next count, but not as long. The
+// Of one wheel, in order. A slow wheel also waits for its next count, but not as long. The
 // rest before the first movement has no edges.
 std::vector<RestEdge> rest_edges(const std::vector<WheelSample>& readings, double WheelSample::*wheel);
 

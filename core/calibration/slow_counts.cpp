@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "core/calibration/rests.h"
+
 namespace odolab {
 
 namespace {
-
-constexpr double kRest_s = 0.2;  // as in rests.cpp: a longer wait is a rest
 
 void draw(const std::vector<WheelSample>& readings, double WheelSample::*wheel, double count_rad,
           std::vector<WheelSample>& out) {

@@ -11,7 +11,7 @@ namespace odolab {
 // from one count's edge to the next. Such a wheel turns evenly and does not jump: left as they are, the remainders of
 // the counts stay alike for many samples of a fast truth, and their sum passes for motion (a robot at 0.3 m/s with 360
 // counts, read at 200 Hz, was calibrated 1.5 % wrong). An edge lies half way between two readings, in time and in
-// angle. Untouched: where the wheel waits 0.2 s and more for its next count, or turns back, and where each reading
+// angle. Untouched: where the wheel rests (`rests.h`) or turns back, and where each reading
 // brings a count or more.
 std::vector<WheelSample> with_slow_counts_drawn(const std::vector<WheelSample>& readings, double count_rad);
 

@@ -375,7 +375,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
   // Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and
   // nowhere may it be so good already that no floor or camera could tell.
-  if (left && !joint.innovations_correlated() && !is_material(joint.gathered_error(), {}, false)) left = nullptr;
+  if (left && !joint.innovations_correlated() && is_nothing(joint.gathered_error())) left = nullptr;
   if (left && joint.innovations_correlated()) {
     const JointModel with = with_group(joint, *left);
     const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),

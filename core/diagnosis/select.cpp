@@ -22,6 +22,8 @@ constexpr double kFormError = 0.1;
 // gains and loses by chance. What happens in one place or moment is all there, or it is not.
 constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01;
 
+constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
+
 // Where innovations are correlated a small share is believed as little as an event's.
 double least_share(const Effect& effect, bool correlated) {
   return effect.local || correlated ? kLeastShareOfEvents : kLeastShare;
@@ -276,10 +278,13 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 
 }  // namespace
 
+bool is_nothing(const JointModel::GatheredError& error) {
+  return error.windows > 0 && error.position_m2 < kNothing && error.heading_rad2 < kNothing;
+}
+
 bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
                  bool local) {
-  constexpr double kNothing = 4e-10;  // 0.02 mm or 0.02 mrad, squared: what no floor or camera resolves
-  if (before.windows > 0 && before.position_m2 < kNothing && before.heading_rad2 < kNothing) return false;
+  if (is_nothing(before)) return false;
   if (before.windows == 0 || after.windows == 0) return true;
   const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
                              (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));

@@ -27,6 +27,9 @@ struct Selected {
 };
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress);
 
+// Whether dead reckoning is better already than any floor or camera resolves, 0.02 mm and 0.02 mrad.
+bool is_nothing(const JointModel::GatheredError& error);
+
 // Share of the squared error of dead reckoning that a term may leave where the innovations are correlated: the truth's
 // noise is then not what the likelihood takes it for, and small gains of likelihood mean little.
 constexpr double kMaterial = 0.985;
