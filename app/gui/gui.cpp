@@ -149,7 +149,8 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     scale = wanted_scale;
     dark = state.choices.dark;
 
-    window.begin_picture();
+    const bool moves = session.playing() || session.jobs().running() || session.diagnosis().moving();
+    window.begin_picture(0.0, !moves);
     for (const std::string& path : window.dropped_files()) session.execute(ui::OpenFile{path});
     for (const KeyPress& press : window.key_presses())  // however briefly, and whatever has the keyboard
       if (press.key == Key::escape && asks_for_path(state))

@@ -13,12 +13,19 @@
 #include <stb/stb_image_write.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 namespace odolab {
 
 namespace {
+
+constexpr double kRest_s = 0.08;   // between pictures in which nothing moves
+constexpr double kAwake_s = 0.5;   // after a key or the mouse, for what answers them
+constexpr double kScreen_hz = 60;  // of a screen that does not say
+constexpr double kDrawn_hz = 25;   // where the processor draws: it has a simulation to run
 
 // The last thing GLFW complained about; its callback has no place for a user pointer.
 std::string& last_complaint() {
@@ -109,6 +116,9 @@ struct Window::Parts {
   GLFWwindow* window = nullptr;
   bool renderer_ready = false;
   bool hidden = false;
+  double picture_s = 0.0;      // that the screen takes for one
+  double shown_at_s = 0.0;     // the last
+  double awake_until_s = 0.0;  // of the clock of seconds()
   std::vector<KeyPress> keys, keys_of_picture;
   std::vector<std::string> dropped, dropped_of_picture;
 
@@ -151,6 +161,13 @@ Result<std::unique_ptr<Window>> Window::open(const Options& options) {
   });
   glfwMakeContextCurrent(parts->window);
   glfwSwapInterval(options.hidden ? 0 : 1);
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* screen = monitor ? glfwGetVideoMode(monitor) : nullptr;
+  parts->picture_s = 0.9 / (screen && screen->refreshRate > 0 ? screen->refreshRate : kScreen_hz);
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string drawn_by = renderer ? renderer : "";
+  if (drawn_by.find("llvmpipe") != std::string::npos || drawn_by.find("softpipe") != std::string::npos)
+    parts->picture_s = 1.0 / kDrawn_hz;
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui_ImplGlfw_InitForOpenGL(parts->window, true);
@@ -197,8 +214,14 @@ ui::Theme Window::use_theme(bool dark, double scale) {
 
 bool Window::wants_to_close() const { return glfwWindowShouldClose(parts_->window); }
 
-void Window::begin_picture(double fixed_step_s) {
-  glfwPollEvents();
+void Window::begin_picture(double fixed_step_s, bool at_rest) {
+  const double asked_s = seconds();
+  if (at_rest && asked_s > parts_->awake_until_s) {
+    glfwWaitEventsTimeout(kRest_s);
+    if (seconds() - asked_s < 0.9 * kRest_s) parts_->awake_until_s = seconds() + kAwake_s;
+  } else {
+    glfwPollEvents();
+  }
   parts_->keys_of_picture = std::move(parts_->keys);
   parts_->keys.clear();
   parts_->dropped_of_picture = std::move(parts_->dropped);
@@ -229,7 +252,11 @@ void Window::end_picture(ImU32 background) {
 }
 
 void Window::show_picture() {
-  if (!parts_->hidden) glfwSwapBuffers(parts_->window);
+  if (parts_->hidden) return;
+  glfwSwapBuffers(parts_->window);
+  const double early_s = parts_->shown_at_s + parts_->picture_s - seconds();  // where the swap did not wait
+  if (early_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(early_s));
+  parts_->shown_at_s = seconds();
 }
 
 Result<Done> Window::save_picture(const std::string& path) {

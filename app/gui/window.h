@@ -72,11 +72,12 @@ class Window {
 
   bool wants_to_close() const;
   // `fixed_step_s` above 0 replaces the clock, for pictures that must always be the same.
-  void begin_picture(double fixed_step_s = 0.0);
+  // `at_rest`: nothing moves but by a person, so that a picture now and then is enough until there is a person again.
+  void begin_picture(double fixed_step_s = 0.0, bool at_rest = false);
   void end_picture(ImU32 background);
   // The picture that has ended but is not yet shown, as a PNG file.
   Result<Done> save_picture(const std::string& path);
-  // Brings it before the person's eyes; in a hidden window nothing happens.
+  // Brings it before the person's eyes, no faster than the screen can show; in a hidden window nothing happens.
   void show_picture();
 
   // Since the last picture.

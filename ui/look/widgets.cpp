@@ -92,6 +92,7 @@ bool icon_button(const char* id, Icon icon, const Theme& theme, const ButtonLook
 }
 
 bool text_button(const char* label, const Theme& theme, const ButtonLook& look, float width) {
+  if (look.toggled) ImGui::PushStyleVar(ImGuiStyleVar_DisabledAlpha, 1.0f);  // what was chosen stays to be read
   ImGui::BeginDisabled(!look.enabled);
   if (look.primary || look.toggled) {
     const ImVec4 ink = ImGui::ColorConvertU32ToFloat4(theme.ink);
@@ -103,6 +104,7 @@ bool text_button(const char* label, const Theme& theme, const ButtonLook& look, 
   const bool clicked = ImGui::Button(label, {width, 0.0f});
   if (look.primary || look.toggled) ImGui::PopStyleColor(4);
   ImGui::EndDisabled();
+  if (look.toggled) ImGui::PopStyleVar();
   tooltip(look.enabled || look.why_disabled.empty() ? look.tip : look.why_disabled, theme);
   return clicked && look.enabled;
 }

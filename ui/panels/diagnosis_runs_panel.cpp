@@ -112,7 +112,10 @@ Actions mystery_part(const DiagnosisView& view, const Theme& theme) {
     words("Concealed: " + m.answer, theme.ink);
     words(m.guessed_right ? "You were right." : "You were not.", m.guessed_right ? theme.green : theme.error);
     if (m.tool_asked)
-      words(m.tool_right ? "So was the tool." : "The tool did not say so.", m.tool_right ? theme.green : theme.error);
+      words(!m.tool_right     ? "The tool did not say so."
+            : m.guessed_right ? "So was the tool."
+                              : "The tool was right.",
+            m.tool_right ? theme.green : theme.error);
     return actions;
   }
   note("One thing is concealed, or nothing, or something in no list.", theme);
