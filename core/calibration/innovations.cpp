@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/noise_carry.h"
 #include "core/calibration/pose_covariance.h"
 
 namespace odolab {
@@ -37,11 +38,12 @@ double heading_from_shape(const InnovationRun& run, const SummedRun& summed, con
 class PoseFilter {
  public:
   PoseFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
-             const FilterOptions& options)
+             const FilterOptions& options, NoiseCarry* slopes = nullptr)
       : run_(run),
         summed_(summed),
         model_(model),
         options_(options),
+        slopes_(slopes),
         p_(options.derivatives ? summed.columns : 0),
         last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last),
         jacobian_(3, p_) {
@@ -124,7 +126,8 @@ class PoseFilter {
     const TruthSample& truth = run_.truth[k];
     const Pose& m = model_.truth.axle_T_tracked;
     double heading2 = heading2_, tracked_heading;
-    if (run_.truth_has_heading && truth.heading_rad) {
+    const bool heading_is_read = run_.truth_has_heading && truth.heading_rad;
+    if (heading_is_read) {
       tracked_heading = *truth.heading_rad;
     } else {
       tracked_heading = heading_from_shape(run_, summed_, model_.truth, k, last_) + m.heading_rad;
@@ -138,6 +141,7 @@ class PoseFilter {
     covariance_ = {position2_, 0.0, 0.0, position2_, 0.0, heading2};
     covariance_ = covariance_.carried(-arm.x_m, -arm.y_m);  // back from the point to the axle
     covariance_.add(count_error_.turned(cos_, sin_));
+    if (slopes_) slopes_->begin_at(position2_, heading_is_read ? heading2_ : 0.0, arm);
     if (p_ == 0) return;
     derivative_.setZero();
     const double c = cos_, s = sin_;
@@ -158,9 +162,18 @@ class PoseFilter {
       d[2] += jac[2];
     }
     PoseCovariance noise = PoseCovariance::packed(step.count_noise);
-    noise.add(PoseCovariance::packed(step.wheel_noise), wheel2_);
-    noise.add(PoseCovariance::packed(step.body_noise), body2_);
-    noise.add(PoseCovariance::packed(step.sideways_noise), sideways2_);
+    const PoseCovariance of_wheels = PoseCovariance::packed(step.wheel_noise).times(wheel2_),
+                         of_body = PoseCovariance::packed(step.body_noise).times(body2_),
+                         of_sideways = PoseCovariance::packed(step.sideways_noise).times(sideways2_);
+    noise.add(of_wheels);
+    noise.add(of_body);
+    noise.add(of_sideways);
+    if (slopes_) {
+      slopes_->carry(dx, dy);
+      slopes_->grow(noise_size::wheel, of_wheels.turned(c, s));
+      slopes_->grow(noise_size::body, of_body.turned(c, s));
+      slopes_->grow(noise_size::sideways, of_sideways.turned(c, s));
+    }
     covariance_ = covariance_.carried(dx, dy);
     covariance_.add(noise.turned(c, s));
     if (options_.on_step) {
@@ -254,6 +267,10 @@ class PoseFilter {
       by[j][2] = n == 2 ? 0.0 : p[2][j];
       whiten(by[j]);
     }
+    if (slopes_) {
+      const double third = n == 3 ? 1.0 / l22 : 0.0;
+      slopes_->update({l10, l20, l21, 1.0 / l00, 1.0 / l11, third, by, white, arm, n == 3}, position2_, heading2_);
+    }
     const auto product = [](const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
     covariance_.xx -= product(by[0], by[0]);
     covariance_.xy -= product(by[0], by[1]);
@@ -320,6 +337,7 @@ class PoseFilter {
   const SummedRun& summed_;
   const InnovationModel& model_;
   const FilterOptions& options_;
+  NoiseCarry* slopes_;  // null where nobody asks for them
   int p_;
   int last_;
   Pose state_;
@@ -347,6 +365,24 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options) {
   return PoseFilter(run, summed, model, options).run();
+}
+
+NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model, int first,
+                         int last) {
+  FilterOptions options;
+  options.derivatives = false;
+  options.first = first;
+  options.last = last;
+  NoiseCarry carried;
+  const InnovationSums sums = PoseFilter(run, summed, model, options, &carried).run();
+  NoiseSlopes out;
+  out.value = sums.chi2 + sums.log_determinant;
+  out.scalars = sums.scalars;
+  for (int k = 0; k < noise_size::count; ++k) {
+    out.slope[k] = carried.slope(k);
+    for (int j = 0; j < noise_size::count; ++j) out.curvature[noise_size::count * k + j] = carried.curvature(k, j);
+  }
+  return out;
 }
 
 }  // namespace odolab

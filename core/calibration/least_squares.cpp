@@ -107,7 +107,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     const FittedNoise before = fit.now().shared.noise;
     fit.fit_parameters(active, 1.0, options.most_iterations);
     if (!goes_on(progress, (round + 0.5) / (kRounds + 1))) return stopped;
-    fit.fit_noise(active, round == 0 ? 1.0 : 0.15);
+    fit.fit_noise(active);
     if (!goes_on(progress, (round + 1.0) / (kRounds + 1))) return stopped;
     const bool changed = fit.gate();
     const FittedNoise& now = fit.now().shared.noise;

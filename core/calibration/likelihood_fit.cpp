@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/calibration/minimise.h"
+#include "core/calibration/noise_fit.h"
 
 namespace odolab {
 
@@ -114,7 +114,7 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
   }
 }
 
-void LikelihoodFit::fit_noise(const std::vector<int>& active, double first_stride) {
+void LikelihoodFit::fit_noise(const std::vector<int>& active) {
   std::vector<SummedRun> summed;
   bool any_heading = false;
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
@@ -122,41 +122,51 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active, double first_strid
     any_heading = any_heading || runs_[r].truth_has_heading;
   }
   const std::vector<Stretch> stretches = noise_stretches();
-  const bool restricted = truth_samples() < 1000;
-  const auto noise_of = [&](const std::vector<double>& logs) {
-    return as_large_as_any_real({std::exp(logs[0]), std::exp(logs[1]),
-                                 any_heading ? std::exp(logs[2]) : now_.shared.noise.truth_heading_rad});
+  const auto with = [&](const FittedNoise& noise, int run) {
+    InnovationModel model = now_.of(run);
+    model.noise = noise;
+    return model;
   };
-  const auto objective = [&](const std::vector<double>& logs) {
+  // Logarithm of the determinant of what is known of the parameters: the freedom that they took.
+  const auto freedom_taken = [&](const FittedNoise& noise) {
     std::vector<InnovationSums> of_stretch(stretches.size());
     each(static_cast<int>(stretches.size()), [&](int i) {
       const Stretch& s = stretches[i];
-      InnovationModel model = now_.of(s.run);
-      model.noise = noise_of(logs);
       FilterOptions options;
-      options.derivatives = restricted;
       options.first = s.first;
       options.last = s.last;
-      of_stretch[i] = filtered(runs_[s.run], summed[s.run], model, options);
+      of_stretch[i] = filtered(runs_[s.run], summed[s.run], with(noise, s.run), options);
     });
     Sums total = none();
     for (std::size_t i = 0; i < stretches.size(); ++i) add(total, stretches[i].run, of_stretch[i]);
-    double value = total.chi2 + total.log_determinant;
-    if (restricted) {
-      MatrixXd a(active.size(), active.size());
-      for (std::size_t r = 0; r < active.size(); ++r)
-        for (std::size_t c = 0; c < active.size(); ++c) a(r, c) = total.information(active[r], active[c]) + (r == c);
-      value += a.ldlt().vectorD().array().log().sum();
-    }
-    // Very mild priors keep a size that the recordings say nothing about finite: a factor of ten either way.
-    const double usual[3] = {0.003, 0.002, 0.005};
-    for (std::size_t k = 0; k < logs.size(); ++k) value += std::pow((logs[k] - std::log(usual[k])) / 2.3, 2);
-    return value;
+    MatrixXd a(active.size(), active.size());
+    for (std::size_t r = 0; r < active.size(); ++r)
+      for (std::size_t c = 0; c < active.size(); ++c) a(r, c) = total.information(active[r], active[c]) + (r == c);
+    return a.ldlt().vectorD().array().log().sum();
   };
-  FittedNoise& noise = now_.shared.noise;
-  std::vector<double> logs = {std::log(noise.wheel_m_per_sqrt_m), std::log(noise.truth_position_m)};
-  if (any_heading) logs.push_back(std::log(noise.truth_heading_rad));
-  noise = noise_of(minimised(objective, logs, first_stride, 0.003, 150));
+  NoiseFit fit{{noise_size::wheel, noise_size::position}, {0.003, 0.002, 0.005}};
+  if (any_heading) fit.free.push_back(noise_size::heading);
+  const bool restricted = truth_samples() < 1000;
+  const auto likelihood = [&](const FittedNoise& noise) {
+    std::vector<NoiseSlopes> of_stretch(stretches.size());
+    each(static_cast<int>(stretches.size()), [&](int i) {
+      const Stretch& s = stretches[i];
+      of_stretch[i] = noise_slopes(runs_[s.run], summed[s.run], with(noise, s.run), s.first, s.last);
+    });
+    NoiseSlopes sum;
+    for (const NoiseSlopes& s : of_stretch) sum.add(s);
+    if (!restricted) return sum;
+    const double taken = freedom_taken(noise);
+    sum.value += taken;
+    constexpr double kBy = 1e-4;  // of logarithms
+    for (int size : fit.free) {
+      FittedNoise larger = noise;
+      size_of(larger, size) *= std::exp(kBy);
+      sum.slope[size] += (freedom_taken(larger) - taken) / kBy;
+    }
+    return sum;
+  };
+  now_.shared.noise = most_likely_noise(likelihood, now_.shared.noise, fit);
 }
 
 bool LikelihoodFit::gate() {

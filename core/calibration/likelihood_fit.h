@@ -66,7 +66,7 @@ class LikelihoodFit {
   // Maximum likelihood of the noise sizes with the parameters held. With few innovations the freedom that the
   // parameters took is counted too (restricted likelihood, Patterson and Thompson 1971), so that the noise is not
   // fitted too small.
-  void fit_noise(const std::vector<int>& active, double first_stride);
+  void fit_noise(const std::vector<int>& active);
 
   // Sets samples aside by the gate. True where that changed any.
   bool gate();

@@ -38,13 +38,16 @@ struct PoseCovariance {
     yh += y * (variance * h);
     hh += h * (variance * h);
   }
-  void add(const PoseCovariance& other, double times = 1.0) {
-    xx += times * other.xx;
-    xy += times * other.xy;
-    xh += times * other.xh;
-    yy += times * other.yy;
-    yh += times * other.yh;
-    hh += times * other.hh;
+  void add(const PoseCovariance& other) {
+    xx += other.xx;
+    xy += other.xy;
+    xh += other.xh;
+    yy += other.yy;
+    yh += other.yh;
+    hh += other.hh;
+  }
+  PoseCovariance times(double variance) const {
+    return {variance * xx, variance * xy, variance * xh, variance * yy, variance * yh, variance * hh};
   }
 };
 

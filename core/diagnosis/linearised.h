@@ -29,6 +29,7 @@ class LinearisedRun {
   const Whitened& residual() const { return residual_; }
   const std::vector<FilterStep>& steps() const { return steps_; }  // one for each truth sample
   const InnovationRun& run() const { return *run_; }
+  const SummedRun& summed() const { return summed_; }
   const InnovationSums& sums() const { return sums_; }
 
   // Derivative of the prediction by the value of an effect that moves the body by `per_step` between wheel samples.

@@ -20,8 +20,13 @@ InnovationModel wheels_of_a_tenth() {
   return model;
 }
 
+ThinnedTruth thinned(const InnovationRun& run) {
+  const InnovationModel model = wheels_of_a_tenth();
+  return thinned_truth(run, summed_up(run, model), model, 0.1);
+}
+
 TEST(ThinnedTruth, KeepsSamplesATenthOfAMetreOfTheFasterWheelApart) {
-  const InnovationRun thin = thinned_truth(pivot(), wheels_of_a_tenth(), 0.1);
+  const InnovationRun thin = thinned(pivot()).run;
   // 1 m in all: the first sample and ten behind it, each of them 1 s later; a sample late where rounding has it so.
   ASSERT_NEAR(static_cast<double>(thin.truth.size()), 11.0, 1.0);
   ASSERT_EQ(thin.set_aside.size(), thin.truth.size());
@@ -33,7 +38,7 @@ TEST(ThinnedTruth, PassesOverWhatIsSetAsideAndKeepsWhereARunBeginsAnew) {
   InnovationRun run = pivot();
   run.set_aside[100] = 1;
   run.set_aside[350] = 2;
-  const InnovationRun thin = thinned_truth(run, wheels_of_a_tenth(), 0.1);
+  const InnovationRun thin = thinned(run).run;
   bool begins = false;
   for (std::size_t i = 0; i < thin.truth.size(); ++i) {
     EXPECT_NE(thin.truth[i].time_s, 1.0);
@@ -41,6 +46,33 @@ TEST(ThinnedTruth, PassesOverWhatIsSetAsideAndKeepsWhereARunBeginsAnew) {
     begins = begins || (thin.set_aside[i] == 2 && thin.truth[i].time_s == 3.5);
   }
   EXPECT_TRUE(begins);
+}
+
+// A curve with body noise: motions and variances put together are those summed up over the longer way.
+TEST(ThinnedTruth, SumsUpWhatTheWheelsDidAsIfTheOtherSamplesHadNotBeen) {
+  InnovationRun run = pivot();
+  for (WheelSample& w : run.wheels) w.left_rad = 0.3 * w.right_rad * w.right_rad;
+  InnovationModel model = wheels_of_a_tenth();
+  model.noise.body_m_per_sqrt_m = 0.001;
+  const ThinnedTruth thin = thinned_truth(run, summed_up(run, model), model, 0.1);
+  const SummedRun whole = [&] {
+    InnovationRun only = run;
+    only.truth = thin.run.truth;
+    return summed_up(only, model);
+  }();
+  ASSERT_EQ(thin.summed.motions.size(), whole.motions.size());
+  constexpr double kRounding = 1e-12;  // metres, radians and variances of order one
+  for (std::size_t i = 0; i < whole.motions.size(); ++i) {
+    const RelativeMotion &a = thin.summed.motions[i], &b = whole.motions[i];
+    EXPECT_NEAR(a.motion.x_m, b.motion.x_m, kRounding);
+    EXPECT_NEAR(a.motion.y_m, b.motion.y_m, kRounding);
+    EXPECT_NEAR(a.motion.heading_rad, b.motion.heading_rad, kRounding);
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_NEAR(a.wheel_noise[k], b.wheel_noise[k], kRounding);
+      EXPECT_NEAR(a.body_noise[k], b.body_noise[k], kRounding);
+      EXPECT_NEAR(a.sideways_noise[k], b.sideways_noise[k], kRounding);
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,98 @@
+#include "core/calibration/noise_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/calibration/descent.h"
+
+namespace odolab {
+
+void NoiseSlopes::add(const NoiseSlopes& other) {
+  value += other.value;
+  for (std::size_t k = 0; k < slope.size(); ++k) slope[k] += other.slope[k];
+  for (std::size_t k = 0; k < curvature.size(); ++k) curvature[k] += other.curvature[k];
+  scalars += other.scalars;
+}
+
+double& size_of(FittedNoise& noise, int size) {
+  switch (size) {
+    case noise_size::wheel:
+      return noise.wheel_m_per_sqrt_m;
+    case noise_size::position:
+      return noise.truth_position_m;
+    case noise_size::heading:
+      return noise.truth_heading_rad;
+    case noise_size::body:
+      return noise.body_m_per_sqrt_m;
+    default:
+      return noise.sideways_m_per_sqrt_m;
+  }
+}
+
+FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,
+                              const NoiseFit& fit) {
+  constexpr double kLeastCurvature = 1e-6;
+  const std::size_t n = fit.free.size();
+  FittedNoise usual = fit.usual;
+  const auto is_free = [&](int size) { return std::find(fit.free.begin(), fit.free.end(), size) != fit.free.end(); };
+  // The noise of these logarithms within its bounds, and these with it.
+  const auto bounded = [&](std::vector<double>& logs) {
+    FittedNoise noise = start;
+    for (std::size_t k = 0; k < n; ++k) size_of(noise, fit.free[k]) = std::exp(logs[k]);
+    noise = as_large_as_any_real(noise);
+    noise.sideways_m_per_sqrt_m = std::max(noise.sideways_m_per_sqrt_m, fit.least_sideways * noise.wheel_m_per_sqrt_m);
+    for (std::size_t k = 0; k < n; ++k) logs[k] = std::log(size_of(noise, fit.free[k]));
+    return noise;
+  };
+  const auto valued = [&](std::vector<double>& logs) {
+    const FittedNoise noise = bounded(logs);
+    NoiseSlopes sums = likelihood(noise);
+    // Priors; nobody is usually truer sideways than he may be.
+    std::array<double, noise_size::count> slope = sums.slope;
+    std::array<double, noise_size::count> own{};
+    for (int size : fit.free) {
+      double at_rest = size_of(usual, size);
+      if (size == noise_size::sideways) at_rest = std::max(at_rest, fit.least_sideways * noise.wheel_m_per_sqrt_m);
+      FittedNoise copy = noise;
+      const double off = std::log(size_of(copy, size) / at_rest) / fit.within;
+      const std::size_t k = static_cast<std::size_t>(size);
+      sums.value += off * off;
+      slope[k] += 2.0 * off / fit.within;
+      own[k] = 2.0 / (fit.within * fit.within);
+    }
+    // What lies at its bound and would go beyond stays there; sideways it then goes with the wheels.
+    constexpr double kAtBound = 1.0 + 1e-9;
+    std::array<int, noise_size::count> moves_with{};
+    for (int size = 0; size < noise_size::count; ++size) {
+      FittedNoise copy = noise, least = as_large_as_any_real({});
+      const double bound =
+          size == noise_size::sideways ? fit.least_sideways * noise.wheel_m_per_sqrt_m : size_of(least, size);
+      const bool held = !is_free(size) || (size_of(copy, size) <= bound * kAtBound && slope[size] > 0.0);
+      moves_with[size] = held ? -1 : size;
+    }
+    if (is_free(noise_size::sideways) && moves_with[noise_size::sideways] < 0)
+      moves_with[noise_size::sideways] = moves_with[noise_size::wheel];
+    Sloped out;
+    out.value = sums.value;
+    out.slope.assign(n, 0.0);
+    out.curvature.assign(n * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int a = 0; a < noise_size::count; ++a) {
+        if (moves_with[a] != fit.free[i]) continue;
+        out.slope[i] += slope[a];
+        out.curvature[i * n + i] += own[a];
+        for (std::size_t j = 0; j < n; ++j)
+          for (int b = 0; b < noise_size::count; ++b)
+            if (moves_with[b] == fit.free[j]) out.curvature[i * n + j] += sums.curvature[noise_size::count * a + b];
+      }
+    for (std::size_t i = 0; i < n; ++i)  // what is held
+      if (out.curvature[i * n + i] < kLeastCurvature) out.curvature[i * n + i] = 1.0;
+    return out;
+  };
+  std::vector<double> logs;
+  for (int size : fit.free) logs.push_back(std::log(size_of(start, size)));
+  std::vector<double> best = descended(valued, logs);
+  return bounded(best);
+}
+
+}  // namespace odolab

@@ -1,0 +1,22 @@
+// The most likely sizes of the noise: README.md in this folder, Eq. 10.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/calibration/noise_slopes.h"
+
+namespace odolab {
+
+struct NoiseFit {
+  std::vector<int> free;        // of noise_size; the others stay
+  FittedNoise usual;            // mild priors keep a size finite that the recordings say nothing about:
+  double within = 2.3;          // so far from usual, in logarithms; a factor of ten
+  double least_sideways = 0.0;  // a share of the wheels' noise: nobody is truer sideways
+};
+
+// Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.
+FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,
+                              const NoiseFit& fit);
+
+}  // namespace odolab
