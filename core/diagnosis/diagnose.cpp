@@ -332,6 +332,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   std::vector<double> inflation;
   for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
+  // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
+  if (joint.accepted.empty()) joint = calibrated;
   Intervals intervals = refined(joint, inflation);
   // What is not well away from nothing once its place and time are uncertain too is no finding.
   for (std::size_t k = joint.accepted.size(); k-- > 0;) {
@@ -341,17 +343,15 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     selected.evidence.erase(selected.evidence.begin() + at);
     selected.alternatives.erase(selected.alternatives.begin() + at);
     inflation.erase(inflation.begin() + at);
-    joint.fit(3);
-    joint.fit_noise();
-    joint.fit(2);
+    if (joint.accepted.empty()) {
+      joint = calibrated;
+    } else {
+      joint.fit(3);
+      joint.fit_noise();
+      joint.fit(2);
+    }
     intervals = refined(joint, inflation);
     k = joint.accepted.size();
-  }
-
-  // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
-  if (joint.accepted.empty()) {
-    joint = calibrated;
-    intervals = refined(joint, {});
   }
 
   std::vector<Finding> named;

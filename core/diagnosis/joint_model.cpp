@@ -213,11 +213,15 @@ void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
 }
 
 void JointModel::fit(int iterations) {
+  constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
+  const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(),
+                                         [](const AcceptedEffect& a) { return a.effect->shape_follows_amplitude; });
   linearise();
   for (int i = 0; i < iterations; ++i) {
     const VectorXd step = gram_.ldlt().solve(zr_);
     if (!step.allFinite()) return;
     const double size = step.dot(zr_);
+    if (size < kNothing && !shapes_follow) break;
     const auto saved_accepted = accepted;
     const InnovationModel saved = model;
     const std::vector<double> saved_clock = clock_s;

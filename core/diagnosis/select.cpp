@@ -353,6 +353,12 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         break;
       }
     const JointModel before = joint;
+    struct Fitted {
+      const ScoredCandidate* candidate;
+      JointModel model;
+      double gained;
+    };
+    std::vector<Fitted> fitted;
     // A score is what one step promises, and its scatter is that of what it does not explain yet: where another
     // promises more before that is allowed for, what both come to decides.
     const auto strongest = std::max_element(
@@ -360,16 +366,21 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });
     if (strongest != standing.end() && strongest != standing.begin() &&
         !of_one_moment(**strongest, *standing.front())) {
-      JointModel first = joint, other = joint;
-      let_in(first, *standing.front());
-      let_in(other, **strongest);
-      if (other.minus_two_log_likelihood() + 2.0 * kClearlyBeaten < first.minus_two_log_likelihood())
+      for (const ScoredCandidate* c : {standing.front(), *strongest}) {
+        fitted.push_back({c, joint, 0.0});
+        fitted.back().gained = let_in(fitted.back().model, *c);
+      }
+      if (fitted[1].model.minus_two_log_likelihood() + 2.0 * kClearlyBeaten <
+          fitted[0].model.minus_two_log_likelihood())
         std::rotate(standing.begin(), strongest, strongest + 1);
     }
     bool accepted = false;
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
     for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
-      const double kept = let_in(joint, *standing[tried]);
+      const auto known =
+          std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
+      if (known != fitted.end()) joint = known->model;
+      const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
       accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated,
                                            standing[tried]->effect->local);
       if (!accepted) joint = before;
