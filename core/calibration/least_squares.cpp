@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/calibration/cannot_be_told.h"
+#include "core/calibration/correlated_truth.h"
 #include "core/calibration/first_guess.h"
 #include "core/calibration/likelihood_fit.h"
 
@@ -59,11 +60,10 @@ bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
          std::abs(std::log((a.wheel_radius_left_m + a.wheel_radius_right_m) /
                            (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
 }
-}  // namespace
 
-Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
-                                                        const Vehicle& nominal, const LeastSquaresOptions& options,
-                                                        const Progress& progress) {
+// All truth samples that are there.
+Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                                  const LeastSquaresOptions& options, const Progress& progress) {
   if (const auto other = other_than_differential_drive(nominal, "can be calibrated against a truth")) return *other;
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
@@ -145,6 +145,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   result.warnings = jumps;
   const InnovationModel& model = fit.now().shared;
   fit.correlations(result.correlation);
+  result.lasting_correlation = fit.lasting_correlation();
   constexpr int kBatches = 60;
   const LikelihoodFit::Sums final_sums = fit.sums(fit.now(), true, kBatches);
   result.innovations = final_sums.scalars;
@@ -266,6 +267,32 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
       result.warnings.push_back(p.name +
                                 text(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
   return result;
+}
+}  // namespace
+
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
+                                                        const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                        const Progress& progress) {
+  // A missing effect correlates innovations too, but less, and over as long as a manoeuvre lasts.
+  constexpr double kNext = 0.5, kLasting = 0.2;
+  const auto next = [](const LeastSquaresCalibration& c) {
+    return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
+  };
+  Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, progress);
+  if (!all || (next(*all) < kNext && all->lasting_correlation < kLasting)) return all;
+  for (double apart_s : {0.1, 0.2, 0.3, 0.5}) {
+    std::vector<Recording> thinned;
+    for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
+    Result<LeastSquaresCalibration> of_fewer = calibrated_by_all(thinned, nominal, options, progress);
+    if (!of_fewer || next(*of_fewer) > kLasting || of_fewer->lasting_correlation > kLasting) continue;
+    of_fewer->truth_apart_s = apart_s;
+    of_fewer->warnings.push_back(
+        text("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses: "
+             "only samples %.1f s apart were used",
+             next(*all), apart_s));
+    return of_fewer;
+  }
+  return all;
 }
 
 }  // namespace odolab

@@ -206,6 +206,36 @@ void LikelihoodFit::correlations(double* out) const {
   for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
 }
 
+double LikelihoodFit::lasting_correlation() const {
+  constexpr double kReadings = 1.5;
+  double product[3] = {}, square[3] = {};
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+    std::vector<std::array<double, 3>> white;
+    FilterOptions options;
+    options.derivatives = false;
+    options.on_innovation = [&](const Innovation& i) {
+      white.push_back({});
+      for (int k = 0; k < i.size; ++k) white.back()[static_cast<std::size_t>(k)] = i.white[k];
+    };
+    const InnovationModel model = now_.of(r);
+    filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    const auto period_s = [](const auto& samples) {
+      return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+    };
+    const double apart = kReadings * period_s(runs_[r].wheels) / period_s(runs_[r].truth);
+    const auto lag = static_cast<std::size_t>(std::clamp(apart, 1.0, 100.0));
+    for (std::size_t i = lag; i < white.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        product[k] += white[i][k] * white[i - lag][k];
+        square[k] += white[i][k] * white[i][k];
+      }
+  }
+  double largest = 0.0;
+  for (int k = 0; k < 3; ++k)
+    if (square[k] > 0.0) largest = std::max(largest, product[k] / square[k]);
+  return largest;
+}
+
 LikelihoodFit::Sums LikelihoodFit::none() const {
   const int n = now_.size();
   Sums zero;

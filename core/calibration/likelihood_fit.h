@@ -73,6 +73,9 @@ class LikelihoodFit {
 
   // Lag-one correlation of the whitened innovations of x, y and heading.
   void correlations(double* out) const;
+  // The largest of the three at a reading and a half of the encoders: samples between the same two readings share their
+  // rounding.
+  double lasting_correlation() const;
 
   void hold_at_nominal(int c) { parameter_of(now_, c) = value(nominal_, c); }
   static double value(FitParameters parameters, int c) { return parameter_of(parameters, c); }

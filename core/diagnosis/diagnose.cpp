@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/calibration/correlated_truth.h"
 #include "core/diagnosis/adequacy.h"
 #include "core/diagnosis/advice.h"
 #include "core/diagnosis/chi_square.h"
@@ -150,12 +151,10 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Le
   }
 }
 
-// The model with a group of generic terms let in.
-JointModel with_group(const JointModel& joint, const GenericTest& group) {
-  JointModel with = joint;
-  with.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
-  with.fit(2);
-  return with;
+// Lets a group of generic terms in; twice what the log-likelihood gains by it.
+double let_in(JointModel& joint, const GenericTest& group) {
+  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
+  return joint.fit(2);
 }
 
 // The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
@@ -169,7 +168,8 @@ const GenericTest* what_is_left(const JointModel& joint, const std::vector<Gener
                    [](const GenericTest* a, const GenericTest* b) { return a->test.judged() > b->test.judged(); });
   for (std::size_t k = 0; k < std::min<std::size_t>(strong.size(), kMostTried); ++k) {
     const CandidateTest& t = strong[k]->test;
-    const double kept = joint.minus_two_log_likelihood() - with_group(joint, *strong[k]).minus_two_log_likelihood();
+    JointModel with = joint;
+    const double kept = let_in(with, *strong[k]);
     const double p = scaled_chi_square_tail(kept / t.inflation, t.freedom, t.batches) * strong[k]->tests;
     if (p < error) return strong[k];
   }
@@ -309,6 +309,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (!calibration) return calibration.error();
   d.calibration = d.calibration_alone = *calibration;
   d.warnings = calibration->warnings;
+  if (calibration->truth_apart_s > 0.0)
+    for (std::vector<CheckedRecording>* checked : {&ready, &ready_held_out})
+      for (CheckedRecording& c : *checked) c.recording = with_truth_apart(c.recording, calibration->truth_apart_s);
 
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
@@ -366,18 +369,19 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   // Adequacy.
   const std::vector<GenericTest> generic = generic_tests(joint);
-  const GenericTest* left = what_is_left(joint, generic, 0.5 * options.family_wise_error);
+  const GenericTest* left = what_is_left(joint, generic, 0.25 * options.family_wise_error);
   double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
   // Several causes that explain it only together are more likely one that has no name here.
   std::vector<double> shares;
   for (const ScoredCandidate& e : selected.evidence) shares.push_back(e.test.statistic);
   std::sort(shares.rbegin(), shares.rend());
-  const bool pieced_together = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
+  const bool in_pieces = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
   // Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and
   // nowhere may it be so good already that no floor or camera could tell.
   if (left && !joint.innovations_correlated() && is_nothing(joint.gathered_error())) left = nullptr;
   if (left && joint.innovations_correlated()) {
-    const JointModel with = with_group(joint, *left);
+    JointModel with = joint;
+    let_in(with, *left);
     const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
                                     with_more = with.gathered_error();
     if (!is_material(named_only, with_more, true)) left = nullptr;
@@ -397,7 +401,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   double of_toe = 0.0;
   for (const Finding& f : named)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  const bool inadequate = (left && remaining > kMostLeft * (explained + of_toe)) || pieced_together;
+  const bool inadequate = left && (remaining > kMostLeft * (explained + of_toe) || in_pieces);
   d.responses = responses_of(calibrated, generic, !joint.accepted.empty());
 
   if (!left) remaining = 0.0;
@@ -413,10 +417,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     Finding unknown;
     unknown.effect = "unknown";
     unknown.component = "vehicle";
-    const GenericTest& shape = left ? *left : generic.front();
-    unknown.where.regime = shape.channel + " that depends on " + shape.variable;
+    unknown.where.regime = left->channel + " that depends on " + left->variable;
     unknown.log_likelihood_gain = 0.5 * (explained + std::max(remaining, 0.0));
-    unknown.p_value = shape.p_value;
+    unknown.p_value = left->p_value;
     unknown.share_of_mismatch = std::clamp(remaining / all, 0.0, 1.0);
     unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
     // Names that did not suffice are said as what it resembles, not as what it is.

@@ -114,7 +114,7 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
-  double family_wise_error = 0.01;
+  double family_wise_error = 0.02;
 };
 
 // Recordings of one vehicle. `held_out` are judged only after everything is frozen. Where none are given, each

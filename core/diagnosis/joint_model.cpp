@@ -212,14 +212,15 @@ void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
   }
 }
 
-void JointModel::fit(int iterations) {
+double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
   const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(),
                                          [](const AcceptedEffect& a) { return a.effect->shape_follows_amplitude; });
   linearise();
+  double gained = 0.0;
   for (int i = 0; i < iterations; ++i) {
-    const VectorXd step = gram_.ldlt().solve(zr_);
-    if (!step.allFinite()) return;
+    const VectorXd step = gram_.ldlt().solve(zr_), score = zr_;
+    if (!step.allFinite()) break;
     const double size = step.dot(zr_);
     if (size < kNothing && !shapes_follow) break;
     const auto saved_accepted = accepted;
@@ -227,8 +228,10 @@ void JointModel::fit(int iterations) {
     const std::vector<double> saved_clock = clock_s;
     const std::array<double, 2> saved_half_counts = half_counts;
     const double before = chi2_;
+    VectorXd gone;
     double scale = 1.0;
     for (int attempt = 0; attempt < 3; ++attempt, scale *= 0.3) {
+      gone = scale * step;
       model = saved;
       clock_s = saved_clock;
       accepted = saved_accepted;
@@ -237,14 +240,17 @@ void JointModel::fit(int iterations) {
       for (int w = 0; w < 2; ++w) half_counts[w] = saved_half_counts[w] + scale * step(half_count_column(w));
       int k = first_amplitude();
       for (AcceptedEffect& a : accepted) {
-        for (std::size_t j = 0; j < a.value.size(); ++j, ++k)
-          a.value[j] =
-              std::clamp(a.value[j] + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
+        for (std::size_t j = 0; j < a.value.size(); ++j, ++k) {
+          const double was = a.value[j];
+          a.value[j] = std::clamp(was + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
+          gone(k) = a.value[j] - was;
+        }
         if (a.effect->shape_follows_amplitude) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
       }
       linearise();
       if (std::isfinite(chi2_) && chi2_ < before * 1.02 + 20.0) break;
     }
+    gained += gone.dot(score + zr_);
     if (size < 0.01) break;
   }
   const MatrixXd cov = covariance();
@@ -253,6 +259,7 @@ void JointModel::fit(int iterations) {
     a.stderr_value.resize(a.value.size());
     for (std::size_t j = 0; j < a.value.size(); ++j, ++k) a.stderr_value[j] = std::sqrt(std::max(0.0, cov(k, k)));
   }
+  return gained;
 }
 
 MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Identity(gram_.rows(), gram_.cols())); }

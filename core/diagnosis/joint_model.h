@@ -47,8 +47,11 @@ class JointModel {
   JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands, const LeastSquaresCalibration& start,
              const Vehicle& nominal);
 
-  // Gauss-Newton on calibration and amplitudes, shapes that follow their amplitude with them.
-  void fit(int iterations = 4);
+  // Gauss-Newton on calibration and amplitudes, shapes that follow their amplitude with them. Returns twice what the
+  // log-likelihood gained on that way, from the scores at both ends of each step. Its own difference would not do: the
+  // model's covariance moves with the wheelbase, which it likes or dislikes as far as the noise is a little too large or
+  // small, and readings that are rounded pull at the radii.
+  double fit(int iterations = 4);
   void fit_noise();
   void gate();  // isolated contradictions only; longer ones are left to be explained
   // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted.

@@ -126,6 +126,20 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
   return least == 0.0 || furthest > least;
 }
 
+constexpr std::size_t kFewestElsewhere = 20;  // to know a scatter from
+
+// Whether some wheel may be on two patches at once. Those without a radius are small.
+bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<double>& b, double wheelbase_m) {
+  double away_m2 = 0.0, reach_m = 0.0;
+  for (std::size_t k = 0; k < e.shapes.size(); ++k) {
+    if (e.shapes[k].name == "radius_m")
+      reach_m = a[k] + b[k] + wheelbase_m;
+    else if (e.shapes[k].unit == "m")
+      away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
+  }
+  return away_m2 < reach_m * reach_m;
+}
+
 void judge(ScoredCandidate& c) {
   c.p_value = std::min(1.0, chi_square_tail(c.test.judged(), c.test.freedom) * std::exp(c.log_tests));
 }
@@ -152,6 +166,7 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
     shapes = with_form;
   }
   std::vector<double> statistics;
+  std::vector<std::size_t> of_shape;  // the number of the shape that each of them belongs to
   const auto consider = [&](const std::vector<double>& shape, bool count) {
     CandidateTest t = scan.test(e, shape);
     if (count && t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
@@ -164,6 +179,7 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
   std::vector<std::pair<double, std::size_t>> places;  // a place is looked for from several starts
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     consider(shapes[k], true);
+    of_shape.resize(statistics.size(), k);
     if (e.local && e.scan && e.shapes.size() >= 2 && !e.of_one_recording && !statistics.empty())
       places.emplace_back(-statistics.back(), k);
   }
@@ -206,7 +222,19 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
   const std::vector<double> shape = best.test.shape;
   best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
   best.test.shape = shape;
-  if (e.local && statistics.size() >= 20) {
+  // A patch shows in all others that it overlaps, in a small room in most of them: these are no measure of chance.
+  if (e.local && !e.of_one_recording) {
+    std::vector<double> elsewhere;
+    for (std::size_t n = 0; n < statistics.size(); ++n)
+      if (!overlap(e, shapes[of_shape[n]], shape, joint.model.drive.wheelbase_m)) elsewhere.push_back(statistics[n]);
+    statistics = std::move(elsewhere);
+    if (statistics.size() < kFewestElsewhere) {
+      best.test = joint.test(joint.columns_of(e, shape), without, true);
+      best.test.shape = shape;
+      best.test.cross_validated = best.test.statistic;
+    }
+  }
+  if (e.local && statistics.size() >= kFewestElsewhere) {
     const int k = std::min(3, best.test.freedom);
     best.test.inflation =
         std::max({1.0, quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]});
@@ -260,20 +288,20 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   return false;
 }
 
-// How much the likelihood gains by it under the noise as it was: that is then fitted anew.
+// Twice what the log-likelihood gains by it under the noise as it is.
 double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
   a.shape = c.test.shape;
   if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
-  a.value = c.test.value;
-  const double before = joint.minus_two_log_likelihood();
+  a.value.assign(c.test.value.size(), 0.0);
   joint.accepted.push_back(a);
-  joint.fit(3);
-  const double gained = before - joint.minus_two_log_likelihood();
+  return joint.fit(3);
+}
+
+void fit_noise_too(JointModel& joint) {
   joint.fit_noise();
   joint.fit(2);
-  return gained;
 }
 
 }  // namespace
@@ -302,13 +330,17 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
   for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
   std::vector<ScoredCandidate> scored(all.size());
   const CandidateScan scan(joint, without);
+  // Half of the error is for what happens in one place or moment, half for all others: those are few entries, and each
+  // was looked for so often that it needs the larger share to be seen at all.
+  const auto local = std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; });
+  const int entries[2] = {2 * static_cast<int>(std::ssize(all) - local), 2 * static_cast<int>(local)};
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Effect& e = *all[i];
     scored[i].effect = &e;
     if (e.only_commands && !commands) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
-    scored[i] = best_of(joint, scan, e, without, static_cast<int>(all.size()));
+    scored[i] = best_of(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
   // Phases of their own need to gain what so many more parameters gain by chance one time in a thousand.
   for (ScoredCandidate& own : scored)
@@ -370,8 +402,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         fitted.push_back({c, joint, 0.0});
         fitted.back().gained = let_in(fitted.back().model, *c);
       }
-      if (fitted[1].model.minus_two_log_likelihood() + 2.0 * kClearlyBeaten <
-          fitted[0].model.minus_two_log_likelihood())
+      if (fitted[1].gained > fitted[0].gained + 2.0 * kClearlyBeaten)
         std::rotate(standing.begin(), strongest, strongest + 1);
     }
     bool accepted = false;
@@ -381,6 +412,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
           std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
+      fit_noise_too(joint);
       accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated,
                                            standing[tried]->effect->local);
       if (!accepted) joint = before;
@@ -418,6 +450,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
             top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
           joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
           let_in(joint, top);
+          fit_noise_too(joint);
         }
       }
   }

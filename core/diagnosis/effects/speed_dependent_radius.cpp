@@ -9,7 +9,7 @@ std::vector<Effect> speed_dependent_radius() {
   Effect e;
   e.name = "speed_dependent_radius";
   e.component = "both_wheels";
-  e.amplitudes = {{"per_mps", "1/(m/s)", 0.02, -1.0, 1.0}};
+  e.amplitudes = {{"per_mps", "1/(m/s)", 0.02, -0.3, 0.3}};
   e.forms = {"with each wheel's own speed", "with the vehicle's speed"};
   e.sentence = "the rolling radius changes with speed";
   e.regime = "grows with speed";

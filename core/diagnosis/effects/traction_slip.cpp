@@ -9,7 +9,7 @@ std::vector<Effect> traction_slip() {
   Effect e;
   e.name = "traction_slip";
   e.component = "both_wheels";
-  e.amplitudes = {{"per_mps2", "1/(m/s2)", 0.01, 0.0, 1.0}};
+  e.amplitudes = {{"per_mps2", "1/(m/s2)", 0.01, 0.0, 0.3}};
   e.forms = {"each wheel by its own acceleration", "the vehicle by its acceleration"};
   e.sentence = "the wheels slip when they push: more turning than travel while accelerating, less while braking";
   e.regime = "while accelerating and braking";

@@ -9,7 +9,7 @@ std::vector<Effect> turn_scrub() {
   Effect e;
   e.name = "turn_scrub";
   e.component = "vehicle";
-  e.amplitudes = {{"per_radps", "1/(rad/s)", 0.01, 0.0, 1.0}};
+  e.amplitudes = {{"per_radps", "1/(rad/s)", 0.01, 0.0, 0.5}};
   e.shapes = {{"per_radps", "1/(rad/s)"}};  // the wheelbase grows: the turn is divided, which is not linear
   e.shape_follows_amplitude = true;
   e.scan = [](const std::vector<DriveView>&) { return std::vector<std::vector<double>>{{1e-4}}; };

@@ -1,0 +1,15 @@
+// Truth that was smoothed before it was recorded, or whose noise lasts for other reasons.
+#pragma once
+
+#include "core/recording/recording.h"
+
+namespace odolab {
+
+// The recording with truth samples left out so that those that remain are so far apart. A tracker that filters its
+// poses hands on noise that is no longer independent from sample to sample, and turns late what turned at once; a
+// likelihood that takes each sample for a measurement of its own then fits the filter: radii, wheelbase and effects
+// with it. Farther apart than the filter lasts, samples are independent again, and between smoothed samples there is
+// little to lose.
+Recording with_truth_apart(const Recording& recording, double apart_s);
+
+}  // namespace odolab
