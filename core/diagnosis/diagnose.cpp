@@ -322,6 +322,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     commands.push_back(c.from_commands);
   }
   JointModel joint(std::move(runs), commands, *calibration, nominal);
+  joint.truth_noise_lasts = calibration->truth_apart_s > 0.0;
   joint.linearise();
   joint.gate();
   joint.fit(3);
@@ -384,7 +385,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     let_in(with, *left);
     const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
                                     with_more = with.gathered_error();
-    if (!is_material(named_only, with_more, true)) left = nullptr;
+    if (!is_material(named_only, with_more, most_left(joint))) left = nullptr;
     // And it counts against the names only by its share of what dead reckoning gains.
     if (left && at_first.windows > 0 && at_first.position_m2 > 0.0 && at_first.heading_rad2 > 0.0) {
       const auto share = [&](const JointModel::GatheredError& e) {

@@ -49,8 +49,8 @@ class JointModel {
 
   // Gauss-Newton on calibration and amplitudes, shapes that follow their amplitude with them. Returns twice what the
   // log-likelihood gained on that way, from the scores at both ends of each step. Its own difference would not do: the
-  // model's covariance moves with the wheelbase, which it likes or dislikes as far as the noise is a little too large or
-  // small, and readings that are rounded pull at the radii.
+  // model's covariance moves with the wheelbase, which it likes or dislikes as far as the noise is a little too large
+  // or small, and readings that are rounded pull at the radii.
   double fit(int iterations = 4);
   void fit_noise();
   void gate();  // isolated contradictions only; longer ones are left to be explained
@@ -63,6 +63,8 @@ class JointModel {
   std::vector<char> clock_active;
   std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
+  // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
+  bool truth_noise_lasts = false;
 
   const std::vector<DriveView>& views() const { return now_->views; }
   const std::vector<InnovationRun>& runs() const { return runs_; }
@@ -86,7 +88,7 @@ class JointModel {
     int windows = 0;
   };
   GatheredError gathered_error() const;
-  bool innovations_correlated() const;  // of one channel at least, from one sample to the next
+  bool innovations_correlated() const;  // of one channel at least, from one sample to the next; or as is known before
   Track poses(int run) const;           // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;

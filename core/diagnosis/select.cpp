@@ -18,9 +18,8 @@ constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 // Share of the evidence that a right name may lose since its form is not quite the world's.
 constexpr double kFormError = 0.1;
 
-// Where innovations are white the likelihood is believed: what dead reckoning gains by a weak effect is lost in what it
-// gains and loses by chance. What happens in one place or moment is all there, or it is not.
-constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01;
+// Of dead reckoning's squared error. What happens in one place or moment is all there, or it is not.
+constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01, kMaterialWhereSmoothed = 0.9;
 
 constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
 
@@ -310,13 +309,18 @@ bool is_nothing(const JointModel::GatheredError& error) {
   return error.windows > 0 && error.position_m2 < kNothing && error.heading_rad2 < kNothing;
 }
 
-bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, bool correlated,
-                 bool local) {
+double most_left(const JointModel& joint, bool local) {
+  if (joint.truth_noise_lasts) return kMaterialWhereSmoothed;
+  if (joint.innovations_correlated()) return kMaterial;
+  return local ? kNoWorseByAnEvent : kNoWorse;
+}
+
+bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, double most_left) {
   if (is_nothing(before)) return false;
   if (before.windows == 0 || after.windows == 0) return true;
   const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
                              (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));
-  return left < (correlated ? kMaterial : local ? kNoWorseByAnEvent : kNoWorse);
+  return left < most_left;
 }
 
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
@@ -413,8 +417,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
       fit_noise_too(joint);
-      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(), correlated,
-                                           standing[tried]->effect->local);
+      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(),
+                                           most_left(before, standing[tried]->effect->local));
       if (!accepted) joint = before;
     }
     if (!accepted) {
@@ -482,8 +486,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
       without.fit_noise();
       without.fit(2);
-      const bool needed =
-          lost > 100.0 && share_of(k) > least && is_material(without.gathered_error(), joint.gathered_error(), true);
+      const bool needed = lost > 100.0 && share_of(k) > least &&
+                          is_material(without.gathered_error(), joint.gathered_error(), kMaterial);
       if (!needed) {
         joint = without;
         with_all.clear();

@@ -13,6 +13,7 @@ namespace {
 TEST(JointModel, GainsByAnEffectThatCalibrationNearlyTakesUpWhatItsScorePromises) {
   CaseSettings settings;
   settings.effect = "turn_scrub";
+  settings.size = 4.0;
   settings.runs = 3;
   settings.duration_s = 40.0;
   const Case c = generated_case(settings, 7311);
@@ -29,9 +30,9 @@ TEST(JointModel, GainsByAnEffectThatCalibrationNearlyTakesUpWhatItsScorePromises
   EXPECT_NEAR(joint.fit(2), 0.0, 0.1) << "fitted already";
   for (const Effect& e : catalogue()) {
     if (e.name != "turn_scrub") continue;
-    const CandidateTest t = joint.test(joint.columns_of(e, {0.01}));
-    joint.accepted.push_back({&e, {0.01}, {0.0}, {}});
-    // The score is that at no scrub; a scrub of 1 % per rad/s is not quite linear.
+    const CandidateTest t = joint.test(joint.columns_of(e, {0.04}));
+    joint.accepted.push_back({&e, {0.04}, {0.0}, {}});
+    // The score is that at no scrub; a scrub of 4 % per rad/s is not quite linear.
     EXPECT_NEAR(joint.fit(4), t.statistic, 0.15 * t.statistic);
     EXPECT_GT(t.statistic, 100.0);
   }
