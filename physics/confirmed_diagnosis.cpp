@@ -1,10 +1,38 @@
 #include "physics/confirmed_diagnosis.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "core/diagnosis/fitted_model.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
 
 namespace odolab {
+
+namespace {
+
+// Without the truth that the diagnosis set aside: outliers and what a tracker repeated say nothing of the vehicle.
+Recording with_truth_that_was_used(Recording recording, const std::vector<double>& used_s) {
+  constexpr double kSame_s = 1e-6;
+  const Channel* x = recording.channel("truth_x_m");
+  if (!x || used_s.empty()) return recording;
+  std::vector<std::size_t> unused;
+  std::size_t samples = 0;
+  for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
+    if (std::isnan(x->values[i])) continue;
+    ++samples;
+    const auto at = std::lower_bound(used_s.begin(), used_s.end(), recording.time_s[i] - kSame_s);
+    if (at == used_s.end() || *at > recording.time_s[i] + kSame_s) unused.push_back(i);
+  }
+  if (2 * unused.size() > samples) return recording;  // other stamps, or few samples by choice
+  for (Channel& channel : recording.channels)
+    if (channel.name.rfind("truth_", 0) == 0)
+      for (std::size_t i : unused) channel.values[i] = std::numeric_limits<double>::quiet_NaN();
+  return recording;
+}
+
+}  // namespace
 
 Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                       const Vehicle& nominal, const Progress& progress) {
@@ -12,7 +40,11 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   Result<Diagnosis> diagnosis =
       diagnose(train, held_out, nominal, {}, [&](double share) { return goes_on(progress, kOfDiagnosis * share); });
   if (!diagnosis) return diagnosis.error();
-  std::vector<Recording> all = train;
+  std::vector<Recording> all;
+  for (std::size_t r = 0; r < train.size(); ++r)
+    all.push_back(r < diagnosis->residuals_before.size()
+                      ? with_truth_that_was_used(train[r], diagnosis->residuals_before[r].time_s)
+                      : train[r]);
   all.insert(all.end(), held_out.begin(), held_out.end());
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
