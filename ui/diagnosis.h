@@ -27,6 +27,9 @@ struct DiagnosedRun {
   // Once it has been diagnosed; null before, and where nothing can be predicted of a run that was held out.
   const Trail* mismatch_trail = nullptr;
   const MismatchOverTime* mismatch = nullptr;
+  // Those of the vehicle's that can be drawn, and which of them is: "truck_b"; empty: the one that tows.
+  std::vector<std::string> units;
+  std::string unit;
   std::vector<LocatedStretch> located;
   // The simulation driven by its inputs; null before.
   const Track* truth_track = nullptr;

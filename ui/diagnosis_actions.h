@@ -30,6 +30,9 @@ struct GuessMystery {
 };
 struct RevealMystery {};
 struct SimulateAdvice {};
+struct ShowUnit {  // of a linked or castor vehicle: its mismatch is drawn
+  std::string unit;
+};
 enum class DiagnosisExport { report, model, json, csv };
 struct ExportDiagnosis {
   DiagnosisExport what = DiagnosisExport::report;
@@ -40,6 +43,6 @@ struct ExportDiagnosis {
 };
 
 using DiagnosisAction = std::variant<HoldOut, RemoveRun, ClearRuns, FindMissing, SwitchFinding, DrawMystery,
-                                     GuessMystery, RevealMystery, SimulateAdvice, ExportDiagnosis>;
+                                     GuessMystery, RevealMystery, SimulateAdvice, ShowUnit, ExportDiagnosis>;
 
 }  // namespace odolab::ui

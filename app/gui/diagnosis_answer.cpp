@@ -5,8 +5,6 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/place_response.h"
-#include "core/diagnosis/predicted_mismatch.h"
-#include "core/diagnosis/units/held_out_residuals.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "physics/confirmed_diagnosis.h"
 #include "physics/model_replay.h"
@@ -80,16 +78,9 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
           return;
         }
         answer->diagnosis = std::move(*found);
-        const Diagnosis drawn =
-            has_units(answer->nominal)
-                ? with_held_out_residuals_of_units(answer->diagnosis, answer->fitted(), held_out, answer->nominal)
-                : with_held_out_residuals(answer->diagnosis, held_out, answer->nominal);
+        const Diagnosis drawn = with_held_out_units(answer->diagnosis, answer->fitted(), held_out, answer->nominal);
         for (const Run& run : answer->runs) {
-          answer->mismatch.push_back(mismatch_over_time(drawn, run.name));
-          const MismatchOverTime& m = answer->mismatch.back();
-          answer->trails.emplace_back(m.time_s, m.x_m, m.y_m, m.before);
-          const Residuals* left = of_recording(drawn.residuals_before, run.name);
-          answer->mean_square.push_back(left ? mean_square(*left) : 0.0);
+          answer->units.push_back(unit_mismatches(drawn, run.name, answer->nominal));
           answer->located.push_back(located_stretches(drawn, run.name));
         }
         answer->responses = answer->diagnosis.responses;
@@ -108,11 +99,18 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
       },
       [this, answer, problem, simulations, revision](bool cancelled) {
         if (cancelled) return complain("Cancelled. What was answered before still stands.");
-        if (answer->mismatch.empty()) return complain(*problem);
+        if (answer->units.empty()) return complain(*problem);
         problem_ = *problem;
         answer_ = answer;
         answered_revision_ = revision;
         ++answers_;
+        double worst = -1.0;
+        for (const std::vector<UnitMismatch>& units : answer_->units)
+          for (const UnitMismatch& unit : units)
+            if (unit.mean_square > worst) {
+              worst = unit.mean_square;
+              unit_ = unit.unit;
+            }
         simulations_ = std::move(*simulations);
         on_.assign(answer_->diagnosis.findings.size(), false);
         shown_ = simulations_.count(on_) > 0 ? simulations_[on_].tracks : std::vector<Track>{};

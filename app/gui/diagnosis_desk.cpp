@@ -168,6 +168,7 @@ void DiagnosisDesk::carry_out(const ui::DiagnosisAction& action, Jobs& jobs) {
     changed();
   }
   if (std::holds_alternative<ui::FindMissing>(action)) find_missing(jobs);
+  if (const auto* show = std::get_if<ui::ShowUnit>(&action)) unit_ = show->unit;
   if (const auto* s = std::get_if<ui::SwitchFinding>(&action)) switch_finding(s->finding, s->on, jobs);
   if (const auto* draw = std::get_if<ui::DrawMystery>(&action)) draw_mystery(draw->seed, jobs);
   if (const auto* guess = std::get_if<ui::GuessMystery>(&action); guess && given_.mystery && !given_.revealed)
@@ -240,6 +241,13 @@ std::optional<std::size_t> DiagnosisDesk::answered(const Run& run) const {
   return std::nullopt;
 }
 
+const UnitMismatch* DiagnosisDesk::unit_of(std::size_t answered) const {
+  const std::vector<UnitMismatch>& units = answer_->units[answered];
+  for (const UnitMismatch& unit : units)
+    if (unit.unit == unit_) return &unit;
+  return units.empty() ? nullptr : &units.front();
+}
+
 Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
   if (!answer_) return Error{what.path, "no answer yet", "a diagnosis to write"};
   switch (what.what) {
@@ -255,7 +263,8 @@ Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
   const std::optional<std::size_t> r =
       what.run < given_.runs.size() ? answered(given_.runs[what.run]) : std::optional<std::size_t>();
   if (!r) return Error{what.path, "a run that was not diagnosed", "one of the answer's"};
-  return write_mismatch_csv(what.path, answer_->mismatch[*r], *answer_->runs[*r].truth,
+  const UnitMismatch* unit = unit_of(*r);
+  return write_mismatch_csv(what.path, unit ? unit->mismatch : MismatchOverTime{}, *answer_->runs[*r].truth,
                             *r < shown_.size() ? shown_[*r] : Track{}, what.stretches);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/gui/jobs.h"
+#include "app/gui/unit_mismatch.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/io/import/imported_recording.h"
 #include "physics/experiments/drawn_mystery.h"
@@ -83,9 +84,7 @@ class DiagnosisDesk {
     Vehicle nominal;
     std::vector<Run> runs;  // those fitted on, then those held out
     std::size_t fitted_on = 0;
-    std::vector<MismatchOverTime> mismatch;
-    std::vector<ui::Trail> trails;
-    std::vector<double> mean_square;  // of the residuals that calibration leaves
+    std::vector<std::vector<UnitMismatch>> units;  // of each run
     std::vector<std::vector<LocatedStretch>> located;
     std::vector<Response> responses;
     std::vector<Recording> fitted() const;
@@ -103,6 +102,8 @@ class DiagnosisDesk {
   void draw_mystery(std::uint64_t seed, Jobs& jobs);
   void simulate_advice(Jobs& jobs);
   Pose advice_start() const;
+  // Of the unit that is shown; null where nothing of the run can be drawn.
+  const UnitMismatch* unit_of(std::size_t answered) const;
   // Which of the answer's runs this one is; none where it was not part of it.
   std::optional<std::size_t> answered(const Run& run) const;
   static SimulatedRuns simulated(const Answer& answer, const Choice& choice, const Progress& progress,
@@ -116,6 +117,7 @@ class DiagnosisDesk {
   Choice on_;
   std::vector<Track> from_, shown_;
   double share_ = 1.0;  // of the way from `from_` to where the switches say
+  std::string unit_;  // shown of the answer's runs; of those that lack it the first
   std::vector<Vec2> advised_way_;
   int answers_ = 0;
   std::string problem_;

@@ -115,15 +115,19 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
     any = any || (run.problem.empty() && !run.held_out);
     if (const std::optional<std::size_t> at = answered(run)) {
       const std::size_t k = *at;
-      if (!answer_->mismatch[k].time_s.empty()) {
-        r.mismatch = &answer_->mismatch[k];
-        r.mismatch_trail = &answer_->trails[k];
+      if (const UnitMismatch* unit = unit_of(k)) {
+        r.mismatch = &unit->mismatch;
+        r.mismatch_trail = &unit->trail;
+        r.unit = unit->unit;
+      }
+      for (const UnitMismatch& unit : answer_->units[k]) {
+        r.units.push_back(unit.unit);
+        if (unit.mean_square > worst) {
+          worst = unit.mean_square;
+          v.worst_run = v.runs.size();
+        }
       }
       r.located = answer_->located[k];
-      if (answer_->mean_square[k] > worst) {
-        worst = answer_->mean_square[k];
-        v.worst_run = v.runs.size();
-      }
       r.truth_track = answer_->runs[k].truth.get();
       if (k < shown_.size() && !shown_[k].empty()) r.simulated_track = &shown_[k];
     }

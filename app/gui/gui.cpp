@@ -20,6 +20,7 @@ namespace {
 constexpr double kPictureStep = 1.0 / 60.0;    // s for the widgets, where no clock is read
 constexpr double kSimulatedPerPicture = 0.75;  // s simulated for each picture of a screenshot
 constexpr double kTimeForSimulation = 0.012;   // s of a picture's time that the simulation may take
+constexpr double kMostBehind = 0.5;            // s of a picture that are caught up with
 
 int fail(const Error& error) {
   std::fprintf(stderr, "odolab: %s\n", error.message().c_str());
@@ -164,7 +165,7 @@ int run_for_person(const GuiOptions& options, Session& session, Window& window, 
     if (std::holds_alternative<HandPath>(session.run().scenario().path) && keys_are_free)
       session.execute(hand_command(window, session.run().scenario()));
     const double now = window.seconds();
-    session.advance(std::min(now - last, 0.1), [&] { return window.seconds() - now < kTimeForSimulation; });
+    session.advance(std::min(now - last, kMostBehind), [&] { return window.seconds() - now < kTimeForSimulation; });
     last = now;
     for (const ui::Action& action : draw_screen(session, state, theme)) session.execute(action);
     window.end_picture(theme.panel);

@@ -130,6 +130,23 @@ bool learns_by_squares(const Session& session) {
   return session.mode() == ui::Mode::learn && session.lesson().is_open() && session.run().scenario().benchmark;
 }
 
+// Below the middle stands something, or will as soon as it plays.
+bool has_lower_plots(const Session& session) {
+  switch (session.mode()) {
+    case ui::Mode::calibrate:
+      return false;
+    case ui::Mode::compare:
+      return session.comparison().loaded();
+    case ui::Mode::diagnose:
+      return !session.diagnosis().runs().empty();
+    case ui::Mode::learn:
+      return session.lesson().is_open() && !learns_by_squares(session);
+    case ui::Mode::drive:
+      return true;
+  }
+  return true;
+}
+
 ui::LessonView lesson_of(const Session& session) {
   ui::LessonView view = session.lesson().view(session.jobs());
   view.benchmark = learns_by_squares(session);
@@ -326,7 +343,7 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     state.editing = false;
   }
   const SimulationState shown = session.run().shown();
-  const bool has_bottom = session.mode() != ui::Mode::calibrate && !learns_by_squares(session);
+  const bool has_bottom = has_lower_plots(session);
   const Layout l = lay_out(state, screen, has_bottom, theme);
 
   const bool on_page = session.mode() == ui::Mode::calibrate && session.guide().shown();
@@ -381,7 +398,7 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     if (has_bottom) {
       begin_pane("bottom", l.bottom_low, l.bottom_size, true, false, theme.panel);
       if (session.mode() == ui::Mode::diagnose)
-        ui::diagnosis_time_panel(session.diagnosis().view(session.jobs()), state.diagnosis, theme);
+        append(actions, ui::diagnosis_time_panel(session.diagnosis().view(session.jobs()), state.diagnosis, theme));
       else if (session.mode() != ui::Mode::compare)
         append(actions, ui::transport_bar(drive_transport(session, theme, state.estimators.shown),
                                           state.drive_transport, theme));

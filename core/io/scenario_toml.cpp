@@ -9,6 +9,7 @@
 #include "core/io/vehicle_toml.h"
 #include "core/io/whole_file.h"
 #include "core/scenario/effect_catalogue.h"
+#include "core/scenario/suited_scenario.h"
 
 namespace odolab {
 
@@ -333,7 +334,10 @@ Result<Done> read_fields(TomlTable& top, const std::string& path, Scenario& scen
   const bool another_vehicle = top.has("vehicle");
   const Result<Done> nominal = read_nominal(top, path, scenario);
   if (!nominal) return nominal.error();
-  if (another_vehicle) scenario.machine = {};
+  if (another_vehicle) {
+    scenario.machine = {};
+    if (!includes) scenario.motor = usual_motor(scenario.vehicle.kind);
+  }
 
   read_actual(top.table("actual"), scenario, !includes || another_vehicle);
   TomlTable motor = top.table("motor");

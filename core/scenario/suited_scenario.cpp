@@ -45,6 +45,13 @@ bool fits(const Path& path, const VehicleKind& kind) {
 
 }  // namespace
 
+Motor usual_motor(const VehicleKind& kind) {
+  Motor motor;
+  if (std::holds_alternative<Tracked>(kind) || std::holds_alternative<EncoderTrailer>(kind))
+    motor.torque_limit_nm = 100.0;
+  return motor;
+}
+
 Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
   const bool same_kind = scenario.vehicle.kind.index() == vehicle.kind.index();
   scenario.vehicle = vehicle;
@@ -58,7 +65,7 @@ Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
     scenario.machine = {};
     scenario.effects.clear();
     scenario.actual = plain.actual;
-    scenario.motor = plain.motor;
+    scenario.motor = usual_motor(vehicle.kind);
     scenario.driving = plain.driving;
     scenario.sensors.encoder_period_s = std::max(plain.sensors.encoder_period_s, scenario.step_s);
     if (!std::holds_alternative<DifferentialDrive>(vehicle.kind)) scenario.benchmark.reset();

@@ -11,4 +11,8 @@ namespace odolab {
 // scenario and the vehicle did not have.
 Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle);
 
+// The motors of a vehicle of this kind where nobody says more: those of a Motor, but of tracks strong enough to skid
+// them (100 N m: a sprocket of 0.1 m under half of 200 kg needs 78 N m at a friction of 0.8; an assumption).
+Motor usual_motor(const VehicleKind& kind);
+
 }  // namespace odolab

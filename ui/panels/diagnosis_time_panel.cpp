@@ -34,6 +34,13 @@ std::string brush_words(const DiagnosedRun& run, const DiagnosisState& state) {
   return all;
 }
 
+// "truck_b" as "truck b"; what tows has no name of its own.
+std::string unit_words(std::string unit) {
+  if (unit.empty()) return "towing";
+  std::replace(unit.begin(), unit.end(), '_', ' ');
+  return unit;
+}
+
 void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisState& state, ImVec2 size,
                const Theme& theme) {
   Plot what;
@@ -121,10 +128,11 @@ void response_choice(const DiagnosisView& view, DiagnosisState& state, float wid
 
 }  // namespace
 
-void diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, const Theme& theme) {
+Actions diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, const Theme& theme) {
+  Actions actions;
   if (view.runs.empty()) {
     note("The mismatch over time and what it depends on will stand here.", theme);
-    return;
+    return actions;
   }
   const DiagnosedRun& run = view.runs[std::min(state.run, view.runs.size() - 1)];
   const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -133,6 +141,17 @@ void diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, cons
   const float left = two ? std::round(0.62f * room.x) : room.x, right = room.x - left - gap;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(fitted(run.held_out ? run.name + ", held out" : run.name, 0.3f * left).c_str());
+  if (run.units.size() > 1) {
+    ImGui::SameLine(0, theme.px(14));
+    std::vector<std::string> labels;
+    int shown = 0;
+    for (std::size_t u = 0; u < run.units.size(); ++u) {
+      labels.push_back(unit_words(run.units[u]));
+      if (run.units[u] == run.unit) shown = int(u);
+    }
+    if (const auto choice = segmented("unit", labels, shown, theme))
+      actions.push_back(InDiagnosis{ShowUnit{run.units[std::size_t(*choice)]}});
+  }
   if (run.mismatch) {
     ImGui::SameLine(0, theme.px(14));
     ImGui::TextDisabled("%s", fitted(brush_words(run, state), left - ImGui::GetCursorPosX()).c_str());
@@ -148,6 +167,7 @@ void diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, cons
     ImGui::SetCursorScreenPos({at.x + left + gap, at.y});
     response(view, state, {right, height}, theme);
   }
+  return actions;
 }
 
 }  // namespace odolab::ui

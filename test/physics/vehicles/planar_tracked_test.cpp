@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/scenario/suited_scenario.h"
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -91,6 +92,17 @@ TEST(Tracked, StrongMotorsTurnItAsFarAsIdealOnesAndWeakOnesNotAtAll) {
   simulation.drive_by_hand(0.0, 0.5);
   run_to_end(simulation, 5.0);
   EXPECT_LT(std::abs(simulation.state().true_pose.heading_rad), 1e-4);
+}
+
+// Of a scenario that says nothing of motors.
+TEST(Tracked, TheUsualMotorsOfTracksTurnIt) {
+  for (const double mass_kg : {Scenario{}.actual.mass_kg, 200.0}) {
+    Scenario newcomers = andros(SquarePath{});
+    newcomers.actual.mass_kg = mass_kg;
+    const double ideal = apparent_width(newcomers);
+    newcomers.motor = usual_motor(newcomers.vehicle.kind);
+    EXPECT_NEAR(apparent_width(newcomers), ideal, 0.02 * ideal) << mass_kg;  // starting up, as with strong motors
+  }
 }
 
 TEST(Tracked, AWeightForwardTurnsItAboutAPointAhead) {
