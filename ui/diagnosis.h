@@ -104,6 +104,7 @@ ImU32 run_colour(std::size_t run, const Theme& theme);
 struct DiagnosisState {
   std::size_t run = 0;  // shown
   int answers_seen = 0;
+  std::size_t runs_seen = 0;
   std::vector<Stretch> brush;      // of that run
   std::optional<std::size_t> lit;  // the finding whose places were asked for
   int response = 0;

@@ -35,7 +35,9 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                    ImGuiWindowFlags_NoNavFocus;
 
-constexpr float kMostAside = 0.68f;  // of the width, for both panes beside the middle
+// Of the width, for both panes beside the middle, a floor or a guide's page.
+constexpr float kMostAside = 0.68f, kMostBesidePage = 0.58f;
+constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;  // heights at scale 1
 
 // Where the panes are, in pixels.
 struct Layout {
@@ -43,16 +45,18 @@ struct Layout {
   bool has_bottom = true;
 };
 
-Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, const Theme& theme) {
+Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on_page, const Theme& theme) {
   Layout l;
   l.has_bottom = has_bottom;
   const float top = state.choices.hide_interface ? 0.0f : theme.px(40);
   const float bottom = has_bottom && !state.choices.hide_interface
-                           ? std::min(theme.px(float(state.bottom_height)), 0.6f * screen.y)
+                           ? std::min({theme.px(float(state.bottom_height)), 0.6f * screen.y,
+                                       std::max(theme.px(kLeastBottom), screen.y - top - theme.px(kLeastMiddle))})
                            : 0.0f;
   float left = state.choices.hide_interface ? 0.0f : theme.px(float(state.left_width));
   float right = state.choices.hide_interface ? 0.0f : theme.px(float(state.right_width));
-  const float too_wide = (left + right) / (kMostAside * screen.x);  // the middle is what people look at
+  const float too_wide =
+      (left + right) / ((on_page ? kMostBesidePage : kMostAside) * screen.x);  // the middle is what people look at
   if (too_wide > 1.0f) {
     left = std::round(left / too_wide);
     right = std::round(right / too_wide);
@@ -230,6 +234,7 @@ Actions diagnosis_centre(const Session& session, ScreenState& state, const Theme
     state.diagnosis.lit.reset();
     state.diagnosis.time_view.fitted = state.diagnosis.response_view.fitted = state.diagnosis.fit_floor = true;
   }
+  if (std::exchange(state.diagnosis.runs_seen, view.runs.size()) != view.runs.size()) state.diagnosis.fit_floor = true;
   state.diagnosis_floor.fit_next = std::exchange(state.diagnosis.fit_floor, false) || state.diagnosis_floor.fit_next;
   if (view.runs.empty()) return ui::diagnosis_welcome(view, state.diagnosis, state.choices.show_open, theme);
   Actions actions = ui::floor_view(diagnosis_scene(view, state.diagnosis, theme), state.diagnosis_floor, theme);
@@ -344,9 +349,9 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
   }
   const SimulationState shown = session.run().shown();
   const bool has_bottom = has_lower_plots(session);
-  const Layout l = lay_out(state, screen, has_bottom, theme);
-
   const bool on_page = session.mode() == ui::Mode::calibrate && session.guide().shown();
+  const Layout l = lay_out(state, screen, has_bottom, on_page, theme);
+
   const bool on_plots = !on_page && (session.mode() == ui::Mode::calibrate || learns_by_squares(session));
   const float message_height = ui::message_bar_height(session.messages(), l.centre_size.x, theme);
   state.guide.covered_below = on_page ? message_height : 0.0f;

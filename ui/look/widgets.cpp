@@ -188,7 +188,7 @@ bool section(const char* title, const Theme& theme, bool open_at_first) {
 void heading(const char* title, const Theme& theme) {
   ImGui::Dummy({0, theme.px(2)});
   WithFont strong(theme.strong);
-  ImGui::TextUnformatted(title);
+  ImGui::TextUnformatted(wrapped_at(title, ImGui::GetContentRegionAvail().x).c_str());
 }
 
 std::string wrapped_at(const std::string& text, float width) {

@@ -228,7 +228,7 @@ Actions diagnosis_runs_panel(const DiagnosisView& view, DiagnosisState& state, c
       actions.push_back(wish(FindMissing{}));
     if (view.stale) note("The list has changed since the answer on the right.", theme);
   }
-  if (!view.problem.empty()) warning(view.problem, theme);
+  if (!view.problem.empty() && !view.runs.empty()) warning(view.problem, theme);  // else the middle says it
   if (view.diagnosis) append(actions, export_part(state, theme));
   if (!view.runs.empty() && (!view.mystery || view.mystery->revealed)) {
     heading("Practise", theme);

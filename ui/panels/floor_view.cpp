@@ -102,7 +102,7 @@ void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme)
 float lens_side(const Camera& camera, const Theme& theme) {
   const float side =
       std::min(theme.px(200), 0.42f * std::min(camera.high.x - camera.low.x, camera.high.y - camera.low.y));
-  return side < theme.px(90) ? 0.0f : side;
+  return side < theme.px(130) ? 0.0f : side;
 }
 
 // Everything worth seeing, for a fit.
@@ -116,11 +116,14 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
   // All along its path the vehicle stays in sight, without the view growing when it comes to an edge.
   const double reach_m = scene.vehicles.empty() ? 0.3 : reach_of(scene.vehicles.front());
   for (const Vec2 p : scene.planned) take(p, reach_m);
-  for (const FloorTrail& t : scene.trails)
-    if (t.trail && !t.trail->empty() && !t.aside) {
-      take(t.trail->lowest(), 0.1);
-      take(t.trail->highest(), 0.1);
-    }
+  const auto take_trails = [&](bool aside) {
+    for (const FloorTrail& t : scene.trails)
+      if (t.trail && !t.trail->empty() && t.aside == aside) {
+        take(t.trail->lowest(), 0.1);
+        take(t.trail->highest(), 0.1);
+      }
+  };
+  take_trails(false);
   for (const TrackLine& line : scene.tracks)
     if (line.track)
       for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
@@ -131,6 +134,7 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
       take(a);
       take(b);
     }
+  if (low.x_m > high.x_m) take_trails(true);
   if (low.x_m > high.x_m) {
     low = {-1.0, -1.0};
     high = {5.0, 5.0};
@@ -144,24 +148,31 @@ void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& sta
   const float y = camera.low.y + theme.px(8);
   float total = 0.0f;
   const bool planned = state.show_planned && scene.planned.size() > 1;
-  const char* planned_label = scene.planned_name.c_str();
+  const auto room_of = [&](const std::string& label) {
+    return swatch + theme.px(6) + ImGui::CalcTextSize(label.c_str()).x + gap;
+  };
+  const auto fits = [&](float end) { return x + end - gap < camera.high.x - theme.px(8); };
+  std::vector<const TrackLine*> named;
   for (const TrackLine& t : scene.tracks)
-    if (!t.label.empty()) total += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
-  if (planned) total += swatch + theme.px(6) + ImGui::CalcTextSize(planned_label).x + gap;
+    if (!t.label.empty() && fits(total + room_of(t.label))) {
+      named.push_back(&t);
+      total += room_of(t.label);
+    }
+  const bool names_planned = planned && fits(total + room_of(scene.planned_name));
+  if (names_planned) total += room_of(scene.planned_name);
   if (total == 0.0f) return;
   draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total - gap + theme.px(6), y + line + theme.px(4)},
                      faded(theme.paper, 0.85f), theme.px(4));
   const float middle = y + 0.5f * line;
-  for (const TrackLine& t : scene.tracks) {
-    if (t.label.empty()) continue;
-    draw_stroke(draw, {{x, middle}, {x + swatch, middle}}, t.colour, t.dash, theme);
-    draw.AddText({x + swatch + theme.px(6), y}, theme.ink, t.label.c_str());
-    x += swatch + theme.px(6) + ImGui::CalcTextSize(t.label.c_str()).x + gap;
+  for (const TrackLine* t : named) {
+    draw_stroke(draw, {{x, middle}, {x + swatch, middle}}, t->colour, t->dash, theme);
+    draw.AddText({x + swatch + theme.px(6), y}, theme.ink, t->label.c_str());
+    x += room_of(t->label);
   }
-  if (planned) {
+  if (names_planned) {
     dashed_line(draw, {{x, middle}, {x + swatch, middle}}, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2),
                 theme.px(4));
-    draw.AddText({x + swatch + theme.px(6), y}, theme.muted, planned_label);
+    draw.AddText({x + swatch + theme.px(6), y}, theme.muted, scene.planned_name.c_str());
   }
   if (state.exaggerate) {
     const std::string text = "deviation drawn " + times(state.exaggeration);

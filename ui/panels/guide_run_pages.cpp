@@ -32,7 +32,8 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
     tooltip("UMBmark needs the place alone.", theme);
   }
   Edited e = Edited::no;
-  const float label = std::min(theme.px(190), 0.34f * width);
+  const bool narrow = width < theme.px(360);  // the words stand above their fields
+  const float label = narrow ? ImGui::GetCursorPosX() : std::min(theme.px(190), 0.34f * width);
   const float field = std::min(theme.px(104), 0.5f * (width - label) - theme.px(34));
   const auto pose_row = [&](const char* words, const char* tip, Pose& pose) {
     ImGui::PushID(words);
@@ -49,14 +50,16 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
                           {"y", &pose.y_m, kReadMillimetres, true},
                           {"heading", &pose.heading_rad, kDegrees, s.draft.has_heading}};
     float x = label;
+    bool begun = !narrow;
     for (const Part& part : parts) {
       if (!part.there) continue;
-      const bool fits = x + ImGui::CalcTextSize(part.name).x + field < width + theme.px(30);
+      const bool fits = begun && x + ImGui::CalcTextSize(part.name).x + field < width + theme.px(30);
       if (!fits) x = label;  // on the next line
       if (fits)
         ImGui::SameLine(x);
       else
         ImGui::SetCursorPosX(x);
+      begun = true;
       ImGui::AlignTextToFramePadding();
       ImGui::TextDisabled("%s", part.name);
       x += ImGui::CalcTextSize(part.name).x + theme.px(7);
