@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/evened_recording.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/rests.h"
 #include "core/calibration/slow_counts.h"
@@ -56,12 +57,15 @@ int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSam
 }
 }  // namespace
 
-Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle) {
+Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& vehicle) {
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
-  const std::string where = recording.name.empty() ? "recording" : recording.name;
-  if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
+  const std::string where = as_logged.name.empty() ? "recording" : as_logged.name;
+  if (const std::vector<std::string> problems = problems_in(as_logged); !problems.empty())
     return Error{where, "", problems.front()};
   InnovationRun run;
+  const std::optional<EvenedRecording> even = evened(as_logged, drive);
+  if (even) run.warnings = even->said;
+  const Recording& recording = even ? even->recording : as_logged;
   run.name = where;
   for (const WheelSample& w : wheel_samples(recording, drive))
     if (run.wheels.empty() || w.time_s > run.wheels.back().time_s) run.wheels.push_back(w);

@@ -83,6 +83,7 @@ struct InnovationRun {
   std::vector<unsigned char> settles;  // for each interval: 1 where the left wheel's count comes to rest or leaves it,
                                        // 2 the right's; empty where counts do not show
   std::vector<ExtraColumn> extra;      // the same number in each run of a set
+  std::vector<std::string> warnings;   // what was put right while it was read
   int frozen = 0;                      // truth samples left out since they repeat themselves while the wheels turn
 };
 

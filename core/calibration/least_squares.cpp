@@ -70,11 +70,13 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     return Error{nominal.name, "", problems.front()};
   if (recordings.empty()) return Error{"recordings", "none", "one or more"};
   std::vector<InnovationRun> runs;
+  std::vector<std::string> put_right;
   bool any_heading = false;
   for (const Recording& recording : recordings) {
     Result<InnovationRun> run = innovation_run(recording, nominal);
     if (!run) return run.error();
     any_heading = any_heading || run->truth_has_heading;
+    put_right.insert(put_right.end(), run->warnings.begin(), run->warnings.end());
     runs.push_back(std::move(*run));
   }
   const Error stopped{"calibration", "stopped before its end", ""};
@@ -142,7 +144,8 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   if (!goes_on(progress, 1.0)) return stopped;
 
   LeastSquaresCalibration result;
-  result.warnings = jumps;
+  result.warnings = put_right;
+  result.warnings.insert(result.warnings.end(), jumps.begin(), jumps.end());
   const InnovationModel& model = fit.now().shared;
   fit.correlations(result.correlation);
   result.lasting_correlation = fit.lasting_correlation();

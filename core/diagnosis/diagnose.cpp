@@ -308,7 +308,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   Result<LeastSquaresCalibration> calibration = calibrate_least_squares(clean, nominal, {}, calibrating);
   if (!calibration) return calibration.error();
   d.calibration = d.calibration_alone = *calibration;
-  d.warnings = calibration->warnings;
+  for (const std::vector<CheckedRecording>* set : {&ready, &ready_held_out})
+    for (const CheckedRecording& c : *set) d.warnings.insert(d.warnings.end(), c.warnings.begin(), c.warnings.end());
+  d.warnings.insert(d.warnings.end(), calibration->warnings.begin(), calibration->warnings.end());
   if (calibration->truth_apart_s > 0.0)
     for (std::vector<CheckedRecording>* checked : {&ready, &ready_held_out})
       for (CheckedRecording& c : *checked) c.recording = with_truth_apart(c.recording, calibration->truth_apart_s);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "core/calibration/evened_recording.h"
 
 namespace odolab {
 
@@ -49,10 +52,13 @@ double median(std::vector<double> v) {
 
 }  // namespace
 
-CheckedRecording checked(const Recording& recording, const Vehicle& vehicle) {
+CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   CheckedRecording out;
-  out.recording = recording;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
+  const std::optional<EvenedRecording> even = evened(as_logged, drive);
+  if (even) out.warnings = even->said;
+  const Recording& recording = even ? even->recording : as_logged;
+  out.recording = recording;
   std::vector<WheelSample> wheels = wheel_samples(recording, drive);
   if (wheels.size() < 2 && recording.channel("command_speed_mps") && recording.channel("command_yaw_rate_radps")) {
     out.from_commands = true;

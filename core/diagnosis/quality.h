@@ -20,9 +20,12 @@ struct DataFault {
 };
 
 struct CheckedRecording {
-  Recording recording;  // without the frozen truth; with wheels in place of commands where there are only commands
+  // Without the frozen truth, on even stamps where those were of arrival; with wheels in place of commands where there
+  // are only commands.
+  Recording recording;
   bool from_commands = false;
   std::vector<DataFault> faults;
+  std::vector<std::string> warnings;               // what was put right
   std::vector<std::pair<double, double>> break_s;  // no motion across these may be trusted
 };
 

@@ -1,0 +1,216 @@
+#include "core/calibration/even_stamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace odolab {
+
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr int kLeastRows = 100;    // in all
+constexpr int kLeastStretch = 30;  // rows that a line is laid through
+constexpr int kLook = 20;          // rows on either side of a missing one
+constexpr double kKnots_s = 5.0;   // so slowly may the sampling's own clock wander
+constexpr double kEven = 0.001;    // of a period: rounded stamps
+constexpr double kStandardErrors = 4.0;
+constexpr double kMatters = 0.5;  // of the readings' own roughness: what lateness adds below that is one part in ten
+
+double quantile(Series v, double share) {
+  if (v.empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), v.begin() + k, v.end());
+  return v[static_cast<std::size_t>(k)];
+}
+
+double median_size(Series v) {
+  for (double& x : v) x = std::abs(x);
+  return quantile(std::move(v), 0.5);
+}
+
+// The typical period: twenty rows at a time, so that packets do not hide it.
+double period_of(const Series& time_s) {
+  Series gaps;
+  for (std::size_t i = kLook; i < time_s.size(); ++i) gaps.push_back((time_s[i] - time_s[i - kLook]) / kLook);
+  return quantile(std::move(gaps), 0.5);
+}
+
+// Ends of the stretches in which no row is missing. Lateness has a least value: the lower fifth of the rows before and
+// behind shows a step of the phase far better than their mean does.
+std::vector<int> ends_of_stretches(const Series& time_s, double period_s) {
+  const int n = static_cast<int>(time_s.size());
+  const auto early = [&](int from, int to, int origin) {
+    Series late;
+    for (int i = from; i < to; ++i) late.push_back(time_s[i] - time_s[0] - period_s * (i - origin));
+    return quantile(std::move(late), 0.2);
+  };
+  Series step(time_s.size(), 0.0);
+  for (int i = kLook; i + kLook <= n; ++i) step[i] = early(i, i + kLook, i) - early(i - kLook, i, i);
+  const double limit = std::max(0.4 * period_s, 5.0 * 1.4826 * median_size(step));
+  std::vector<int> ends;
+  for (int i = 1; i < n; ++i) {
+    // A step shows for some rows around it; it lies where the gap is least like a period.
+    int at = i;
+    const bool gap = time_s[i] - time_s[i - 1] > 20.0 * period_s;
+    if (gap) {
+      ends.push_back(i);
+      continue;
+    }
+    if (std::abs(step[i]) <= limit) continue;
+    const auto unlike = [&](int k) { return std::abs(time_s[k] - time_s[k - 1] - period_s); };
+    while (i < n && std::abs(step[i]) > limit) {
+      if (unlike(i) > unlike(at)) at = i;
+      ++i;
+    }
+    ends.push_back(at);
+  }
+  ends.push_back(n);
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
+}
+
+// Stamps against their number: straight lines between knots, by least squares with Huber's weights.
+void lay_line(const Series& time_s, int from, int to, double period_s, Series& even) {
+  const int n = to - from, spans = std::max(1, static_cast<int>(std::lround(n * period_s / kKnots_s)));
+  const double rows = static_cast<double>(n - 1) / spans;
+  Series late(n), weight(n, 1.0), knots(spans + 1, 0.0);
+  for (int i = 0; i < n; ++i) late[i] = time_s[from + i] - time_s[from] - period_s * i;
+  const auto span_of = [&](int i) { return std::min(spans - 1, static_cast<int>(i / rows)); };
+  for (int pass = 0; pass < 6; ++pass) {
+    Series diagonal(spans + 1, 1e-12), beside(spans + 1, 0.0), right(spans + 1, 0.0);
+    for (int i = 0; i < n; ++i) {
+      const int k = span_of(i);
+      const double u = i / rows - k;
+      diagonal[k] += weight[i] * (1.0 - u) * (1.0 - u);
+      diagonal[k + 1] += weight[i] * u * u;
+      beside[k] += weight[i] * u * (1.0 - u);
+      right[k] += weight[i] * (1.0 - u) * late[i];
+      right[k + 1] += weight[i] * u * late[i];
+    }
+    for (int k = 1; k <= spans; ++k) {
+      const double share = beside[k - 1] / diagonal[k - 1];
+      diagonal[k] -= share * beside[k - 1];
+      right[k] -= share * right[k - 1];
+    }
+    for (int k = spans; k >= 0; --k) knots[k] = (right[k] - (k < spans ? beside[k] * knots[k + 1] : 0.0)) / diagonal[k];
+    Series off(n);
+    for (int i = 0; i < n; ++i) {
+      const int k = span_of(i);
+      const double u = i / rows - k;
+      off[i] = late[i] - (1.0 - u) * knots[k] - u * knots[k + 1];
+      even[from + i] = time_s[from + i] - off[i];
+    }
+    const double scale = 2.0 * 1.4826 * median_size(off);
+    for (int i = 0; i < n; ++i) weight[i] = std::abs(off[i]) > scale && scale > 0.0 ? scale / std::abs(off[i]) : 1.0;
+  }
+}
+
+// The share of the lateness that a path shows, Eq. 13.
+struct Share {
+  double value = 1.0, stderr_value = 1e9;
+  double size = 0.0;  // of the lateness, in times the path's own roughness
+};
+
+Share share_of(const Series& shown, const Series& lateness) {
+  Share share;
+  std::vector<char> used(shown.size(), 1);
+  for (int pass = 0; pass < 4; ++pass) {
+    double xy = 0.0, xx = 0.0, n = 0.0, ee = 0.0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (used[i]) {
+        xy += lateness[i] * shown[i];
+        xx += lateness[i] * lateness[i];
+        n += 1.0;
+      }
+    if (n < kLeastRows || !(xx > 0.0)) return {};
+    share.value = xy / xx;
+    Series left(shown.size());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      left[i] = shown[i] - share.value * lateness[i];
+      if (used[i]) ee += left[i] * left[i];
+    }
+    // Third differences of white noise are correlated by -15/20, 6/20 and -1/20 in both: 1 + 2 (sum of their squares).
+    constexpr double kOverlap = 2.31;
+    share.stderr_value = std::sqrt(kOverlap * ee / n / xx);
+    share.size = ee > 0.0 ? std::sqrt(xx / ee) : 1e9;
+    const double limit = 6.0 * 1.4826 * median_size(left);
+    if (limit > 0.0)
+      for (std::size_t i = 0; i < shown.size(); ++i) used[i] = std::abs(left[i]) <= limit;
+  }
+  return share;
+}
+
+}  // namespace
+
+std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Series>& paths, bool together) {
+  const int n = static_cast<int>(time_s.size());
+  if (n < kLeastRows) return std::nullopt;
+  EvenStamps even;
+  even.period_s = period_of(time_s);
+  if (!(even.period_s > 0.0)) return std::nullopt;
+  even.time_s = time_s;
+  const std::vector<int> ends = ends_of_stretches(time_s, even.period_s);
+  std::vector<int> stretch(time_s.size(), -1);
+  int from = 0, laid = 0, blocks = 0, wandering = 0;
+  for (const int end : ends) {
+    if (end - from >= kLeastStretch) {
+      lay_line(time_s, from, end, even.period_s, even.time_s);
+      std::fill(stretch.begin() + from, stretch.begin() + end, from);
+      laid += end - from;
+      // Where whole blocks stay off the line the readings were not taken at one period: those of an encoder that speaks
+      // at each count, for one.
+      for (int i = from; i + kLook <= end; i += kLook, ++blocks) {
+        Series off;
+        for (int k = i; k < i + kLook; ++k) off.push_back(time_s[k] - even.time_s[k]);
+        wandering += std::abs(quantile(std::move(off), 0.5)) > 0.6 * even.period_s;
+      }
+    }
+    from = end;
+  }
+  if (laid < 0.8 * n || wandering > 0.05 * blocks) return std::nullopt;
+  double squares = 0.0;
+  Series lateness(time_s.size());
+  for (int i = 0; i < n; ++i) {
+    lateness[i] = time_s[i] - even.time_s[i];
+    squares += lateness[i] * lateness[i];
+  }
+  even.trembling_s = std::sqrt(squares / laid);
+  if (even.trembling_s < kEven * even.period_s) return std::nullopt;
+
+  // What the paths show of it.
+  constexpr int kReach = 5;
+  const auto third = [](const Series& v, int i) { return v[i + 3] - v[i] - 3.0 * (v[i + 2] - v[i + 1]); };
+  Series thirds;
+  for (int i = 0; i + 3 < n; ++i)
+    if (stretch[i] >= 0 && stretch[i] == stretch[i + 3]) thirds.push_back(third(lateness, i));
+  const double stalls = 8.0 * median_size(std::move(thirds));
+  Series shown, late;
+  bool any = false;
+  const auto judged = [&] {
+    const Share share = share_of(shown, late);
+    shown.clear();
+    late.clear();
+    if (share.value + kStandardErrors * share.stderr_value < 0.5 && share.size > kMatters) any = true;
+    return share.value < 0.5 || share.stderr_value > 0.2;  // nothing speaks against it
+  };
+  for (const Series& path : paths) {
+    for (int i = kReach; i + 3 + kReach < n; ++i) {
+      const int a = i - kReach, b = i + 3 + kReach;
+      if (stretch[a] < 0 || stretch[a] != stretch[b]) continue;
+      const double by = third(lateness, i);
+      if (std::abs(by) > stalls) continue;
+      shown.push_back(third(path, i));
+      late.push_back((path[b] - path[a]) / (even.time_s[b] - even.time_s[a]) * by);
+    }
+    if (!together && !judged()) return std::nullopt;
+  }
+  if (together && !judged()) return std::nullopt;
+  if (!any) return std::nullopt;
+  for (int i = 1; i < n; ++i) even.time_s[i] = std::max(even.time_s[i], even.time_s[i - 1]);
+  return even;
+}
+
+}  // namespace odolab

@@ -1,0 +1,130 @@
+#include "core/calibration/evened_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "core/calibration/even_stamps.h"
+
+namespace odolab {
+
+namespace {
+
+bool of_wheels(const std::string& name) {
+  return name == "left_wheel_rad" || name == "right_wheel_rad" || name == "left_ticks" || name == "right_ticks";
+}
+bool of_truth(const std::string& name) { return name.rfind("truth_", 0) == 0; }
+
+std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
+  char text[160];
+  std::snprintf(text, sizeof text, ": its %s stamps tremble by %.2g ms about an even %.4g Hz; evened", what,
+                1e3 * even.trembling_s, 1.0 / even.period_s);
+  return (name.empty() ? "the recording" : name) + text;
+}
+
+// New times of the rows that hold a value of the channels that belong together; NaN elsewhere.
+struct NewTimes {
+  bool (*belongs)(const std::string&);
+  std::vector<double> time_s;
+};
+
+Recording with(const Recording& old, const std::vector<NewTimes>& evened) {
+  struct Row {
+    double time_s;
+    std::size_t from;
+    int part;  // which of `evened`; -1: what keeps its time
+  };
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < old.time_s.size(); ++i) {
+    bool keeps = false, moves = false;
+    for (const Channel& c : old.channels) {
+      if (std::isnan(c.values[i])) continue;
+      bool moved = false;
+      for (const NewTimes& e : evened) moved = moved || (e.belongs(c.name) && !std::isnan(e.time_s[i]));
+      keeps = keeps || !moved;
+      moves = moves || moved;
+    }
+    if (keeps || !moves) rows.push_back({old.time_s[i], i, -1});
+    for (std::size_t p = 0; p < evened.size(); ++p)
+      if (!std::isnan(evened[p].time_s[i])) rows.push_back({evened[p].time_s[i], i, static_cast<int>(p)});
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time_s < b.time_s; });
+  Recording made{old.name, old.provenance, {}, {}};
+  for (const Row& r : rows) made.time_s.push_back(r.time_s);
+  for (const Channel& c : old.channels) {
+    Channel& values = made.add_channel(c.name);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      int part = -1;
+      for (std::size_t p = 0; p < evened.size(); ++p)
+        if (evened[p].belongs(c.name) && !std::isnan(evened[p].time_s[rows[k].from])) part = static_cast<int>(p);
+      if (part == rows[k].part) values.values[k] = c.values[rows[k].from];
+    }
+  }
+  return made;
+}
+
+// `even` has a time for each row that `taken` says was sampled.
+std::vector<double> row_times(const std::vector<char>& taken, const EvenStamps& even) {
+  std::vector<double> times(taken.size(), std::numeric_limits<double>::quiet_NaN());
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (taken[i]) times[i] = even.time_s[k++];
+  return times;
+}
+
+// Rows in which all of these channels hold a value, or nothing where one is missing in a row that holds another: those
+// were read apart from each other.
+std::optional<std::vector<char>> rows_of(const Recording& recording, const char* first, const char* second) {
+  const Channel *a = recording.channel(first), *b = recording.channel(second);
+  if (!a || !b) return std::nullopt;
+  std::vector<char> taken(recording.time_s.size());
+  bool any = false;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    taken[i] = !std::isnan(a->values[i]);
+    if (std::isnan(b->values[i]) == (taken[i] != 0)) return std::nullopt;
+    any = any || taken[i];
+  }
+  if (!any) return std::nullopt;
+  return taken;
+}
+
+}  // namespace
+
+std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive) {
+  EvenedRecording out;
+  std::vector<NewTimes> parts;
+  std::optional<std::vector<char>> read = rows_of(recording, "left_wheel_rad", "right_wheel_rad");
+  if (!read) read = rows_of(recording, "left_ticks", "right_ticks");
+  if (read) {
+    std::vector<double> time_s, left, right;
+    for (const WheelSample& w : wheel_samples(recording, drive)) {
+      time_s.push_back(w.time_s);
+      left.push_back(w.left_rad);
+      right.push_back(w.right_rad);
+    }
+    if (static_cast<std::ptrdiff_t>(time_s.size()) == std::count(read->begin(), read->end(), 1))
+      if (const auto even = even_stamps(time_s, {left, right})) {
+        out.said.push_back(sentence(recording.name, "encoder", *even));
+        parts.push_back({of_wheels, row_times(*read, *even)});
+      }
+  }
+  if (const auto seen = rows_of(recording, "truth_x_m", "truth_y_m")) {
+    std::vector<double> time_s, x, y;
+    for (const TruthSample& t : truth_samples(recording)) {
+      time_s.push_back(t.time_s);
+      x.push_back(t.position.x_m);
+      y.push_back(t.position.y_m);
+    }
+    if (const auto even = even_stamps(time_s, {x, y}, true)) {
+      out.said.push_back(sentence(recording.name, "truth", *even));
+      parts.push_back({of_truth, row_times(*seen, *even)});
+    }
+  }
+  if (parts.empty()) return std::nullopt;
+  out.recording = with(recording, parts);
+  return out;
+}
+
+}  // namespace odolab

@@ -1,0 +1,22 @@
+// Recordings whose stamps are those of arrival, put back onto the even period at which they were taken.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/recording/recording.h"
+#include "core/vehicle/differential_drive.h"
+
+namespace odolab {
+
+struct EvenedRecording {
+  Recording recording;            // rows in order of their new times; wheels and truth of one row may come apart
+  std::vector<std::string> said;  // what was done, for whoever reads the report
+};
+
+// Nothing where all stamps are to be believed (`even_stamps`): the wheels' way decides for the encoders, the truth's
+// own path for the truth.
+std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive);
+
+}  // namespace odolab

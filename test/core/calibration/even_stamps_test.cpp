@@ -1,0 +1,224 @@
+#include "core/calibration/even_stamps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/calibration/evened_recording.h"
+#include "core/calibration/innovations.h"
+#include "core/calibration/least_squares.h"
+#include "test/support/drive_generator.h"
+
+namespace odolab {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr double kPeriod_s = 0.02;
+constexpr int kRows = 1500;
+
+double late_s(Random& random, double mean_s) { return -mean_s * std::log(1.0 - random.uniform()); }
+
+// A wheel that speeds up, slows down and turns back: up to 5 rad/s.
+double turned_rad(double t) { return 10.0 * std::sin(0.5 * t) + 0.7 * t; }
+
+double counted_rad(double rad) { return 0.003 * std::floor(rad / 0.003); }
+
+Series evenly() {
+  Series taken_s;
+  for (int i = 0; i < kRows; ++i) taken_s.push_back(1e6 + kPeriod_s * i);  // as a long-running clock counts
+  return taken_s;
+}
+
+Series read_at(const Series& taken_s) {
+  Series rad;
+  for (double t : taken_s) rad.push_back(counted_rad(turned_rad(t - 1e6)));
+  return rad;
+}
+
+// In order of sending, as a link delivers: none overtakes another.
+Series arrived(const Series& taken_s, double mean_s, Random& random) {
+  Series stamps;
+  for (double t : taken_s) {
+    const double s = t + late_s(random, mean_s);
+    stamps.push_back(stamps.empty() ? s : std::max(stamps.back() + 1e-4, s));
+  }
+  return stamps;
+}
+
+// Root mean square about the mean of what the stamps are late by.
+double unevenness_s(const Series& stamps, const Series& taken_s) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    const double late = stamps[i] - taken_s[i];
+    sum += late;
+    squares += late * late;
+  }
+  const auto n = static_cast<double>(stamps.size());
+  return std::sqrt(squares / n - sum / n * sum / n);
+}
+
+TEST(EvenStamps, ReadingsThatArriveLateAreGivenTheirEvenTimesBack) {
+  Random random(1);
+  const Series taken = evenly(), rad = read_at(taken), stamps = arrived(taken, 0.004, random);
+  const auto even = even_stamps(stamps, {rad, rad});
+  ASSERT_TRUE(even);
+  // The lateness of 4 ms is averaged over five seconds, 250 rows, twice as badly at a line's ends: 0.25 to 0.5 ms.
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.0005);
+  EXPECT_NEAR(even->trembling_s, unevenness_s(stamps, taken), 0.0003);  // less what the line followed
+  EXPECT_NEAR(even->period_s, kPeriod_s, 1e-4);  // lateness over the root of 1500 rows and 20 rows apart
+}
+
+TEST(EvenStamps, TrueStampsOfUnevenSamplingAreBelieved) {
+  Random random(2);
+  Series taken;
+  for (double t : evenly()) taken.push_back(t + 0.004 * random.normal());
+  std::sort(taken.begin(), taken.end());
+  EXPECT_FALSE(even_stamps(taken, {read_at(taken), read_at(taken)}));
+
+  // A loop that waits a period and then needs its time.
+  Series waited{1e6};
+  while (waited.size() < kRows) waited.push_back(waited.back() + kPeriod_s + late_s(random, 0.003));
+  EXPECT_FALSE(even_stamps(waited, {read_at(waited), read_at(waited)}));
+
+  // An encoder that speaks at each of its counts: its rows are even in angle, not in time.
+  Series spoken, counts;
+  for (double t = 0.0, last = 0.0; t < 10.0; t += 1e-4)
+    if (const double now = std::floor(turned_rad(t) / 0.1); now != last) {
+      last = now;
+      spoken.push_back(t);
+      counts.push_back(0.1 * now);
+    }
+  ASSERT_GT(spoken.size(), 200u);
+  EXPECT_FALSE(even_stamps(spoken, {counts, counts}));
+}
+
+TEST(EvenStamps, EvenOnesAndThoseOfAWheelAtRestStayAsTheyAre) {
+  Random random(3);
+  const Series taken = evenly();
+  EXPECT_FALSE(even_stamps(taken, {read_at(taken), read_at(taken)}));
+  const Series rest(taken.size(), 0.3);
+  EXPECT_FALSE(even_stamps(arrived(taken, 0.004, random), {rest, rest}));  // nothing tells
+}
+
+TEST(EvenStamps, OneWheelAgainstTheOtherDecidesNothing) {
+  Random random(4);
+  const Series taken = evenly(), stamps = arrived(taken, 0.004, random);
+  EXPECT_FALSE(even_stamps(stamps, {read_at(taken), read_at(stamps)}));
+}
+
+TEST(EvenStamps, PacketsOfFiveAreSpreadOut) {
+  const Series taken = evenly(), rad = read_at(taken);
+  Series stamps;
+  for (std::size_t i = 0; i < taken.size(); ++i) stamps.push_back(taken[i / 5 * 5 + 4]);
+  const auto even = even_stamps(stamps, {rad, rad});
+  ASSERT_TRUE(even);
+  // Packets are whole: a line through them errs at its ends by a part of a packet's length.
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.002);
+}
+
+TEST(EvenStamps, MissingRowsAndPausesLeaveTheirGap) {
+  Random random(5);
+  Series taken;
+  const Series all = evenly();
+  for (int i = 0; i < kRows; ++i)
+    if (i != 400 && i != 401 && !(i > 800 && i < 900)) taken.push_back(all[i]);
+  const Series stamps = arrived(taken, 0.004, random);
+  const auto even = even_stamps(stamps, {read_at(taken), read_at(taken)});
+  ASSERT_TRUE(even);
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.0008);  // as above, with more ends
+}
+
+TEST(EvenStamps, ATruthIsJudgedByItsOwnPath) {
+  Random random(6);
+  const Series taken = evenly(), stamps = arrived(taken, 0.006, random);
+  Series x, y;
+  for (double t : taken) {  // a circle of a metre at 0.5 m/s, seen to a millimetre
+    x.push_back(std::cos(0.5 * (t - 1e6)) + 0.001 * random.normal());
+    y.push_back(std::sin(0.5 * (t - 1e6)) + 0.001 * random.normal());
+  }
+  const auto even = even_stamps(stamps, {x, y}, true);
+  ASSERT_TRUE(even);
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.0008);  // 6 ms where 4 gave 0.5
+  x.clear();
+  y.clear();
+  for (double t : stamps) {
+    x.push_back(std::cos(0.5 * (t - 1e6)) + 0.001 * random.normal());
+    y.push_back(std::sin(0.5 * (t - 1e6)) + 0.001 * random.normal());
+  }
+  EXPECT_FALSE(even_stamps(stamps, {x, y}, true));
+}
+
+// A drive with turns both ways, whose encoder rows are stamped where they arrive.
+Recording stamped_at_arrival(const test::GeneratorSettings& g, bool encoders, double mean_s, Random& random) {
+  const Recording made = test::generated(
+      g,
+      [](double t) {
+        return test::WheelSpeedsAt{6.0 + 3.0 * std::sin(t), 6.0 - 3.0 * std::sin(0.7 * t)};
+      },
+      random);
+  const Channel* wheel = made.channel("left_ticks") ? made.channel("left_ticks") : made.channel("left_wheel_rad");
+  std::vector<std::pair<double, std::size_t>> rows;
+  double last = -1e9;
+  for (std::size_t i = 0; i < made.time_s.size(); ++i) {
+    double t = made.time_s[i];
+    if (std::isnan(wheel->values[i]) != encoders) last = t = std::max(last + 1e-4, t + late_s(random, mean_s));
+    rows.emplace_back(t, i);
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Recording out{"run_2", "simulated", {}, {}};
+  for (const auto& row : rows) out.time_s.push_back(row.first);
+  for (const Channel& c : made.channels) {
+    Channel& to = out.add_channel(c.name);
+    for (std::size_t k = 0; k < rows.size(); ++k) to.values[k] = c.values[rows[k].second];
+  }
+  return out;
+}
+
+test::GeneratorSettings seen_at_100_hz() {
+  test::GeneratorSettings g;
+  g.drive.wheel_radius_left_m = 0.0755;
+  g.truth_period_s = 0.01;
+  g.truth_position_noise_m = 0.0005;
+  g.truth_heading_noise_rad = 0.001;
+  g.wheel_noise = 0.0002;
+  g.duration_s = 40.0;
+  return g;
+}
+
+TEST(EvenedRecording, CalibrationOfReadingsThatArriveLateHoldsTheTrueValues) {
+  for (const bool encoders : {true, false}) {
+    Random random(7);
+    const test::GeneratorSettings g = seen_at_100_hz();
+    const Recording late = stamped_at_arrival(g, encoders, 0.005, random);
+    const auto found = calibrate_least_squares({late}, Vehicle{"LabMate", DifferentialDrive{}, {}});
+    ASSERT_TRUE(found);
+    const DifferentialDrive drive = std::get<DifferentialDrive>(found->vehicle.kind);
+    // Over 20 m a millimetre of truth knows a radius to 1e-4 of it; without evening the encoders' lateness took the
+    // wheelbase several per cent away.
+    EXPECT_NEAR(drive.wheel_radius_left_m, g.drive.wheel_radius_left_m, 3e-4 * g.drive.wheel_radius_left_m);
+    EXPECT_NEAR(drive.wheel_radius_right_m, g.drive.wheel_radius_right_m, 3e-4 * g.drive.wheel_radius_right_m);
+    EXPECT_NEAR(drive.wheelbase_m, g.drive.wheelbase_m, 2e-3 * g.drive.wheelbase_m);
+    ASSERT_FALSE(found->warnings.empty());
+    EXPECT_EQ(found->warnings.front().rfind(
+                  encoders ? "run_2: its encoder stamps tremble by" : "run_2: its truth stamps tremble by", 0),
+              0u)
+        << found->warnings.front();
+  }
+}
+
+TEST(EvenedRecording, IsNotEvenedAgainAndKeepsEveryReading) {
+  Random random(8);
+  const test::GeneratorSettings g = seen_at_100_hz();
+  const Recording late = stamped_at_arrival(g, true, 0.004, random);
+  const auto even = evened(late, g.drive);
+  ASSERT_TRUE(even);
+  EXPECT_TRUE(problems_in(even->recording).empty());
+  EXPECT_FALSE(evened(even->recording, g.drive));
+  EXPECT_EQ(wheel_samples(even->recording, g.drive).size(), wheel_samples(late, g.drive).size());
+  EXPECT_EQ(truth_samples(even->recording).size(), truth_samples(late).size());
+}
+
+}  // namespace
+}  // namespace odolab
