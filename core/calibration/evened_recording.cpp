@@ -19,7 +19,7 @@ bool of_truth(const std::string& name) { return name.rfind("truth_", 0) == 0; }
 
 std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
   char text[160];
-  std::snprintf(text, sizeof text, ": its %s stamps tremble by %.2g ms about an even %.4g Hz; evened", what,
+  std::snprintf(text, sizeof text, ": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
                 1e3 * even.trembling_s, 1.0 / even.period_s);
   return (name.empty() ? "the recording" : name) + text;
 }
