@@ -6,6 +6,7 @@
 #include "app/cli/terminal.h"
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
+#include "core/calibration/moved_mounting.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "core/odometry/prediction.h"
@@ -109,6 +110,9 @@ int execute(const CalibrateOptions& options) {
   // What both ways can calibrate is calibrated by the truth, where there is one.
   const bool by_truth = from_outside && (!from_inside || std::all_of(recordings.begin(), recordings.end(), has_truth));
   if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);
+  PutRight put_right = mountings_put_right(recordings, *nominal, [](double) { return !interrupted(); });
+  for (const MovedMounting& m : put_right.moved) print_message("warning: " + m.recording + ": " + m.sentence());
+  recordings = std::move(put_right.recordings);
   const Result<ExternalCalibration> calibration =
       calibrate_externally(recordings, *nominal, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());

@@ -3,6 +3,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/terminal.h"
+#include "core/calibration/recording_fault.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/given_recordings.h"
@@ -49,6 +50,25 @@ Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicl
   return loaded;
 }
 
+// Leaves out the recordings whose columns are not what their names say. An error where one is and none may be left out,
+// or where none would be left.
+Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Error>>& faults, bool skip_broken) {
+  Loaded sound;
+  for (std::size_t i = 0; i < loaded.recordings.size(); ++i) {
+    if (!faults[i]) {
+      sound.recordings.push_back(std::move(loaded.recordings[i]));
+      sound.paths.push_back(loaded.paths[i]);
+      continue;
+    }
+    Error fault = *faults[i];
+    if (fault.where == loaded.recordings[i].name) fault.where = loaded.paths[i];
+    if (!skip_broken || fault.where == kEveryRecording) return fault;
+    print_message("skipped: " + fault.message());
+  }
+  loaded = std::move(sound);
+  return Done{};
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return a == b || std::filesystem::equivalent(a, b, ignored);
@@ -77,6 +97,14 @@ int execute(const DiagnoseOptions& options) {
   if (!train) return bad_input(train.error());
   Result<Loaded> held_out = load(options.hold_out, *nominal, options.skip_broken);
   if (!held_out) return bad_input(held_out.error());
+  std::vector<Recording> given = train->recordings;
+  given.insert(given.end(), held_out->recordings.begin(), held_out->recordings.end());
+  const std::vector<std::optional<Error>> faults = faults_in(given, *nominal);
+  const auto first_of_held_out = faults.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
+  if (const auto done = leave_out_faulty(*train, {faults.begin(), first_of_held_out}, options.skip_broken); !done)
+    return bad_input(done.error());
+  if (const auto done = leave_out_faulty(*held_out, {first_of_held_out, faults.end()}, options.skip_broken); !done)
+    return bad_input(done.error());
   if (train->recordings.empty())
     return bad_input({options.recordings.front(), "no recording that can be used", "one or more"});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/recording_fault.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality.h"
 #include "core/io/diagnosis_html.h"
@@ -105,6 +106,9 @@ void DiagnosisDesk::judge_runs() {
     if (!given_.vehicle || !run.problem.empty()) continue;
     if (const std::optional<Error> error = unusable(*run.recording, *given_.vehicle, run.name))
       run.problem = error->message();
+    if (run.problem.empty())
+      if (const std::optional<Error> fault = fault_in(*run.recording, *given_.vehicle))
+        run.problem = fault->found + ", expected " + fault->expected;
     if (run.problem.empty() && std::holds_alternative<DifferentialDrive>(given_.vehicle->kind))
       for (const DataFault& fault : checked(*run.recording, *given_.vehicle).faults)
         run.faults.push_back(fault.sentence);

@@ -10,6 +10,7 @@
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/first_guess.h"
 #include "core/calibration/likelihood_fit.h"
+#include "core/calibration/recording_fault.h"
 
 namespace odolab {
 
@@ -80,6 +81,8 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     runs.push_back(std::move(*run));
   }
   const Error stopped{"calibration", "stopped before its end", ""};
+  for (const std::optional<Error>& fault : faults_in(recordings, nominal))
+    if (fault) return *fault;
   if (const std::string contradiction = contradiction_in(runs, *drive); !contradiction.empty())
     return Error{recordings.size() == 1 ? recordings[0].name : "the recordings", contradiction,
                  "wheels and truth of one robot, in the units that the columns are named after"};

@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "core/calibration/correlated_truth.h"
+#include "core/calibration/moved_mounting.h"
+#include "core/calibration/recording_fault.h"
 #include "core/diagnosis/adequacy.h"
 #include "core/diagnosis/advice.h"
 #include "core/diagnosis/chi_square.h"
@@ -149,6 +151,21 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Le
       findings.push_back(f);
     }
   }
+}
+
+// The tracked point of one recording that sat elsewhere: a fault of its data, put right before all else.
+Finding finding_of(const MovedMounting& m) {
+  Finding f;
+  f.effect = "truth_mounting_offset";
+  f.component = "truth";
+  f.parameters = {{"x_m", m.axle_T_tracked.x_m, m.stderrs.x_m, "m"},
+                  {"y_m", m.axle_T_tracked.y_m, m.stderrs.y_m, "m"},
+                  {"heading_rad", m.axle_T_tracked.heading_rad, m.stderrs.heading_rad, "rad"}};
+  f.where.recording = m.recording;
+  f.log_likelihood_gain = m.log_likelihood_gain;
+  f.p_value = chi_square_tail(2.0 * m.log_likelihood_gain, 3);
+  f.sentence = m.sentence();
+  return f;
 }
 
 // Lets a group of generic terms in; twice what the log-likelihood gains by it.
@@ -304,6 +321,19 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     ready_held_out.push_back(checked(r, nominal));
   }
   const Error stopped{"diagnosis", "stopped before its end", ""};
+  std::vector<CheckedRecording*> each;
+  for (std::vector<CheckedRecording>* of : {&ready, &ready_held_out})
+    for (CheckedRecording& c : *of) each.push_back(&c);
+  std::vector<Recording> all_recordings;
+  for (const CheckedRecording* c : each) all_recordings.push_back(c->recording);
+  for (const std::optional<Error>& fault : faults_in(all_recordings, nominal))
+    if (fault) return *fault;
+  const PutRight put_right =
+      mountings_put_right(all_recordings, nominal, [&](double) { return goes_on(progress, 0.0); });
+  for (const MovedMounting& m : put_right.moved) {
+    each[m.index]->recording = put_right.recordings[m.index];
+    if (m.index < clean.size()) clean[m.index] = put_right.recordings[m.index];
+  }
   const Progress calibrating = [&](double share) { return goes_on(progress, 0.25 * share); };
   Result<LeastSquaresCalibration> calibration = calibrate_least_squares(clean, nominal, {}, calibrating);
   if (!calibration) return calibration.error();
@@ -454,6 +484,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       f.sentence = fault.sentence;
       d.findings.push_back(f);
     }
+  for (const MovedMounting& m : put_right.moved) d.findings.push_back(finding_of(m));
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
   std::vector<Confusion> confused;
   for (std::size_t k = 0; k < joint.accepted.size() && d.verdict == Verdict::ambiguous; ++k)

@@ -99,8 +99,10 @@ struct Diagnosis {
   LeastSquaresCalibration calibration_alone;  // as if nothing were missing: what the findings are held against
   std::optional<Vehicle> fitted_vehicle;      // of `calibration`, unset where no model could be fitted
   std::vector<std::pair<std::string, double>>
-      truth_clock_s;              // the offset of the truth's clock in each recording fitted on
-  std::vector<Finding> findings;  // strongest first; data faults (truth_frozen, encoder_data_fault) among them
+      truth_clock_s;  // the offset of the truth's clock in each recording fitted on
+  // Strongest first; data faults among them: truth_frozen, encoder_data_fault, and truth_mounting_offset where
+  // `where.recording` names the one run in which the tracked point sat elsewhere.
+  std::vector<Finding> findings;
   FitTable train, held_out;
   bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
@@ -109,7 +111,7 @@ struct Diagnosis {
   std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
   std::vector<std::string> sentences;  // the summary that a person reads in a minute
   std::vector<std::string> warnings;
-  std::vector<Response> responses;  // strongest first
+  std::vector<Response> responses;                           // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
 };
 

@@ -32,6 +32,10 @@ Vehicle FittedModel::vehicle_in(const std::string& recording) const {
   Vehicle result = vehicle;
   for (const auto& [name, offset_s] : truth_clock_s)
     if (name == recording) result.truth.time_offset_s = offset_s;
+  for (const FittedEffect& e : effects)
+    if (e.active.effect == "truth_mounting_offset" && !e.recording.empty() && e.recording == recording)
+      result.truth.axle_T_tracked = {e.active.parameter("x_m"), e.active.parameter("y_m"),
+                                     e.active.parameter("heading_rad")};
   return result;
 }
 
@@ -60,6 +64,7 @@ FittedModel model_of(const Diagnosis& diagnosis) {
       }
       continue;
     }
+    if (finding.effect == "truth_mounting_offset") effect.recording = finding.where.recording;
     // what is tied to a time and not to a place happened once
     if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m"))
       effect.recording = finding.where.recording;

@@ -50,7 +50,8 @@ std::string list_of(const std::vector<std::string>& words, const char* last_word
 }
 
 bool is_data_fault(const Finding& finding) {
-  return finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault";
+  return finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault" ||
+         (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
 }
 
 std::string figures_text(const FitFigures& f) {

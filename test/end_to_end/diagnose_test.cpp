@@ -113,6 +113,19 @@ TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
   expect_refused("diagnose " + kVehicle + eight("run_1.csv") + no_truth + json, {"no_truth.csv", "truth"}, out);
   expect_refused("diagnose " + kVehicle + eight("run_1.csv") + (folder / "absent.csv").string() + " " + json,
                  {"absent.csv"}, out);
+  // wheels exchanged in one of two runs
+  std::string text = text_of_file(eights() / "run_2.csv");
+  const std::size_t left = text.find("left_wheel_rad"), right = text.find("right_wheel_rad");
+  ASSERT_LT(left, right);
+  text.replace(right, 15, "left_wheel_rad").replace(left, 14, "right_wheel_rad");
+  std::ofstream(folder / "exchanged.csv") << text;
+  const std::string exchanged = (folder / "exchanged.csv").string() + " ";
+  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + exchanged + json, {"exchanged.csv", "left and right"},
+                 out);
+  const Outcome without = odolab("diagnose --skip-broken " + kVehicle + eight("run_1.csv") + exchanged);
+  EXPECT_EQ(without.exit_code, 0) << without.errors;
+  EXPECT_NE(without.errors.find("skipped: " + (folder / "exchanged.csv").string()), std::string::npos)
+      << without.errors;
   const Outcome outcome = odolab("diagnose --skip-broken " + kVehicle + eight("run_1.csv") + broken + no_truth + json);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.errors.find("broken.csv:3"), std::string::npos) << outcome.errors;

@@ -1,0 +1,148 @@
+#include "core/calibration/recording_fault.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <string>
+
+#include "core/calibration/run_fit.h"
+
+namespace odolab {
+
+namespace {
+
+// Contradiction and agreement are far apart: no vehicle file is wrong by a factor of five, and half of the motion left
+// unexplained is more than any floor does.
+constexpr double kContradicted = 0.7, kAgreed = 0.9;
+constexpr double kLeastWay = 0.2, kMostWay = 5.0, kLeastTurn = 0.1;
+constexpr double kAgreedWay = 2.0, kAgreedTurn = 2.5;
+
+void scale(Recording& r, std::initializer_list<const char*> names, double by) {
+  for (Channel& c : r.channels)
+    for (const char* name : names)
+      if (c.name == name)
+        for (double& v : c.values) v *= by;
+}
+
+void exchange(Recording& r, const char* a, const char* b) {
+  for (Channel& c : r.channels) {
+    if (c.name == a)
+      c.name = b;
+    else if (c.name == b)
+      c.name = a;
+  }
+}
+
+void left_reversed(Recording& r) { scale(r, {"left_wheel_rad", "left_ticks"}, -1.0); }
+void right_reversed(Recording& r) { scale(r, {"right_wheel_rad", "right_ticks"}, -1.0); }
+void heading_scaled(Recording& r, double by) { scale(r, {"truth_heading_rad"}, by); }
+void position_scaled(Recording& r, double by) { scale(r, {"truth_x_m", "truth_y_m"}, by); }
+
+struct Mend {
+  void (*apply)(Recording& r);
+  const char* found;
+  const char* expected;
+  bool of_lengths = false;  // shows without turns and headings
+};
+
+const Mend kMends[] = {
+    {[](Recording& r) { heading_scaled(r, kPi / 180.0); }, "truth_heading_rad that looks like degrees", "radians"},
+    {[](Recording& r) { position_scaled(r, 1e-3); }, "truth_x_m and truth_y_m that look like millimetres", "metres",
+     true},
+    {[](Recording& r) { position_scaled(r, 1e-2); }, "truth_x_m and truth_y_m that look like centimetres", "metres",
+     true},
+    {[](Recording& r) { position_scaled(r, 1e-3), heading_scaled(r, kPi / 180.0); },
+     "a truth that looks like millimetres and degrees", "metres and radians"},
+    {[](Recording& r) {
+       scale(r, {"left_wheel_rad", "right_wheel_rad"}, kPi / 180.0);
+     },
+     "left_wheel_rad and right_wheel_rad that look like degrees", "radians", true},
+    {[](Recording& r) {
+       scale(r, {"left_wheel_rad", "right_wheel_rad"}, 2.0 * kPi);
+     },
+     "left_wheel_rad and right_wheel_rad that look like whole turns", "radians", true},
+    {[](Recording& r) { exchange(r, "left_wheel_rad", "right_wheel_rad"), exchange(r, "left_ticks", "right_ticks"); },
+     "wheels that turn the robot the other way than the truth: left and right look exchanged, or the truth mirrored",
+     "left is left, and headings counter-clockwise"},
+    {left_reversed, "a left wheel that rolls backward where the truth goes forward: its sign looks wrong",
+     "forward positive"},
+    {right_reversed, "a right wheel that rolls backward where the truth goes forward: its sign looks wrong",
+     "forward positive"},
+    {[](Recording& r) { left_reversed(r), right_reversed(r); },
+     "wheels that roll backward where the truth goes forward: the sign of both looks wrong", "forward positive"},
+    {[](Recording& r) { scale(r, {"truth_y_m"}, -1.0); },
+     "positions that look mirrored against the headings (y, or x, with its sign reversed)",
+     "x forward, y left, headings counter-clockwise"},
+    {[](Recording& r) { heading_scaled(r, -1.0); }, "truth_heading_rad that looks clockwise",
+     "counter-clockwise headings"},
+};
+
+// Far from any agreement.
+bool contradicts(const RunFit& f) {
+  if (f.drives && (f.way_explained < kContradicted || f.way_ratio < kLeastWay || f.way_ratio > kMostWay)) return true;
+  return f.turns && (f.turn_explained < kContradicted || f.turn_ratio < kLeastTurn);
+}
+
+bool agrees(const RunFit& f, bool lengths_suffice) {
+  if (!f.drives || f.way_explained < kAgreed || std::abs(std::log(f.way_ratio)) > std::log(kAgreedWay)) return false;
+  if (!f.turns) return lengths_suffice;
+  return f.turn_explained > kAgreed && f.turn_ratio > 1.0 / kAgreedTurn && f.turn_ratio < kAgreedTurn;
+}
+
+// Wheels both reversed look like wheels exchanged on a robot whose truth points backward: the mounting decides.
+double misfit(const RunFit& f, const Vehicle& nominal) {
+  const double turned_rad = wrapped(f.axle_T_tracked.heading_rad - nominal.truth.axle_T_tracked.heading_rad);
+  return 2.0 - f.way_explained - f.turn_explained + std::abs(std::log(f.way_ratio)) + std::abs(std::log(f.turn_ratio)) +
+         std::abs(turned_rad);
+}
+
+// The one that mends it best; null where nothing is wrong or nothing mends it.
+const Mend* mend_of(const Recording& recording, const Vehicle& nominal) {
+  const std::optional<RunFit> as_it_is = run_fit(recording, nominal);
+  if (!as_it_is || !contradicts(*as_it_is)) return nullptr;
+  const Mend* best = nullptr;
+  double least = 0.0;
+  for (const Mend& mend : kMends) {
+    Recording mended = recording;
+    mend.apply(mended);
+    const std::optional<RunFit> fit = run_fit(mended, nominal);
+    if (!fit || !agrees(*fit, mend.of_lengths)) continue;
+    if (best && misfit(*fit, nominal) >= least) continue;
+    best = &mend;
+    least = misfit(*fit, nominal);
+  }
+  return best;
+}
+
+Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
+
+std::string name_of(const Recording& r) { return r.name.empty() ? "recording" : r.name; }
+
+bool can_be_judged(const Recording& r, const Vehicle& nominal) {
+  return std::holds_alternative<DifferentialDrive>(nominal.kind) && problems_in(r).empty();
+}
+
+}  // namespace
+
+std::optional<Error> fault_in(const Recording& recording, const Vehicle& nominal) {
+  if (!can_be_judged(recording, nominal)) return std::nullopt;
+  const Mend* mend = mend_of(recording, nominal);
+  if (!mend) return std::nullopt;
+  return error_of(*mend, name_of(recording));
+}
+
+std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& recordings, const Vehicle& nominal) {
+  std::vector<const Mend*> mends;
+  for (const Recording& r : recordings) mends.push_back(can_be_judged(r, nominal) ? mend_of(r, nominal) : nullptr);
+  const bool all_alike = mends.size() > 1 && std::count(mends.begin(), mends.end(), mends.front()) ==
+                                                 static_cast<std::ptrdiff_t>(mends.size());
+  std::vector<std::optional<Error>> faults;
+  for (std::size_t i = 0; i < mends.size(); ++i) {
+    faults.emplace_back();
+    if (mends[i]) faults.back() = error_of(*mends[i], all_alike ? kEveryRecording : name_of(recordings[i]));
+  }
+  return faults;
+}
+
+}  // namespace odolab

@@ -1,0 +1,121 @@
+#include "core/calibration/recording_fault.h"
+
+#include <gtest/gtest.h>
+
+#include "core/calibration/least_squares.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab {
+namespace {
+
+constexpr double kRunTime_s = 40.0;
+
+std::vector<Recording> three_runs(const test::Case& c) {
+  std::vector<Recording> runs = c.recordings;
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].name = "run_" + std::to_string(i + 1) + ".csv";
+  return runs;
+}
+
+test::Case a_case(const std::string& effect, double size, std::uint64_t seed) {
+  test::CaseSettings s;
+  s.effect = effect;
+  s.size = size;
+  s.runs = 3;
+  s.duration_s = kRunTime_s;
+  return test::generated_case(s, seed);
+}
+
+std::vector<double>& column(Recording& r, const std::string& name) {
+  for (Channel& c : r.channels)
+    if (c.name == name) return c.values;
+  return r.add_channel(name).values;
+}
+
+void scale(Recording& r, const std::string& name, double by) {
+  for (double& v : column(r, name)) v *= by;
+}
+
+// Spoils the second of three runs and expects it, and no other, to be named so.
+void expect_named(const test::Case& c, const std::function<void(Recording&)>& spoil, const std::string& words) {
+  std::vector<Recording> runs = three_runs(c);
+  spoil(runs[1]);
+  const std::vector<std::optional<Error>> faults = faults_in(runs, c.nominal);
+  EXPECT_FALSE(faults[0]) << words;
+  EXPECT_FALSE(faults[2]) << words;
+  ASSERT_TRUE(faults[1]) << words;
+  EXPECT_EQ(faults[1]->where, "run_2.csv");
+  EXPECT_NE(faults[1]->found.find(words), std::string::npos) << faults[1]->message();
+  const Result<LeastSquaresCalibration> calibrated = calibrate_least_squares(runs, c.nominal);
+  ASSERT_FALSE(calibrated) << words;
+  EXPECT_EQ(calibrated.error().message(), faults[1]->message());
+}
+
+TEST(RecordingFault, NamesTheOneRunWhoseColumnsAreNotWhatTheyAreCalled) {
+  const test::Case c = a_case("", 0.0, 5);
+  expect_named(
+      c, [](Recording& r) { scale(r, "truth_heading_rad", 180.0 / kPi); }, "degrees");
+  expect_named(
+      c, [](Recording& r) { scale(r, "truth_x_m", 1e3), scale(r, "truth_y_m", 1e3); }, "millimetres");
+  expect_named(
+      c, [](Recording& r) { std::swap(column(r, "left_wheel_rad"), column(r, "right_wheel_rad")); }, "exchanged");
+  expect_named(
+      c, [](Recording& r) { scale(r, "truth_y_m", -1.0); }, "mirrored");
+  expect_named(
+      c, [](Recording& r) { scale(r, "right_wheel_rad", -1.0); }, "right wheel");
+  expect_named(
+      c, [](Recording& r) { scale(r, "left_wheel_rad", -1.0); }, "left wheel");
+  expect_named(
+      c, [](Recording& r) { scale(r, "left_wheel_rad", -1.0), scale(r, "right_wheel_rad", -1.0); }, "both");
+  expect_named(
+      c, [](Recording& r) { scale(r, "truth_heading_rad", -1.0); }, "clockwise");
+  expect_named(
+      c, [](Recording& r) { scale(r, "left_wheel_rad", 180.0 / kPi), scale(r, "right_wheel_rad", 180.0 / kPi); },
+      "wheel_rad that look like degrees");
+}
+
+TEST(RecordingFault, SeesMillimetresWithoutHeadings) {
+  test::Case c = a_case("", 0.0, 6);
+  for (Recording& r : c.recordings) column(r, "truth_heading_rad").assign(r.time_s.size(), std::nan(""));
+  expect_named(
+      c, [](Recording& r) { scale(r, "truth_x_m", 1e3), scale(r, "truth_y_m", 1e3); }, "millimetres");
+}
+
+TEST(RecordingFault, SaysOfAllTogetherWhatAllShare) {
+  const test::Case c = a_case("", 0.0, 7);
+  std::vector<Recording> runs = three_runs(c);
+  for (Recording& r : runs) std::swap(column(r, "left_wheel_rad"), column(r, "right_wheel_rad"));
+  for (const std::optional<Error>& fault : faults_in(runs, c.nominal)) {
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->where, "every recording");
+    EXPECT_NE(fault->found.find("exchanged"), std::string::npos) << fault->found;
+  }
+}
+
+// Each effect ten times as large as the medium one, among it half of the grip lost on a patch and a radius that grows
+// by 4 %, and a vehicle file that is a third off.
+TEST(RecordingFault, TakesNoPhysicsForAFault) {
+  for (const char* effect :
+       {"slip_zone", "radius_drift", "lateral_slip", "turn_scrub", "collision", "encoder_missed_counts",
+        "one_sided_drag", "floor_slope_creep", "turn_speed_loss", "magnet", "cubic_steering"}) {
+    test::Case c = a_case(effect, 10.0, 8);
+    DifferentialDrive& drive = std::get<DifferentialDrive>(c.nominal.kind);
+    drive.wheel_radius_left_m *= 1.3;
+    drive.wheelbase_m *= 0.7;
+    for (const std::optional<Error>& fault : faults_in(c.recordings, c.nominal))
+      EXPECT_FALSE(fault) << effect << ": " << (fault ? fault->message() : "");
+  }
+}
+
+TEST(RecordingFault, LeavesRunsWithoutTurnsAlone) {
+  test::GeneratorSettings g;
+  g.truth_position_noise_m = 0.002;
+  g.truth_heading_noise_rad = 0.002;
+  Random random(9);
+  const auto straight = [](double t) { return test::WheelSpeedsAt{4.0 * std::sin(0.3 * t), 4.0 * std::sin(0.3 * t)}; };
+  Recording r = generated(g, straight, random);
+  std::swap(column(r, "left_wheel_rad"), column(r, "right_wheel_rad"));  // which does no harm
+  EXPECT_FALSE(fault_in(r, Vehicle{}));
+}
+
+}  // namespace
+}  // namespace odolab
