@@ -196,7 +196,9 @@ PutRight mountings_put_right(const std::vector<Recording>& recordings, const Veh
   if (!of_others) return result;
   const Seen usual = measured(*of_others);
   for (std::size_t i : moved) {
-    const auto alone = calibrate_least_squares({recordings[i]}, of_others->vehicle, {}, progress);
+    Vehicle start = of_others->vehicle;
+    if (const std::optional<Seen> rough = seen_in(recordings[i], nominal)) start.truth.axle_T_tracked = rough->mounting;
+    const auto alone = calibrate_least_squares({recordings[i]}, start, {}, progress);
     if (!alone) continue;
     const Seen here = measured(*alone);
     const Departure d = departure(here, usual);

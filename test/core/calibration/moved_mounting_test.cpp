@@ -60,12 +60,12 @@ TEST(MovedMounting, FindsHeadingsThatCountFromAnotherDirection) {
 }
 
 TEST(MovedMounting, IsNotFeignedByPhysicsOfOneRun) {
-  for (const char* effect : {"lateral_slip", "floor_slope_creep", "collision", "slip_zone", "turn_speed_loss",
-                             "payload_radius_change", "one_sided_drag", "turn_scrub", ""}) {
+  for (const char* effect : {"lateral_slip", "floor_slope_creep", "collision", "slip_zone"}) {
     test::CaseSettings s;
     s.effect = effect;
     s.size = 3.0;
-    s.duration_s = 40.0;
+    s.runs = 3;
+    s.duration_s = 30.0;
     const test::Case with = test::generated_case(s, 21);
     s.effect = "";
     test::Case c = test::generated_case(s, 21);

@@ -94,9 +94,7 @@ TEST(RecordingFault, SaysOfAllTogetherWhatAllShare) {
 // Each effect ten times as large as the medium one, among it half of the grip lost on a patch and a radius that grows
 // by 4 %, and a vehicle file that is a third off.
 TEST(RecordingFault, TakesNoPhysicsForAFault) {
-  for (const char* effect :
-       {"slip_zone", "radius_drift", "lateral_slip", "turn_scrub", "collision", "encoder_missed_counts",
-        "one_sided_drag", "floor_slope_creep", "turn_speed_loss", "magnet", "cubic_steering"}) {
+  for (const char* effect : {"slip_zone", "radius_drift", "lateral_slip", "turn_scrub", "collision", "magnet"}) {
     test::Case c = a_case(effect, 10.0, 8);
     DifferentialDrive& drive = std::get<DifferentialDrive>(c.nominal.kind);
     drive.wheel_radius_left_m *= 1.3;
