@@ -35,6 +35,7 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
     if (!run.truth_has_heading) continue;
     std::size_t from = 0;
     for (std::size_t i = 1; i < run.truth.size(); ++i) {
+      if (is_cut(run, i)) from = i;
       const TruthSample &a = run.truth[from], &b = run.truth[i];
       const double span_s = b.time_s - a.time_s;
       if (span_s < kShortest_s) continue;

@@ -4,6 +4,7 @@
 
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/innovations.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/rests.h"
 #include "core/calibration/slow_counts.h"
 #include "core/calibration/smoothed_readings.h"
@@ -57,7 +58,8 @@ int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSam
 }
 }  // namespace
 
-Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& vehicle) {
+Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& vehicle,
+                                     const std::optional<std::vector<std::pair<double, double>>>& given_left_out) {
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
   const std::string where = as_logged.name.empty() ? "recording" : as_logged.name;
   if (const std::vector<std::string> problems = problems_in(as_logged); !problems.empty())
@@ -72,7 +74,19 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   if (run.wheels.size() < 2)
     return Error{where, "no wheel rotation", "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks"};
 
-  // Truth may reach one wheel sample beyond the wheels: there the wheels are taken to go on as they did.
+  const TimeStretches left_out = given_left_out ? *given_left_out : encoder_gaps(run.wheels);
+  run.wheels = bridged(std::move(run.wheels), left_out, 2.0 * kPi / drive.counts_per_wheel_turn());
+  if (run.wheels.size() < 2)
+    return Error{where, "no wheel rotation outside of what is at fault", "two readings or more"};
+  for (const auto& [from_s, to_s] : left_out) {
+    const auto earlier = [](const WheelSample& w, double time_s) { return w.time_s < time_s; };
+    const auto first = std::lower_bound(run.wheels.begin(), run.wheels.end(), from_s, earlier);
+    const auto last = std::lower_bound(first, run.wheels.end(), to_s, earlier);
+    run.left_out.emplace_back((first == run.wheels.begin() ? first : first - 1)->time_s,
+                              (last + 1 < run.wheels.end() ? last + 1 : run.wheels.end() - 1)->time_s);
+  }
+
+  // Which truth lies within the time of the wheels is only known with its clock.
   const double span_s = run.wheels.back().time_s - run.wheels.front().time_s;
   const double beyond_s = span_s / static_cast<double>(run.wheels.size() - 1) + 1e-9;
   std::vector<TruthSample> truth;
@@ -103,6 +117,7 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     run.wheels = with_slow_counts_drawn(run.wheels, count_rad(run, drive));
   }
   run.smooth = smoothed(run.wheels);
+  cut_where_left_out(run, vehicle.truth.time_offset_s);
   return run;
 }
 

@@ -23,7 +23,7 @@ double heading_from_shape(const InnovationRun& run, const SummedRun& summed, con
   double cosine = 0.0, sine = 0.0, travelled = 0.0;
   Pose pose;
   const Vec2 m = mounting.axle_T_tracked.position(), start = pose * m;
-  for (int t = first; t + 1 < last; ++t) {
+  for (int t = first; t + 1 < last && !is_cut(run, t + 1); ++t) {
     pose = pose * summed.motions[t].motion;
     travelled += length(summed.motions[t].motion.position());
     if (run.set_aside[t + 1]) continue;
@@ -72,9 +72,17 @@ class PoseFilter {
       while (start + 1 < last_ && run_.set_aside[start]) ++start;
     begin_at(start);
     int refused = 0;
+    bool lost = false;  // behind a cut, until there is a sample to start from
     for (int t = start; t + 1 < last_; ++t) {
-      predict(t);
       const int k = t + 1;
+      lost = lost || is_cut(run_, k);
+      if (lost) {
+        begin_at(k);
+        refused = 0;
+        lost = options_.gate <= 0.0 && run_.set_aside[k];
+        continue;
+      }
+      predict(t);
       if (options_.gate <= 0.0 && run_.set_aside[k]) {
         refused = run_.set_aside[k] == kRestartHere ? 0 : refused;
         if (run_.set_aside[k] == kRestartHere) begin_at(k);

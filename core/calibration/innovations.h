@@ -6,7 +6,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -75,7 +77,7 @@ struct InnovationRun {
   std::string name;
   std::vector<WheelSample> wheels;     // two or more, times strictly increasing
   std::vector<WheelSample> smooth;     // the same smoothed, for derivatives; empty: as they are
-  std::vector<TruthSample> truth;      // two or more, times strictly increasing, within the time of the wheels
+  std::vector<TruthSample> truth;      // two or more, times strictly increasing, about within the time of the wheels
   bool truth_has_heading = false;      // where not, the first heading is unknown and found with the path's shape
   bool speeds_are_held = false;        // between wheel samples, as a command is; else wheels speed up smoothly
   bool counts_show = false;            // the rotations lie on the grid of the encoder's counts
@@ -84,11 +86,21 @@ struct InnovationRun {
                                        // 2 the right's; empty where counts do not show
   std::vector<ExtraColumn> extra;      // the same number in each run of a set
   std::vector<std::string> warnings;   // what was put right while it was read
-  int frozen = 0;                      // truth samples left out since they repeat themselves while the wheels turn
+  std::vector<std::pair<double, double>> left_out;  // on the wheels' clock, in order: the way across is not known
+  std::vector<char> cut;  // for each truth sample: the way to it from the one before is not known; empty: it always is
+  int frozen = 0;         // truth samples left out since they repeat themselves while the wheels turn
 };
 
-// Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock.
-Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle);
+// Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock. `left_out`: from one
+// reading to another, in order and apart; no motion across these is used, nor across the readings beside them, which
+// would show what the wheels did within. Without it the gaps between readings.
+Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle,
+                                     const std::optional<std::vector<std::pair<double, double>>>& left_out = {});
+
+// Whether the way to that truth sample from the one before is unknown.
+inline bool is_cut(const InnovationRun& run, std::size_t truth_index) {
+  return !run.cut.empty() && run.cut[truth_index] != 0;
+}
 
 // The steps of a run as the drive's parameters see them, from a start at the first truth sample.
 std::vector<DriveStep> drive_steps(const InnovationRun& run, const DifferentialDrive& drive);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -21,6 +22,9 @@ struct LeastSquaresOptions {
   bool fit_truth_clock = true;
   bool one_truth_clock = false;  // the same offset in all recordings, instead of one for each
   int most_iterations = 30;
+  // Of each recording, on the wheels' clock, from one reading to another: no motion across these is used. Without it
+  // the gaps between readings.
+  std::vector<std::vector<std::pair<double, double>>> left_out;
 };
 
 // One estimated parameter.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/noise_fit.h"
 
 namespace odolab {
@@ -177,6 +178,9 @@ bool LikelihoodFit::gate() {
   options.gate = kGate;
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
     const InnovationModel model = now_.of(r);
+    const std::vector<char> cut = runs_[r].cut;
+    cut_where_left_out(runs_[r], model.truth.time_offset_s);
+    changed = changed || runs_[r].cut != cut;
     InnovationSums s = filtered(runs_[r], summed_up(runs_[r], model), model, options);
     changed = changed || s.set_aside != runs_[r].set_aside;
     restarts_ += s.restarts;

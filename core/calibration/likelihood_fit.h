@@ -68,7 +68,8 @@ class LikelihoodFit {
   // fitted too small.
   void fit_noise(const std::vector<int>& active);
 
-  // Sets samples aside by the gate. True where that changed any.
+  // Sets samples aside by the gate, and cuts the runs anew where the clocks have them left out now. True where that
+  // changed any.
   bool gate();
 
   // Lag-one correlation of the whitened innovations of x, y and heading.

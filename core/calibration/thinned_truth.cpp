@@ -46,11 +46,12 @@ ThinnedTruth thinned_truth(const InnovationRun& run, const SummedRun& summed, co
       left_m += model.drive.wheel_radius_left_m * std::abs(run.wheels[i + 1].left_rad - run.wheels[i].left_rad);
       right_m += model.drive.wheel_radius_right_m * std::abs(run.wheels[i + 1].right_rad - run.wheels[i].right_rad);
     }
-    const bool begins_anew = run.set_aside[t] == 2;
+    const bool begins_anew = run.set_aside[t] == 2 || is_cut(run, t);
     const bool rolled = run.set_aside[t] == 0 && std::max(left_m, right_m) >= way_m;
     if (t > 0 && !begins_anew && !rolled) continue;
     thin.truth.push_back(run.truth[t]);
     thin.set_aside.push_back(run.set_aside[t]);
+    thin.cut.push_back(is_cut(run, t));
     if (t > 0) out.summed.motions.push_back(since);
     since = {};
     left_m = right_m = 0.0;

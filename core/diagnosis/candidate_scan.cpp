@@ -36,6 +36,8 @@ CandidateScan::CandidateScan(const JointModel& joint, int without)
 }
 
 CandidateTest CandidateScan::test(const Effect& effect, const std::vector<double>& shape) const {
+  if (effect.local && effect.of_one_recording && !joint_.is_well_inside(static_cast<int>(shape[0]), shape[1]))
+    return {};
   if (effect.clock_rate) return joint_.test(joint_.columns_of(effect, shape), without_);
   const auto k = static_cast<Eigen::Index>(effect.amplitudes.size());
   CandidateProducts sum{MatrixXd::Zero(k, k), MatrixXd::Zero(absorbing_.taken.size(), k), VectorXd::Zero(k)};

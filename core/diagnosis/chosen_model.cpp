@@ -17,12 +17,12 @@ Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
   for (const CheckedRecording& c : ready) {
-    Result<InnovationRun> run = innovation_run(c.recording, nominal);
+    Result<InnovationRun> run = ready_run(c, nominal);
     if (!run) return run.error();
     const double offset_s = nominal.truth.time_offset_s;
     for (const ActiveEffect& a : model.effects_in(c.recording.name))
       if (a.effect == "clock_rate") put_clock_right(*run, a.parameter("rate"), offset_s);
-    runs.push_back(ready_run(c, std::move(*run), offset_s));
+    runs.push_back(std::move(*run));
     commands.push_back(c.from_commands);
   }
   JointModel joint(runs, commands, alone, nominal);

@@ -335,7 +335,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     if (m.index < clean.size()) clean[m.index] = put_right.recordings[m.index];
   }
   const Progress calibrating = [&](double share) { return goes_on(progress, 0.25 * share); };
-  Result<LeastSquaresCalibration> calibration = calibrate_least_squares(clean, nominal, {}, calibrating);
+  LeastSquaresOptions with_faults_left_out;
+  for (const CheckedRecording& c : ready) with_faults_left_out.left_out.push_back(c.left_out_s);
+  Result<LeastSquaresCalibration> calibration =
+      calibrate_least_squares(clean, nominal, with_faults_left_out, calibrating);
   if (!calibration) return calibration.error();
   d.calibration = d.calibration_alone = *calibration;
   for (const std::vector<CheckedRecording>* set : {&ready, &ready_held_out})
@@ -348,9 +351,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
   for (const CheckedRecording& c : ready) {
-    Result<InnovationRun> run = innovation_run(c.recording, nominal);
+    Result<InnovationRun> run = ready_run(c, nominal);
     if (!run) return run.error();
-    runs.push_back(ready_run(c, std::move(*run), nominal.truth.time_offset_s));
+    runs.push_back(std::move(*run));
     commands.push_back(c.from_commands);
   }
   JointModel joint(std::move(runs), commands, *calibration, nominal);

@@ -42,6 +42,7 @@ JointModel::GatheredError JointModel::gathered_error() const {
     const InnovationRun& run = now_->runs[r].run();
     if (!run.truth_has_heading) return;
     Track guess, truth;
+    std::vector<char> anew;
     Pose pose;
     for (std::size_t i = 0; i < run.wheels.size(); ++i) {
       guess.push_back({run.wheels[i].time_s + clock_s[r], pose * model.truth.axle_T_tracked});
@@ -57,11 +58,16 @@ JointModel::GatheredError JointModel::gathered_error() const {
       const double h = pose.heading_rad + 0.5 * w, c = std::cos(h), s = std::sin(h);
       pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
     }
-    for (std::size_t i = 0; i < run.truth.size(); ++i)
-      if (!run.set_aside[i] && run.truth[i].heading_rad)
-        truth.push_back(
-            {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
-    if (const std::optional<TrackError> e = track_error(guess, truth); e && e->windows > 0) {
+    bool cut = false;
+    for (std::size_t i = 0; i < run.truth.size(); ++i) {
+      cut = cut || is_cut(run, i);
+      if (run.set_aside[i] || !run.truth[i].heading_rad) continue;
+      truth.push_back(
+          {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
+      anew.push_back(cut);
+      cut = false;
+    }
+    if (const std::optional<TrackError> e = track_error(guess, truth, anew); e && e->windows > 0) {
       of[r].position_m2 = e->windows * e->position_rms_m * e->position_rms_m;
       of[r].heading_rad2 = e->windows * e->heading_rms_rad * e->heading_rms_rad;
       of[r].windows = e->windows;

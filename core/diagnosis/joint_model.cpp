@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/counts_at_rest.h"
 #include "core/diagnosis/ready_run.h"
 
@@ -46,7 +47,36 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);
   for (const InnovationRun& run : runs_) masked_.push_back(run.set_aside);
+  cut();
   for (std::size_t r = 0; r < runs_.size(); ++r) numbers_.push_back(static_cast<int>(r));
+}
+
+void JointModel::cut() {
+  for (std::size_t r = 0; r < runs_.size(); ++r) cut_where_left_out(runs_[r], clock_s[r]);
+}
+
+bool JointModel::is_well_inside(int r, double time_s) const {
+  constexpr std::ptrdiff_t kFew = 3;
+  constexpr double kNear_s = 0.1;
+  const InnovationRun& run = runs_[static_cast<std::size_t>(r)];
+  const double on_truths_clock_s = time_s + clock_s[static_cast<std::size_t>(r)];
+  const auto n = static_cast<std::ptrdiff_t>(run.truth.size());
+  const std::ptrdiff_t behind = std::lower_bound(run.truth.begin(), run.truth.end(), on_truths_clock_s,
+                                                 [](const TruthSample& t, double s) { return t.time_s < s; }) -
+                                run.truth.begin();
+  const auto enough = [&](std::ptrdiff_t samples, double at_s) {
+    return samples >= kFew && std::abs(at_s - on_truths_clock_s) >= kNear_s;
+  };
+  std::ptrdiff_t k = behind;
+  for (;; ++k) {
+    if (k >= n || is_cut(run, static_cast<std::size_t>(k))) return false;
+    if (enough(k - behind + 1, run.truth[static_cast<std::size_t>(k)].time_s)) break;
+  }
+  for (k = behind - 1;; --k) {
+    if (k < 0) return false;
+    if (enough(behind - k, run.truth[static_cast<std::size_t>(k)].time_s)) return true;
+    if (is_cut(run, static_cast<std::size_t>(k))) return false;
+  }
 }
 
 InnovationModel JointModel::model_of(int run) const {

@@ -54,6 +54,9 @@ class JointModel {
   double fit(int iterations = 4);
   void fit_noise();
   void gate();  // isolated contradictions only; longer ones are left to be explained
+  // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
+  // from both ends: what happens nearer cannot be told from a sample that errs.
+  bool is_well_inside(int run, double time_s) const;
   // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted.
   void linearise(bool with_columns = true);
 
@@ -134,6 +137,7 @@ class JointModel {
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
   JointModel() = default;
+  void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const DriveView& view) const;
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
   int columns() const;

@@ -16,6 +16,7 @@ constexpr int kNoiseSamples = 5000;
 }  // namespace
 
 void JointModel::fit_noise() {
+  cut();
   constexpr FittedNoise kUsual = {0.003, 0.002, 0.005, 0.0005, 0.0005};
   // A model is not trusted to be truer sideways than this share of the wheels' noise.
   constexpr double kLeastSideways = 0.05;

@@ -1,5 +1,6 @@
 #include "core/diagnosis/predicted_mismatch.h"
 
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/ready_run.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -14,9 +15,7 @@ constexpr int kClockSteps = 4;  // of Gauss-Newton: the prediction is nearly lin
 void take_in(const std::vector<ActiveEffect>& effects, InnovationRun& run, TruthMounting& truth) {
   for (const ActiveEffect& a : effects) {
     if (a.effect == "clock_rate") put_clock_right(run, a.parameter("rate"), truth.time_offset_s);
-    if (a.effect == "actuator_delay")
-      for (std::vector<WheelSample>* wheels : {&run.wheels, &run.smooth})
-        for (WheelSample& w : *wheels) w.time_s += a.parameter("delay_s");
+    if (a.effect == "actuator_delay") put_later(run, a.parameter("delay_s"));
     if (a.effect == "truth_time_offset") truth.time_offset_s = a.parameter("offset_s");
     if (a.effect == "truth_mounting_offset")
       truth.axle_T_tracked = {a.parameter("x_m"), a.parameter("y_m"), a.parameter("heading_rad")};
@@ -54,11 +53,12 @@ Result<Residuals> residuals_under(const FittedModel& model, const FittedNoise& n
   const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
   if (!drive) return Error{recording.name, vehicle.name, "a differential drive"};
   const CheckedRecording ready = checked(recording, nominal);
-  Result<InnovationRun> given = innovation_run(ready.recording, vehicle);
+  Result<InnovationRun> given = ready_run(ready, vehicle);
   if (!given) return given.error();
   const std::vector<ActiveEffect> effects = model.effects_in(recording.name);
   take_in(effects, *given, vehicle.truth);
-  InnovationRun run = ready_run(ready, std::move(*given), vehicle.truth.time_offset_s);
+  InnovationRun run = std::move(*given);
+  cut_where_left_out(run, vehicle.truth.time_offset_s);
   InnovationModel frozen{*drive, vehicle.truth, noise};
   if (!effects.empty()) {
     const DriveView view =
@@ -66,6 +66,7 @@ Result<Residuals> residuals_under(const FittedModel& model, const FittedNoise& n
     run.extra = {{"effects", 1.0, motions_of(view, effects)}};
   }
   fit_clock(run, frozen);
+  cut_where_left_out(run, frozen.truth.time_offset_s);
 
   Residuals out;
   out.recording = recording.name;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/ready_run.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -138,7 +139,7 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     std::vector<InnovationRun> runs;
     std::vector<char> commands;
     for (const CheckedRecording& c : ready_held_out) {
-      Result<InnovationRun> run = innovation_run(c.recording, nominal);
+      Result<InnovationRun> run = ready_run(c, nominal);
       if (!run) continue;
       runs.push_back(std::move(*run));
       commands.push_back(c.from_commands);

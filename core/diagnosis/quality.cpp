@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
 #include "core/calibration/evened_recording.h"
+
+#include "core/calibration/left_out.h"
 
 namespace odolab {
 
@@ -42,6 +45,15 @@ void add_wheels_from_commands(Recording& recording, const DifferentialDrive& dri
   others.push_back(std::move(left));
   others.push_back(std::move(right));
   recording.channels = std::move(others);
+}
+
+// "15.0 to 15.5 s", and how many more.
+std::string times_text(const TimeStretches& times) {
+  char text[120];
+  std::snprintf(text, sizeof text, "from %.1f to %.1f s", times.front().first, times.front().second);
+  std::string all = text;
+  if (times.size() > 1) all += " and " + std::to_string(times.size() - 1) + " time(s) more";
+  return all;
 }
 
 double median(std::vector<double> v) {
@@ -113,6 +125,12 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     out.faults.push_back(frozen);
   }
   if (out.from_commands) return out;
+
+  if (const TimeStretches gaps = encoder_gaps(wheels); !gaps.empty()) {
+    out.left_out_s = gaps;
+    out.faults.push_back({"encoder_data_fault", "both_wheels", recording.name, gaps,
+                          "no encoder readings " + times_text(gaps) + ", left out"});
+  }
 
   // Encoders that stand still while the truth drives on, and single steps that no wheel could make.
   std::vector<double> second;
@@ -193,14 +211,14 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
         fault.time_s.push_back({wheels[i].time_s, wheels[i + 1].time_s});
     }
     if (fault.time_s.empty()) continue;
-    std::sort(fault.time_s.begin(), fault.time_s.end());
-    for (const auto& t : fault.time_s) out.break_s.push_back(t);
+    fault.time_s = joined(std::move(fault.time_s));
+    for (const auto& t : fault.time_s) out.left_out_s.push_back(t);
     fault.sentence = std::string("the ") + (wheel == 0 ? "left" : "right") +
                      " encoder stands still or jumps while the vehicle drives on, " +
                      std::to_string(fault.time_s.size()) + " time(s); left out";
     out.faults.push_back(fault);
   }
-  std::sort(out.break_s.begin(), out.break_s.end());
+  out.left_out_s = joined(std::move(out.left_out_s));
   return out;
 }
 

@@ -1,5 +1,5 @@
 // Faults of the data themselves, found before any physics is looked for: truth that repeats itself, encoders that stand
-// still or jump while the vehicle drives on.
+// still or jump while the vehicle drives on, or were not read.
 #pragma once
 
 #include <string>
@@ -25,8 +25,9 @@ struct CheckedRecording {
   Recording recording;
   bool from_commands = false;
   std::vector<DataFault> faults;
-  std::vector<std::string> warnings;               // what was put right
-  std::vector<std::pair<double, double>> break_s;  // no motion across these may be trusted
+  std::vector<std::string> warnings;  // what was put right
+  // From one reading to another, in order and apart: no motion across these may be trusted.
+  std::vector<std::pair<double, double>> left_out_s;
 };
 
 CheckedRecording checked(const Recording& recording, const Vehicle& vehicle);

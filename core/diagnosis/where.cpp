@@ -50,7 +50,9 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
     const auto run = static_cast<std::size_t>(a.shape[0]);
     w.recording = joint.runs()[run].name;
     const double at_s = shape_named(a, "at_s"), wide_s = k95 * stderr_of_shape(a, covariance, "at_s");
-    w.time_s.push_back({at_s - wide_s, at_s + wide_s});
+    const std::vector<WheelSample>& wheels = joint.runs()[run].wheels;
+    const double low_s = std::min(at_s, wheels.front().time_s), high_s = std::max(at_s, wheels.back().time_s);
+    w.time_s.push_back({std::max(at_s - wide_s, low_s), std::min(at_s + wide_s, high_s)});
     const DriveView& view = joint.views()[run];
     if (a.effect->local && !view.steps.empty()) {
       std::size_t i = 0;

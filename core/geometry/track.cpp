@@ -34,14 +34,17 @@ double travelled_m(const Track& track) {
   return sum;
 }
 
-std::optional<TrackError> track_error(const Track& estimate, const Track& reference) {
+std::optional<TrackError> track_error(const Track& estimate, const Track& reference, const std::vector<char>& anew) {
   Track truth, guess;
+  std::vector<char> starts;
   std::size_t k = 1;  // both are in order of time, so one walk suffices
   if (estimate.size() < 2) return std::nullopt;
-  for (const TimedPose& r : reference) {
+  for (std::size_t n = 0; n < reference.size(); ++n) {
+    const TimedPose& r = reference[n];
     if (r.time_s < estimate.front().time_s || r.time_s > estimate.back().time_s) continue;
     while (k + 1 < estimate.size() && estimate[k].time_s < r.time_s) ++k;
     truth.push_back(r);
+    starts.push_back(!anew.empty() && anew[n]);
     guess.push_back({r.time_s, interpolated(estimate[k - 1], estimate[k], r.time_s)});
   }
   if (truth.size() < 2) return std::nullopt;
@@ -52,9 +55,15 @@ std::optional<TrackError> track_error(const Track& estimate, const Track& refere
   TrackError error;
   double position_sum = 0.0, heading_sum = 0.0;
   double travel_m = 0.0, turn_rad = 0.0;
-  std::size_t start = 0;
+  std::size_t start = 0, first = 0;
   Pose counted = truth[0].pose;  // travel is counted in strides, so that a noisy truth at rest does not travel
   for (std::size_t i = 1; i < truth.size(); ++i) {
+    if (starts[i]) {
+      start = first = i;
+      counted = truth[i].pose;
+      travel_m = turn_rad = 0.0;
+      continue;
+    }
     const double stride_m = length(truth[i].pose.position() - counted.position());
     const double stride_rad = std::abs(wrapped(truth[i].pose.heading_rad - counted.heading_rad));
     if (stride_m > 0.01 || stride_rad > 0.03) {
@@ -71,11 +80,12 @@ std::optional<TrackError> track_error(const Track& estimate, const Track& refere
       start = i;
       travel_m = turn_rad = 0.0;
     }
-    const Pose e = error_since(0, i);
+    const Pose e = error_since(first, i);
     error.largest_position_m = std::max(error.largest_position_m, length(e.position()));
     error.end_position_m = length(e.position());
     error.end_heading_rad = wrapped(e.heading_rad);
   }
+  if (error.windows == 0) return std::nullopt;
   error.position_rms_m = std::sqrt(position_sum / error.windows);
   error.heading_rms_rad = std::sqrt(heading_sum / error.windows);
   return error;

@@ -40,7 +40,10 @@ struct TrackError {
   double largest_position_m = 0.0;
 };
 
-// Compares at the reference's times that both tracks cover. Nothing where they share fewer than two times.
-std::optional<TrackError> track_error(const Track& estimate, const Track& reference);
+// Compares at the reference's times that both tracks cover. Nothing where they share fewer than two times. `anew`: for
+// each of the reference's poses whether the comparison starts again there, since the estimate does not know the way
+// from the one before; no window leads across, and the error at the end is that since the last start. Empty: never.
+std::optional<TrackError> track_error(const Track& estimate, const Track& reference,
+                                      const std::vector<char>& anew = {});
 
 }  // namespace odolab

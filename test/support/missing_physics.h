@@ -26,6 +26,7 @@ struct CaseSettings {
   enum class Truth { mocap, coarse, coarse_without_heading, ends } truth = Truth::mocap;
   enum class Drive { rich, squares } drive = Drive::rich;
   bool without_noise = false;  // nor whole counts
+  double truth_late_s = 0.0;   // its clock, against the wheels'
 };
 
 // Smooth driving of many kinds, other at each seed and run: straights, arcs, turns on the spot, stops, reverse.
@@ -260,7 +261,7 @@ inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
     g.truth_heading_noise_rad = c.truth == CaseSettings::Truth::ends ? 0.003 : 0.02;
     g.truth_has_heading = c.truth != CaseSettings::Truth::coarse_without_heading;
   }
-  g.truth.time_offset_s = 0.0;
+  g.truth.time_offset_s = c.truth_late_s;
   if (c.without_noise) {
     g.counts = false;
     g.wheel_noise = g.truth_position_noise_m = g.truth_heading_noise_rad = 0.0;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/calibration/left_out.h"
 #include "test/support/drive_generator.h"
 
 namespace odolab {
@@ -51,6 +52,7 @@ InnovationRun a_run(double truth_period_s) {
   g.truth_position_noise_m = 0.001;
   g.truth_heading_noise_rad = 0.004;
   InnovationRun run = innovation_run(generated(g, test::rich_driving, random), Vehicle{}).value();
+  cut_where_left_out(run, model_off_nominal().truth.time_offset_s);
   run.smooth.clear();  // derivatives by the readings themselves are what differences give
   ExtraColumn crawl{"sideways_per_metre", 2e-4, {}}, drift{"turn_per_second", -1e-4, {}};
   for (const DriveStep& s : drive_steps(run, DifferentialDrive{})) {
