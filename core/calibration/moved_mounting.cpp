@@ -196,11 +196,15 @@ PutRight mountings_put_right(const std::vector<Recording>& recordings, const Veh
   if (!of_others) return result;
   const Seen usual = measured(*of_others);
   for (std::size_t i : moved) {
-    Vehicle start = of_others->vehicle;
-    if (const std::optional<Seen> rough = seen_in(recordings[i], nominal)) start.truth.axle_T_tracked = rough->mounting;
-    const auto alone = calibrate_least_squares({recordings[i]}, start, {}, progress);
+    const std::optional<Seen> rough = seen_in(recordings[i], nominal);
+    if (!rough) continue;
+    // From near the others' mounting: a truth that points elsewhere would be refused as another robot's.
+    std::vector<Recording> near{recordings[i]};
+    carry_truth(near.front(), inverse(rough->mounting) * usual.mounting);
+    const auto alone = calibrate_least_squares(near, of_others->vehicle, {}, progress);
     if (!alone) continue;
-    const Seen here = measured(*alone);
+    Seen here = measured(*alone);
+    here.mounting = here.mounting * inverse(usual.mounting) * rough->mounting;
     const Departure d = departure(here, usual);
     if (!d.stands_out()) continue;
     result.moved.push_back({i, recordings[i].name, here.mounting, here.stderrs, usual.mounting,
