@@ -83,7 +83,7 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     const auto first = std::lower_bound(run.wheels.begin(), run.wheels.end(), from_s, earlier);
     const auto last = std::lower_bound(first, run.wheels.end(), to_s, earlier);
     run.left_out.emplace_back((first == run.wheels.begin() ? first : first - 1)->time_s,
-                              (last + 1 < run.wheels.end() ? last + 1 : run.wheels.end() - 1)->time_s);
+                              (run.wheels.end() - last > 1 ? last + 1 : run.wheels.end() - 1)->time_s);
   }
 
   // Which truth lies within the time of the wheels is only known with its clock.

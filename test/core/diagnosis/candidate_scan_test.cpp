@@ -47,6 +47,10 @@ void expect_the_same(const JointModel& joint, int without) {
       std::vector<double> shape = shapes[(2 * k + 1) * shapes.size() / 6];
       if (e.forms.size() > 1) shape.push_back(static_cast<double>(k % e.forms.size()));
       const CandidateTest quick = scan.test(e, shape), slow = joint.test(joint.columns_of(e, shape), without);
+      if (e.local && e.of_one_recording && !joint.is_well_inside(static_cast<int>(shape[0]), shape[1])) {
+        EXPECT_TRUE(quick.value.empty()) << "nothing happens at the edge of what was recorded";
+        continue;
+      }
       ASSERT_EQ(quick.value.size(), slow.value.size()) << e.name;
       EXPECT_NEAR(quick.statistic, slow.statistic, 1e-4 + 1e-4 * slow.statistic) << e.name << " " << k;
       EXPECT_NEAR(quick.survives, slow.survives, 1e-5) << e.name << " " << k;
