@@ -9,7 +9,7 @@ std::vector<Effect> turn_speed_loss() {
   Effect e;
   e.name = "turn_speed_loss";
   e.component = "vehicle";
-  e.amplitudes = {{"per_radps", "1/(rad/s)", 0.02, 0.0, 0.3}};
+  e.amplitudes = {{"per_radps", "1/(rad/s)", 0.02, 0.0, 3.0}};
   e.sentence = "the base loses forward speed while it turns, in proportion to the turn rate";
   e.regime = "in arcs";
   e.looks_like = {"turn_scrub", "tyre_compression", "speed_dependent_radius"};
