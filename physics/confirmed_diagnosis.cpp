@@ -10,11 +10,12 @@
 
 namespace odolab {
 
-namespace {
-
-// Without the truth that the diagnosis set aside: outliers and what a tracker repeated say nothing of the vehicle.
-Recording with_truth_that_was_used(Recording recording, const std::vector<double>& used_s) {
+Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
   constexpr double kSame_s = 1e-6;
+  const auto residuals = std::find_if(diagnosis.residuals_before.begin(), diagnosis.residuals_before.end(),
+                                      [&](const Residuals& r) { return r.recording == recording.name; });
+  if (residuals == diagnosis.residuals_before.end()) return recording;
+  const std::vector<double>& used_s = residuals->time_s;
   const Channel* x = recording.channel("truth_x_m");
   if (!x || used_s.empty()) return recording;
   std::vector<std::size_t> unused;
@@ -32,8 +33,6 @@ Recording with_truth_that_was_used(Recording recording, const std::vector<double
   return recording;
 }
 
-}  // namespace
-
 Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                       const Vehicle& nominal, const Progress& progress) {
   constexpr double kOfDiagnosis = 0.7;  // of the time
@@ -41,10 +40,7 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
       diagnose(train, held_out, nominal, {}, [&](double share) { return goes_on(progress, kOfDiagnosis * share); });
   if (!diagnosis) return diagnosis.error();
   std::vector<Recording> all;
-  for (std::size_t r = 0; r < train.size(); ++r)
-    all.push_back(r < diagnosis->residuals_before.size()
-                      ? with_truth_that_was_used(train[r], diagnosis->residuals_before[r].time_s)
-                      : train[r]);
+  for (const Recording& recording : train) all.push_back(with_truth_that_was_used(recording, *diagnosis));
   all.insert(all.end(), held_out.begin(), held_out.end());
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;

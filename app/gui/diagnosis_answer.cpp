@@ -138,7 +138,9 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
       static_cast<int>(count),
       [&](int job, const std::atomic<bool>& stopped) {
         const auto r = static_cast<std::size_t>(job);
-        const Result<Replay> replayed = replay_with(*model, std::make_shared<const Recording>(named(answer.runs[r])),
+        Recording recording = named(answer.runs[r]);
+        if (r < answer.fitted_on) recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
+        const Result<Replay> replayed = replay_with(*model, std::make_shared<const Recording>(std::move(recording)),
                                                     [&](double) { return !stopped; });
         if (!replayed) {
           problems[r] = replayed.error().message();

@@ -1,90 +1,22 @@
 #include "app/gui/unit_mismatch.h"
 
-#include <cmath>
-
-#include "core/calibration/least_squares.h"
-#include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/predicted_mismatch.h"
 #include "core/diagnosis/units/held_out_residuals.h"
-#include "core/diagnosis/units/unit_models.h"
+#include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {
 
-namespace {
-
-constexpr int kHalvings = 10;  // of the range of the noise, which begins a hundredfold
-
-std::string of_unit(const std::string& recording, const std::string& unit) {
-  return unit.empty() ? recording : recording + ", " + unit;
-}
-
-FittedNoise times(FittedNoise noise, double factor) {
-  noise.wheel_m_per_sqrt_m *= factor;
-  noise.body_m_per_sqrt_m *= factor;
-  noise.sideways_m_per_sqrt_m *= factor;
-  return noise;
-}
-
-// As for the first unit in core/diagnosis/units/held_out_residuals: the noise with which the normalised squares of the
-// fitted recordings are 1 beside the effects.
-Result<FittedNoise> noise_beside_effects(const FittedModel& model, const std::vector<Recording>& fitted) {
-  const Result<LeastSquaresCalibration> fit = calibrate_least_squares(fitted, model.vehicle);
-  if (!fit) return fit.error();
-  const auto squared = [&](double factor) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const Recording& recording : fitted)
-      if (const Result<Residuals> r = residuals_under(model, times(fit->noise, factor), recording, model.vehicle)) {
-        for (const double s : r->squared) sum += s;
-        count += r->squared.size();
-      }
-    return count > 0 ? sum / static_cast<double>(count) : 1.0;
-  };
-  if (model.effects.empty() || squared(1.0) >= 1.0) return fit->noise;
-  double low = std::log(0.01), high = 0.0;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (squared(std::exp(middle)) < 1.0 ? high : low) = middle;
-  }
-  return times(fit->noise, std::exp(high));
-}
-
-void add_held_out(Diagnosis& all, const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
-                  const std::vector<Recording>& held_out, const VehicleUnit& unit, std::size_t u) {
-  const FittedModel calibrated = calibrated_model_of(diagnosis), found = model_of(diagnosis);
-  const FittedModel calibrated_unit = model_of_unit(calibrated, u), found_unit = model_of_unit(found, u);
-  const Result<FittedNoise> noise = noise_beside_effects(found_unit, recordings_of_unit(fitted, found, u));
-  if (!noise) return;
-  for (const Recording& recording : held_out) {
-    const std::vector<Recording> by_calibrated = recordings_of_unit({recording}, calibrated, u),
-                                 by_found = recordings_of_unit({recording}, found, u);
-    if (by_calibrated.empty() || by_found.empty()) continue;
-    Result<Residuals> before = residuals_under(calibrated_unit, *noise, by_calibrated.front(), calibrated_unit.vehicle);
-    Result<Residuals> after = residuals_under(found_unit, *noise, by_found.front(), found_unit.vehicle);
-    if (!before || !after || before->time_s.empty()) continue;
-    before->recording = after->recording = of_unit(recording.name, unit.name);
-    all.residuals_before.push_back(std::move(*before));
-    all.residuals_after.push_back(std::move(*after));
-  }
-}
-
-}  // namespace
-
 Diagnosis with_held_out_units(const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
                               const std::vector<Recording>& held_out, const Vehicle& nominal) {
-  if (!has_units(nominal)) return with_held_out_residuals(diagnosis, held_out, nominal);
-  Diagnosis all = with_held_out_residuals_of_units(diagnosis, fitted, held_out, nominal);
-  const std::vector<VehicleUnit> units = units_of(nominal);
-  for (std::size_t u = 1; u < units.size() && !held_out.empty(); ++u)
-    add_held_out(all, diagnosis, fitted, held_out, units[u], u);
-  return all;
+  return has_units(nominal) ? with_held_out_residuals_of_units(diagnosis, fitted, held_out, nominal)
+                            : with_held_out_residuals(diagnosis, held_out, nominal);
 }
 
 std::vector<UnitMismatch> unit_mismatches(const Diagnosis& diagnosis, const std::string& recording,
                                           const Vehicle& nominal) {
   std::vector<UnitMismatch> all;
   for (const VehicleUnit& unit : units_of(nominal)) {
-    const std::string name = of_unit(recording, unit.name);
+    const std::string name = recording_of_unit(recording, unit.name);
     const Residuals* left = of_recording(diagnosis.residuals_before, name);
     if (!left || left->recording != name || left->time_s.empty()) continue;
     const MismatchOverTime m = mismatch_over_time(diagnosis, name);

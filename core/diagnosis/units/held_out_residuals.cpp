@@ -10,7 +10,6 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kFirst = 0;
 constexpr int kHalvings = 10;  // of the range of the noise, which begins a hundredfold
 
 FittedNoise times(FittedNoise noise, double factor) {
@@ -45,28 +44,37 @@ Result<FittedNoise> noise_beside_effects(const FittedModel& model, const std::ve
   return times(fit->noise, std::exp(high));
 }
 
-}  // namespace
-
-Diagnosis with_held_out_residuals_of_units(const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
-                                           const std::vector<Recording>& held_out, const Vehicle& nominal) {
-  Diagnosis all = diagnosis;
+void add_held_out(Diagnosis& all, const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
+                  const std::vector<Recording>& held_out, const VehicleUnit& unit, std::size_t u) {
   const FittedModel calibrated = calibrated_model_of(diagnosis), found = model_of(diagnosis);
-  const std::string name = units_of(nominal)[kFirst].name;
-  const FittedModel calibrated_unit = model_of_unit(calibrated, kFirst), found_unit = model_of_unit(found, kFirst);
-  if (held_out.empty()) return all;
-  const Result<FittedNoise> noise = noise_beside_effects(found_unit, recordings_of_unit(fitted, found, kFirst));
-  if (!noise) return all;
+  const FittedModel calibrated_unit = model_of_unit(calibrated, u), found_unit = model_of_unit(found, u);
+  const Result<FittedNoise> noise = noise_beside_effects(found_unit, recordings_of_unit(fitted, found, u));
+  if (!noise) return;
   for (const Recording& recording : held_out) {
-    const std::vector<Recording> by_calibrated = recordings_of_unit({recording}, calibrated, kFirst),
-                                 by_found = recordings_of_unit({recording}, found, kFirst);
+    const std::vector<Recording> by_calibrated = recordings_of_unit({recording}, calibrated, u),
+                                 by_found = recordings_of_unit({recording}, found, u);
     if (by_calibrated.empty() || by_found.empty()) continue;
     Result<Residuals> before = residuals_under(calibrated_unit, *noise, by_calibrated.front(), calibrated_unit.vehicle);
     Result<Residuals> after = residuals_under(found_unit, *noise, by_found.front(), found_unit.vehicle);
     if (!before || !after || before->time_s.empty()) continue;
-    before->recording = after->recording = name.empty() ? recording.name : recording.name + ", " + name;
+    before->recording = after->recording = recording_of_unit(recording.name, unit.name);
     all.residuals_before.push_back(std::move(*before));
     all.residuals_after.push_back(std::move(*after));
   }
+}
+
+}  // namespace
+
+std::string recording_of_unit(const std::string& recording, const std::string& unit) {
+  return unit.empty() ? recording : recording + ", " + unit;
+}
+
+Diagnosis with_held_out_residuals_of_units(const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
+                                           const std::vector<Recording>& held_out, const Vehicle& nominal) {
+  Diagnosis all = diagnosis;
+  if (held_out.empty()) return all;
+  const std::vector<VehicleUnit> units = units_of(nominal);
+  for (std::size_t u = 0; u < units.size(); ++u) add_held_out(all, diagnosis, fitted, held_out, units[u], u);
   return all;
 }
 
