@@ -169,15 +169,16 @@ ui::FloorScene diagnosis_scene(const ui::DiagnosisView& view, const ui::Diagnosi
   scene.reference_name = "recorded";
   scene.deviating_name = "simulated";
   scene.brushable = true;
+  scene.empty_text = "Nothing to draw: this run holds no outside truth";
   if (view.runs.empty()) return scene;
   const std::size_t shown = std::min(state.run, view.runs.size() - 1);
   for (std::size_t r = 0; r < view.runs.size(); ++r)
-    if (r != shown && view.runs[r].way)
+    if (r != shown && view.runs[r].way && !view.runs[r].way->empty())
       scene.trails.push_back({view.runs[r].way, false, ui::faded(ui::run_colour(r, theme), 0.28f), {}, true});
   const ui::DiagnosedRun& run = view.runs[shown];
   if (run.mismatch_trail)
     scene.trails.push_back({run.mismatch_trail, true, 0, state.brush, false});
-  else if (run.way)
+  else if (run.way && !run.way->empty())
     scene.trails.push_back({run.way, false, ui::run_colour(shown, theme), {}, false});
   if (run.simulated_track) {
     ui::TrackLine line;

@@ -184,7 +184,8 @@ ui::Transport compare_transport(const Session& session, const ui::Theme& theme) 
   t.speed = session.speed();
   t.reached_speed = session.reached_speed();
   t.quantity = "error";
-  if (shown) {
+  t.empty_text = "No error over time: this recording holds no outside truth";
+  if (shown && !shown->replay.truth.empty()) {
     t.position_curves = {{"simulated", &shown->time_s, &shown->simulated_m, theme.orange, ui::Stroke::line},
                          {shown->estimator, &shown->time_s, &shown->dead_reckoned_m, theme.blue, ui::Stroke::dashed}};
     t.heading_curves = {{"simulated", &shown->time_s, &shown->simulated_rad, theme.orange, ui::Stroke::line},

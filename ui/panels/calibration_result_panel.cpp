@@ -45,7 +45,7 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextDisabled("mm");
-  for (const char* title : {"believed", "corrected", "true"}) {
+  for (const char* title : {"believed", "put in", "true"}) {
     ImGui::TableNextColumn();
     text_right(title, theme.muted);
   }

@@ -180,7 +180,8 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
     ImGui::TextUnformatted("Return position errors");
   }
   ImGui::SameLine();
-  ImGui::TextDisabled("true minus calculated, after each square");
+  ImGui::TextDisabled("%s",
+                      fitted("true minus calculated, after each square", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::SetCursorPosX(theme.px(10));
   Plot p = plot_of_errors(theme);
   Clouds clouds;

@@ -82,9 +82,12 @@ Actions compare_panel(const Compare& c, bool& ask_for_file, const Theme& theme) 
     ImGui::TextUnformatted(fitted(c.name, width).c_str());
     tooltip(c.name + "\n" + c.provenance, theme);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(theme.px(8), theme.px(2)));
-    fact("drives", shown(c.travelled_m, {"m", 1.0, 1, 0.0}) + " in " + clock(c.duration_s), theme);
+    if (c.truth_samples > 0)
+      fact("drives", shown(c.travelled_m, {"m", 1.0, 1, 0.0}) + " in " + clock(c.duration_s), theme);
+    else
+      fact("lasts", clock(c.duration_s), theme);
     fact("driven by", c.inputs, theme);
-    fact("truth", std::to_string(c.truth_samples) + " poses", theme);
+    fact("truth", c.truth_samples > 0 ? std::to_string(c.truth_samples) + " poses" : "none", theme);
     fact("vehicle", c.vehicle_name, theme);
     fact("mass assumed", shown(c.mass_kg, kKilograms), theme);
     tooltip("The simulation's vehicle has this mass. It matters where wheels slip, and not to dead reckoning.", theme);

@@ -51,9 +51,10 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   what.x_low = 0.0;
   what.x_high = run.duration_s;
   what.brushes = true;
-  what.empty_text = !view.diagnosis ? "The mismatch over time, once it was diagnosed"
-                    : run.held_out  ? "Held out, and nothing to draw over time: judged by the bars on the right"
-                                    : "This run was not part of the answer";
+  what.empty_text = !run.problem.empty() ? "Left out: " + run.problem
+                    : !view.diagnosis    ? "The mismatch over time, once it was diagnosed"
+                    : run.held_out       ? "Held out, and nothing to draw over time: judged by the bars on the right"
+                                         : "This run was not part of the answer";
   const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
                              run.mismatch ? run.mismatch->time_s.back() : 0.0};
   const double noise_y[2] = {1.0, 1.0};

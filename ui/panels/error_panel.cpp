@@ -65,6 +65,14 @@ void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
         theme);
     return;
   }
+  if (c.nominal && c.truth_samples == 0) {
+    heading("Nothing to compare with", theme);
+    note(
+        "This recording holds no outside measurement of where the robot was. The tracks are what the simulation and "
+        "dead reckoning make of what it did record; how far they are from the truth, nobody can tell.",
+        theme);
+    return;
+  }
   heading("Gap of the simulation, now", theme);
   if (now.truth && now.simulated) {
     {

@@ -3,100 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/mismatch.h"
 #include "ui/floor/drawing.h"
 #include "ui/floor/lens.h"
 #include "ui/floor/vehicle_drawing.h"
 #include "ui/look/strokes.h"
 #include "ui/look/widgets.h"
+#include "ui/panels/floor_legend.h"
+#include "ui/panels/floor_toolbar.h"
 
 namespace odolab::ui {
 
 namespace {
-
-void brush_buttons(FloorViewState& state, const Theme& theme) {
-  ButtonLook pointer, brush;
-  pointer.toggled = state.tool != FloorTool::brush;
-  pointer.tip = "Move the view: drag the floor to pan; the wheel zooms.";
-  if (icon_button("pointer", Icon::pointer, theme, pointer)) state.tool = FloorTool::pointer;
-  ImGui::SameLine(0, theme.px(2));
-  brush.toggled = state.tool == FloorTool::brush;
-  brush.tip = "Choose a stretch: drag a rectangle over it (or hold Shift). It is lit in the plot below.";
-  if (icon_button("brush", Icon::brush, theme, brush)) state.tool = FloorTool::brush;
-}
-
-void tool_buttons(FloorViewState& state, bool editable, const Theme& theme) {
-  struct Tool {
-    FloorTool tool;
-    Icon icon;
-    const char* id;
-    const char* tip;
-  };
-  static const Tool kTools[] = {
-      {FloorTool::pointer, Icon::pointer, "pointer",
-       "Move things and the view. Drag a thing to move it, the floor to pan; the wheel zooms."},
-      {FloorTool::bump, Icon::cable, "cable",
-       "Put a cable on the floor: click where it shall lie. A wheel that climbs it turns further than it travels."},
-      {FloorTool::slip_disc, Icon::disc, "disc", "Put down a round slippery patch: click where."},
-      {FloorTool::slip_rectangle, Icon::rectangle, "rectangle", "Put down a rectangular slippery patch: click where."},
-  };
-  for (const Tool& tool : kTools) {
-    ButtonLook look;
-    look.enabled = editable;
-    look.toggled = editable && state.tool == tool.tool;
-    look.tip = tool.tip;
-    look.why_disabled = "This floor is not edited here: change it in Drive.";
-    if (icon_button(tool.id, tool.icon, theme, look)) state.tool = tool.tool;
-    ImGui::SameLine(0, theme.px(2));
-  }
-}
-
-void layer_menu(FloorViewState& state, const Theme& theme) {
-  ButtonLook look;
-  look.tip = "What is drawn";
-  if (icon_button("layers", Icon::layers, theme, look)) ImGui::OpenPopup("layers");
-  if (ImGui::BeginPopup("layers")) {
-    ImGui::Checkbox("Grid and rulers", &state.show_grid);
-    ImGui::Checkbox("Planned path", &state.show_planned);
-    ImGui::Checkbox("Tracks", &state.show_tracks);
-    ImGui::Checkbox("Cables and patches", &state.show_things);
-    ImGui::Checkbox("Lens", &state.show_lens);
-    ImGui::EndPopup();
-  }
-}
-
-void toolbar(FloorViewState& state, const FloorScene& scene, const Theme& theme) {
-  ImGui::SetCursorPos({theme.px(8), theme.px(5)});
-  if (scene.brushable)
-    brush_buttons(state, theme);
-  else
-    tool_buttons(state, scene.editable, theme);
-  ImGui::SameLine(0, theme.px(14));
-  ButtonLook fit;
-  fit.tip = "Fit everything into sight (F)";
-  if (icon_button("fit", Icon::fit, theme, fit)) state.fit_next = true;
-  ImGui::SameLine(0, theme.px(2));
-  ButtonLook follow;
-  follow.toggled = state.follow;
-  follow.tip = "Follow the vehicle";
-  if (icon_button("follow", Icon::follow, theme, follow)) state.follow = !state.follow;
-  ImGui::SameLine(0, theme.px(2));
-  ButtonLook lens;
-  lens.toggled = state.show_lens;
-  lens.tip = "A lens over the vehicle shows the gap between the poses at a stated magnification";
-  if (icon_button("lens", Icon::lens, theme, lens)) state.show_lens = !state.show_lens;
-  ImGui::SameLine(0, theme.px(2));
-  layer_menu(state, theme);
-  ImGui::SameLine(0, theme.px(14));
-  ButtonLook exaggerate;
-  exaggerate.toggled = state.exaggerate;
-  exaggerate.tip = "Draw the deviation of the " + scene.deviating_name + " track from the " + scene.reference_name +
-                   " one larger than it is, by the factor beside this button";
-  if (icon_button("exaggerate", Icon::exaggerate, theme, exaggerate)) state.exaggerate = !state.exaggerate;
-  ImGui::SameLine(0, theme.px(6));
-  NumberField factor{"##factor", {"×", 1.0, 0, 0.2}, 2.0, 200.0, "How many times larger the deviation is drawn."};
-  if (number_field(factor, state.exaggeration, theme.px(52), theme) != Edited::no) state.exaggerate = true;
-}
 
 // 0 where there is no room for one that says anything.
 float lens_side(const Camera& camera, const Theme& theme) {
@@ -138,75 +55,6 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
   if (low.x_m > high.x_m) {
     low = {-1.0, -1.0};
     high = {5.0, 5.0};
-  }
-}
-
-void legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
-  const Camera& camera = state.camera;
-  const float line = ImGui::GetTextLineHeight(), swatch = theme.px(24), gap = theme.px(16);
-  float x = camera.low.x + theme.px(12);
-  const float y = camera.low.y + theme.px(8);
-  float total = 0.0f;
-  const bool planned = state.show_planned && scene.planned.size() > 1;
-  const auto room_of = [&](const std::string& label) {
-    return swatch + theme.px(6) + ImGui::CalcTextSize(label.c_str()).x + gap;
-  };
-  const auto fits = [&](float end) { return x + end - gap < camera.high.x - theme.px(8); };
-  std::vector<const TrackLine*> named;
-  for (const TrackLine& t : scene.tracks)
-    if (!t.label.empty() && fits(total + room_of(t.label))) {
-      named.push_back(&t);
-      total += room_of(t.label);
-    }
-  const bool names_planned = planned && fits(total + room_of(scene.planned_name));
-  if (names_planned) total += room_of(scene.planned_name);
-  if (total == 0.0f) return;
-  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)}, {x + total - gap + theme.px(6), y + line + theme.px(4)},
-                     faded(theme.paper, 0.85f), theme.px(4));
-  const float middle = y + 0.5f * line;
-  for (const TrackLine* t : named) {
-    draw_stroke(draw, {{x, middle}, {x + swatch, middle}}, t->colour, t->dash, theme);
-    draw.AddText({x + swatch + theme.px(6), y}, theme.ink, t->label.c_str());
-    x += room_of(t->label);
-  }
-  if (names_planned) {
-    dashed_line(draw, {{x, middle}, {x + swatch, middle}}, faded(theme.muted, 0.8f), theme.px(1.2f), theme.px(2),
-                theme.px(4));
-    draw.AddText({x + swatch + theme.px(6), y}, theme.muted, scene.planned_name.c_str());
-  }
-  if (state.exaggerate) {
-    const std::string text = "deviation drawn " + times(state.exaggeration);
-    const float w = ImGui::CalcTextSize(text.c_str()).x;
-    const ImVec2 at{camera.low.x + theme.px(12), y + line + theme.px(10)};
-    draw.AddRectFilled({at.x - theme.px(6), at.y - theme.px(3)}, {at.x + w + theme.px(6), at.y + line + theme.px(3)},
-                       theme.orange, theme.px(4));
-    draw.AddText(at, theme.dark ? theme.on_ink : theme.paper, text.c_str());
-  }
-}
-
-// The scale of the mismatch, under the legend's lines.
-void mismatch_scale(ImDrawList& draw, const FloorViewState& state, float y, const Theme& theme) {
-  const float line = ImGui::GetTextLineHeight(), swatch = theme.px(20), gap = theme.px(12);
-  const char* title = "recorded, by its mismatch";
-  float total = 0.0f;
-  for (int k = 0; k < kMismatchLevels; ++k)
-    total += swatch + theme.px(5) + ImGui::CalcTextSize(mismatch_level_text(k)).x + (k + 1 < kMismatchLevels ? gap : 0);
-  float x = state.camera.low.x + theme.px(12);
-  const float with_title = total + ImGui::CalcTextSize(title).x + gap;
-  const bool titled = x + with_title < state.camera.high.x;
-  draw.AddRectFilled({x - theme.px(6), y - theme.px(4)},
-                     {x + (titled ? with_title : total) + theme.px(6), y + line + theme.px(4)},
-                     faded(theme.paper, 0.85f), theme.px(4));
-  if (titled) {
-    draw.AddText({x, y}, theme.muted, title);
-    x += ImGui::CalcTextSize(title).x + gap;
-  }
-  for (int k = 0; k < kMismatchLevels; ++k) {
-    const float middle = y + 0.5f * line;
-    draw.AddLine({x, middle}, {x + swatch, middle}, mismatch_colour(k, theme), mismatch_width(k, theme) + theme.px(1));
-    x += swatch + theme.px(5);
-    draw.AddText({x, y}, theme.ink, mismatch_level_text(k));
-    x += ImGui::CalcTextSize(mismatch_level_text(k)).x + gap;
   }
 }
 
@@ -279,12 +127,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
                        {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
     draw.AddText(at, theme.muted, scene.empty_text.c_str());
   }
-  legend(draw, scene, state, theme);
-  if (std::any_of(scene.trails.begin(), scene.trails.end(), [](const FloorTrail& t) { return t.by_mismatch; }))
-    mismatch_scale(
-        draw, state,
-        camera.low.y + theme.px(8) + (state.exaggerate ? 2.0f : 1.0f) * (ImGui::GetTextLineHeight() + theme.px(11)),
-        theme);
+  floor_legend(draw, scene, state, theme);
   if (state.brushing)
     draw.AddRectFilled(camera.screen(state.brush_from), ImGui::GetIO().MousePos, faded(theme.sky, 0.25f));
   draw_scale_bar(draw, camera, theme);
@@ -399,7 +242,7 @@ Actions react(const FloorScene& scene, FloorViewState& state, const Theme& theme
 Actions floor_view(const FloorScene& scene, FloorViewState& state, const Theme& theme) {
   const float bar = ImGui::GetFrameHeight() + theme.px(10);
   const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  toolbar(state, scene, theme);
+  floor_toolbar(state, scene, theme);
   Camera& camera = state.camera;
   camera.low = {low.x, low.y + bar};
   camera.high = {low.x + size.x, low.y + size.y};

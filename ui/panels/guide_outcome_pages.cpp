@@ -96,11 +96,18 @@ void result_page(const GuideView& view, GuidePageState& state, const Theme& them
   const GuideOutcome& out = *view.outcome;
   if (out.settings.empty()) {
     if (!out.extended) note(view.busy ? "Still reckoning…" : "There is no result yet.", theme);
-    if (out.extended) {
+    if (!out.extended) return;
+    {
       WithFont large(theme.large);
       ImGui::TextUnformatted(
           (shown(out.extended->mean_absolute_heading_error_rad, kDegrees) + " for ten bumps").c_str());
     }
+    note(
+        "Each bump turns the robot by about a tenth of it. No setting takes this off: it is the number by which "
+        "robots, "
+        "and ways to reckon on one robot, are compared.",
+        theme);
+    clusters(view, true, state, theme);
     return;
   }
   bool ros2 = false, truth = false;

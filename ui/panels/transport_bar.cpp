@@ -154,6 +154,7 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
   plot_of.from_zero = !state.show_heading;
   plot_of.least_y_span = state.show_heading ? 0.001 : 0.001;
   plot_of.cursor_x = t.time_s;
+  plot_of.empty_text = t.empty_text;
   for (const TimeCurve& c : state.show_heading ? t.heading_curves : t.position_curves) {
     PlotSeries s;
     s.label = c.label;

@@ -39,6 +39,7 @@ struct Transport {
   double speed = 1.0;     // wanted; 0: as fast as possible
   double reached_speed = 0.0;
   std::string quantity = "gap";
+  std::string empty_text;                  // said in the plot while there is no curve
   std::vector<TimeCurve> position_curves;  // metres
   std::vector<TimeCurve> heading_curves;   // radians
   std::vector<TimelineEvent> events;
