@@ -11,6 +11,7 @@
 #include "core/calibration/first_guess.h"
 #include "core/calibration/likelihood_fit.h"
 #include "core/calibration/recording_fault.h"
+#include "core/calibration/restamped.h"
 
 namespace odolab {
 
@@ -80,6 +81,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     if (!run) return run.error();
     any_heading = any_heading || run->truth_has_heading;
     put_right.insert(put_right.end(), run->warnings.begin(), run->warnings.end());
+    if (r < options.clocks.size()) put_clock_right(*run, options.clocks[r].rate, options.clocks[r].offset_s);
     runs.push_back(std::move(*run));
   }
   const Error stopped{"calibration", "stopped before its end", ""};
@@ -99,10 +101,10 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   }
   const bool clock_hides_in_place = !any_heading && at_steady_speed(runs, *drive);
   if (clock_hides_in_place) active.erase(std::remove(active.begin(), active.end(), column::mounting_x), active.end());
-  const FitParameters start{
-      {*drive, nominal.truth, {0.005, 0.005, 0.02}},
-      std::vector<double>(options.one_truth_clock ? 1 : runs.size(), nominal.truth.time_offset_s)};
-  if (options.fit_truth_clock && !clock_hides_in_place)
+  FitParameters start{{*drive, nominal.truth, {0.005, 0.005, 0.02}},
+                      std::vector<double>(options.one_truth_clock ? 1 : runs.size(), nominal.truth.time_offset_s)};
+  for (std::size_t r = 0; r < options.clocks.size(); ++r) start.clock_s[r] = options.clocks[r].offset_s;
+  if (options.fit_truth_clock && options.clocks.empty() && !clock_hides_in_place)
     for (int c = column::shared; c < start.size(); ++c) active.push_back(c);
   LikelihoodFit fit(std::move(runs), start);
   if (guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
@@ -276,6 +278,27 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
                                 text(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
   return result;
 }
+
+// Where the moments say that they are elsewhere than the fit has them; empty where not, or where a clock is shared.
+std::vector<AlignedClock> aligned_clocks(const std::vector<Recording>& recordings, const LeastSquaresCalibration& fit,
+                                         const LeastSquaresOptions& options) {
+  constexpr double kWorthATry = 50.0;
+  const auto* drive = std::get_if<DifferentialDrive>(&fit.vehicle.kind);
+  std::vector<AlignedClock> clocks;
+  if (!drive || fit.time_offset_s.size() != recordings.size() || options.one_truth_clock) return clocks;
+  double most = 0.0;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const Result<InnovationRun> run = innovation_run(recordings[r], fit.vehicle);
+    InnovationModel model{*drive, fit.vehicle.truth, fit.noise};
+    model.truth.time_offset_s = fit.time_offset_s[r];
+    const std::optional<AlignedClock> aligned = run ? aligned_clock(*run, model) : std::nullopt;
+    clocks.push_back(aligned.value_or(AlignedClock{fit.time_offset_s[r], 0.0, 0.0}));
+    most = std::max(most, clocks.back().gain);
+  }
+  if (most < kWorthATry) clocks.clear();
+  return clocks;
+}
+
 }  // namespace
 
 Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
@@ -287,12 +310,25 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
   };
   Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, progress);
-  if (!all || (next(*all) < kNext && all->lasting_correlation < kLasting)) return all;
+  const auto is_white = [&](const LeastSquaresCalibration& c) {
+    return next(c) < kNext && c.lasting_correlation < kLasting;
+  };
+  if (!all || is_white(*all)) return all;
+  // Clocks that run apart correlate them just so, and that is no noise.
+  LeastSquaresOptions clocks_right = options;
+  clocks_right.clocks = aligned_clocks(recordings, *all, options);
+  const bool clocks_are_off = !clocks_right.clocks.empty();
+  if (clocks_are_off) {
+    const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);
+    if (put_right && is_white(*put_right)) return all;
+  }
   for (double apart_s : {0.1, 0.2, 0.3, 0.5}) {
     std::vector<Recording> thinned;
     for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
-    Result<LeastSquaresCalibration> of_fewer = calibrated_by_all(thinned, nominal, options, progress);
+    Result<LeastSquaresCalibration> of_fewer = calibrated_by_all(thinned, nominal, clocks_right, progress);
     if (!of_fewer || next(*of_fewer) > kLasting || of_fewer->lasting_correlation > kLasting) continue;
+    if (clocks_are_off) of_fewer = calibrated_by_all(thinned, nominal, options, progress);
+    if (!of_fewer) return of_fewer;
     of_fewer->truth_apart_s = apart_s;
     of_fewer->warnings.push_back(
         text("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses: "

@@ -10,6 +10,7 @@
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
+#include "core/calibration/aligned_clock.h"
 #include "core/calibration/innovations.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
@@ -25,6 +26,8 @@ struct LeastSquaresOptions {
   // Of each recording, on the wheels' clock, from one reading to another: no motion across these is used. Without it
   // the gaps between readings.
   std::vector<std::vector<std::pair<double, double>>> left_out;
+  // Of each recording, where they are known: held as they are, and stamps put right by the rates.
+  std::vector<AlignedClock> clocks;
 };
 
 // One estimated parameter.

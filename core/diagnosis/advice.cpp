@@ -158,10 +158,12 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   int at = 7;
   const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
   for (const Question& c : questions) {
-    if (c.effect->clock_rate)
-      linear.of_clock_rate(z.col(at++).data());
-    else
-      for (const Motions& m : c.effect->motions(view, c.shape)) linear.of_motion(m, z.col(at++).data());
+    if (c.effect->clock_rate) {
+      if (!c.effect->of_each_recording) linear.of_clock_rate(z.col(at).data());
+      at += static_cast<int>(c.effect->amplitudes.size());
+      continue;
+    }
+    for (const Motions& m : c.effect->motions(view, c.shape)) linear.of_motion(m, z.col(at++).data());
   }
   MatrixXd gram = z.transpose() * z;
   MatrixXd out(q - 1, q - 1);  // the clock last

@@ -75,7 +75,9 @@ CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<
     if (effect.clock_rate) {
       now_->runs[r].of_clock_rate(buffer.data());
       out.stretch[r] = {0, n};
-      out.of_run[r] = Eigen::Map<VectorXd>(buffer.data(), 3 * n);
+      out.of_run[r] = MatrixXd::Zero(3 * n, k);
+      out.of_run[r].col(static_cast<Eigen::Index>(effect.clock_amplitude(numbers_[r]))) =
+          Eigen::Map<VectorXd>(buffer.data(), 3 * n);
       continue;
     }
     const std::vector<Motions> motions = effect.motions(now_->views[r], shape);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/joint_model.h"
 #include "core/diagnosis/ready_run.h"

@@ -100,7 +100,12 @@ struct Effect {
   bool of_one_recording = false;         // shape[0] is the recording's number
   bool and_later_recordings = false;     // the same, but it lasts through those after it
   bool clock_rate = false;               // acts on the wheels' clock instead of the motion
-  bool only_commands = false;            // needs a base that is driven from commands
+  bool of_each_recording = false;        // an amplitude, or a set of them, for each recording in turn
+  // The amplitude that is the rate of a recording's clock.
+  std::size_t clock_amplitude(int recording) const {
+    return of_each_recording ? static_cast<std::size_t>(recording) : 0;
+  }
+  bool only_commands = false;  // needs a base that is driven from commands
 
   // How the amplitudes read as the catalogue's parameters, with standard errors, and back. Left empty where they are
   // the same.
@@ -137,6 +142,8 @@ std::vector<Effect> floor_slope_creep();
 std::vector<Effect> collision();
 std::vector<Effect> turn_speed_loss();
 std::vector<Effect> clock_rate();
+// The same where each recording's clock has a rate of its own. Lives as long as the program.
+const std::vector<Effect>& clock_rate_of_each_run(int runs);
 std::vector<Effect> actuator_lag();
 }  // namespace effects
 

@@ -64,6 +64,19 @@ FittedModel model_of(const Diagnosis& diagnosis) {
       }
       continue;
     }
+    // and so are rates
+    if (has_parameter(effect.active, "rate_2")) {
+      for (std::size_t r = 0; r < diagnosis.truth_clock_s.size(); ++r) {
+        FittedEffect in_one{{finding.effect, finding.component, {}}, {}, diagnosis.truth_clock_s[r].first};
+        for (const FoundParameter& p : finding.parameters)
+          if (p.name == "rate_" + std::to_string(r + 1)) {
+            in_one.active.parameters.emplace_back("rate", p.value);
+            in_one.stderr_values.emplace_back("rate", p.stderr_value);
+          }
+        model.effects.push_back(in_one);
+      }
+      continue;
+    }
     if (finding.effect == "truth_mounting_offset") effect.recording = finding.where.recording;
     // what is tied to a time and not to a place happened once
     if (has_parameter(effect.active, "at_s") && !has_parameter(effect.active, "x_m"))

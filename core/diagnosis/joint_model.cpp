@@ -5,8 +5,8 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/counts_at_rest.h"
-#include "core/diagnosis/ready_run.h"
 
 namespace odolab {
 
@@ -109,7 +109,7 @@ InnovationRun JointModel::prepared(int r, const DriveView& view) const {
   }
   for (const AcceptedEffect& a : accepted) {
     if (a.effect->clock_rate) {
-      put_clock_right(run, a.value[0], clock_s[r]);
+      put_clock_right(run, a.value[a.effect->clock_amplitude(numbers_[r])], clock_s[r]);
       continue;
     }
     const std::vector<Motions> motions = a.effect->motions(view, a.shape);
@@ -171,10 +171,14 @@ void JointModel::linearise(bool with_columns) {
     std::vector<Motions> of_effects;
     int column = first_amplitude();
     for (const AcceptedEffect& a : accepted) {
-      std::vector<Motions> motions(a.effect->clock_rate ? 1 : 0);
-      if (!a.effect->clock_rate) motions = a.effect->motions(next->views[r], a.shape);
-      for (Motions& m_k : motions) {
-        if (a.effect->clock_rate || !m_k.empty()) {
+      if (a.effect->clock_rate) {
+        acting.push_back(column + static_cast<int>(a.effect->clock_amplitude(numbers_[r])));
+        of_effects.emplace_back();
+        column += static_cast<int>(a.value.size());
+        continue;
+      }
+      for (Motions& m_k : a.effect->motions(next->views[r], a.shape)) {
+        if (!m_k.empty()) {
           acting.push_back(column);
           of_effects.push_back(std::move(m_k));
         }
@@ -246,12 +250,21 @@ double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
   const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(),
                                          [](const AcceptedEffect& a) { return a.effect->shape_follows_amplitude; });
+  const std::vector<int> held = held_columns();
   linearise();
   double gained = 0.0;
   for (int i = 0; i < iterations; ++i) {
-    const VectorXd step = gram_.ldlt().solve(zr_), score = zr_;
+    MatrixXd gram = gram_;
+    VectorXd moved_by = zr_;
+    for (int c : held) {
+      gram.row(c).setZero();
+      gram.col(c).setZero();
+      gram(c, c) = 1.0;
+      moved_by(c) = 0.0;
+    }
+    const VectorXd step = gram.ldlt().solve(moved_by), score = zr_;
     if (!step.allFinite()) break;
-    const double size = step.dot(zr_);
+    const double size = step.dot(score);
     if (size < kNothing && !shapes_follow) break;
     const auto saved_accepted = accepted;
     const InnovationModel saved = model;
@@ -292,6 +305,33 @@ double JointModel::fit(int iterations) {
   return gained;
 }
 
+double* JointModel::clock_rate_of(int run) {
+  for (AcceptedEffect& a : accepted)
+    if (a.effect->clock_rate && a.effect->of_each_recording)
+      return &a.value[a.effect->clock_amplitude(numbers_[static_cast<std::size_t>(run)])];
+  return nullptr;
+}
+
+std::vector<int> JointModel::held_columns() const {
+  std::vector<int> held;
+  if (!clocks_are_held) return held;
+  for (std::size_t r = 0; r < runs_.size(); ++r) held.push_back(clock_column(static_cast<int>(r)));
+  for (std::size_t k = 0; k < accepted.size(); ++k)
+    if (accepted[k].effect->clock_rate)
+      for (std::size_t j = 0; j < accepted[k].value.size(); ++j)
+        held.push_back(first_column(static_cast<int>(k)) + static_cast<int>(j));
+  return held;
+}
+
+double JointModel::minus_two_log_likelihood_of(int r) const {
+  const InnovationRun run = prepared(r);
+  const InnovationModel m = model_of(r);
+  FilterOptions options;
+  options.derivatives = false;
+  const InnovationSums sums = filtered(run, summed_up(run, m), m, options);
+  return sums.chi2 + sums.log_determinant;
+}
+
 MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Identity(gram_.rows(), gram_.cols())); }
 
 double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
@@ -312,6 +352,7 @@ JointModel JointModel::left_out(int run) const {
   one.model = model;
   one.half_counts = half_counts;
   one.nuisance_active = nuisance_active;
+  one.clocks_are_held = clocks_are_held;
   one.nominal_ = nominal_;
   // What only this run could tell is not known from the others.
   std::vector<char> unknown(gram.rows(), 0);
@@ -332,6 +373,7 @@ JointModel JointModel::left_out(int run) const {
   for (AcceptedEffect a : accepted) {
     bool known = true;
     for (std::size_t j = 0; j < a.value.size(); ++j, ++k) {
+      if (a.effect->clock_rate && a.effect->of_each_recording) continue;  // each clock is its own
       const Effect::Amplitude& bounds = a.effect->amplitudes[j];
       a.value[j] =
           unknown[k] ? 0.0 : std::clamp(a.value[j] + (step.allFinite() ? step(k) : 0.0), bounds.low, bounds.high);

@@ -64,6 +64,9 @@ class JointModel {
   InnovationModel model;  // without the clocks
   std::vector<double> clock_s;
   std::vector<char> clock_active;
+  // Clocks and their rates stay where they are: they were found by the moments themselves (clocks_first). Their slope,
+  // of smoothed readings as all columns, is another one than that of the likelihood where a robot jitters.
+  bool clocks_are_held = false;
   std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
@@ -72,6 +75,7 @@ class JointModel {
   const std::vector<DriveView>& views() const { return now_->views; }
   const std::vector<InnovationRun>& runs() const { return runs_; }
   const std::vector<LinearisedRun>& linearised() const { return now_->runs; }
+  double minus_two_log_likelihood_of(int run) const;  // of that run alone, as it is now
   double chi2() const { return chi2_; }
   double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
   int scalars() const { return scalars_; }
@@ -104,6 +108,7 @@ class JointModel {
   // what happened in it alone is unknown to the others.
   JointModel left_out(int run) const;
   InnovationModel model_of(int run) const;
+  double* clock_rate_of(int run);         // null where its clock has no rate of its own
   InnovationRun prepared(int run) const;  // with the accepted effects put in
 
  private:
@@ -141,6 +146,7 @@ class JointModel {
   InnovationRun prepared(int run, const DriveView& view) const;
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
   int columns() const;
+  std::vector<int> held_columns() const;
   int clock_column(int run) const { return 6 + run; }
   int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }
   int first_amplitude() const { return 6 + static_cast<int>(runs_.size()) + 2; }

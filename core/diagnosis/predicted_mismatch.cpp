@@ -1,6 +1,7 @@
 #include "core/diagnosis/predicted_mismatch.h"
 
 #include "core/calibration/left_out.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/ready_run.h"
 #include "core/diagnosis/units/vehicle_units.h"

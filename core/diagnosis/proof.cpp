@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/clocks_first.h"
 #include "core/diagnosis/ready_run.h"
 #include "core/odometry/prediction.h"
 
@@ -31,10 +32,17 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   start.noise = noise;
   start.time_offset_s.assign(runs.size(), start.vehicle.truth.time_offset_s);
   JointModel j(std::move(runs), std::move(commands), start, nominal);
-  for (const AcceptedEffect& a : source.accepted)
-    if (!a.effect->of_one_recording) j.accepted.push_back(a);
+  for (AcceptedEffect a : source.accepted) {
+    if (a.effect->of_one_recording) continue;
+    if (a.effect->clock_rate && a.effect->of_each_recording) {
+      a.effect = &effects::clock_rate_of_each_run(static_cast<int>(j.runs().size())).front();
+      a.value.assign(j.runs().size(), 0.0);
+    }
+    j.accepted.push_back(a);
+  }
   j.linearise(false);
   j.gate();
+  align_clocks(j);
   j.linearise(false);
   return j;
 }

@@ -2,33 +2,12 @@
 
 namespace odolab {
 
-namespace {
-
-// Of all stamps of the wheels' clock.
-template <typename Change>
-void restamp(InnovationRun& run, Change&& change) {
-  for (std::vector<WheelSample>* wheels : {&run.wheels, &run.smooth})
-    for (WheelSample& w : *wheels) w.time_s = change(w.time_s);
-  for (auto& [from_s, to_s] : run.left_out) from_s = change(from_s), to_s = change(to_s);
-}
-
-}  // namespace
-
 Result<InnovationRun> ready_run(const CheckedRecording& c, const Vehicle& vehicle) {
   Result<InnovationRun> run = innovation_run(c.recording, vehicle, c.left_out_s);
   if (!run) return run;
   run->speeds_are_held = c.from_commands;
   if (c.from_commands) run->smooth.clear();  // a command is what it is
   return run;
-}
-
-void put_clock_right(InnovationRun& run, double rate, double offset_s) {
-  const double t0 = run.truth.front().time_s - offset_s;
-  restamp(run, [&](double time_s) { return t0 + (time_s - t0) / (1.0 + rate); });
-}
-
-void put_later(InnovationRun& run, double delay_s) {
-  restamp(run, [&](double time_s) { return time_s + delay_s; });
 }
 
 }  // namespace odolab

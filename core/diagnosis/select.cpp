@@ -6,6 +6,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/candidate_scan.h"
 #include "core/diagnosis/chi_square.h"
+#include "core/diagnosis/clocks_first.h"
 
 namespace odolab {
 
@@ -266,10 +267,18 @@ bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
 }
 
+// The same cause in each recording on its own.
+bool is_finer(const Effect& own, const Effect& shared) {
+  return own.of_each_recording && !shared.of_each_recording && own.name == shared.name &&
+         own.component == shared.component;
+}
+
 // What is left of something that was already let in belongs to its shape.
 bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   for (const AcceptedEffect& a : joint.accepted)
-    if (!a.effect->local && a.effect->name == c.effect->name && a.effect->component == c.effect->component) return true;
+    if (!is_finer(*c.effect, *a.effect) && !a.effect->local && a.effect->name == c.effect->name &&
+        a.effect->component == c.effect->component)
+      return true;
   if (!c.effect->local) return false;
   for (const AcceptedEffect& a : joint.accepted) {
     if (a.effect->name == "slip_zone") {
@@ -294,6 +303,12 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
   a.shape = c.test.shape;
   if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
   a.value.assign(c.test.value.size(), 0.0);
+  const auto coarser = std::find_if(joint.accepted.begin(), joint.accepted.end(),
+                                    [&](const AcceptedEffect& other) { return is_finer(*a.effect, *other.effect); });
+  if (coarser != joint.accepted.end()) {
+    for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = coarser->value[k % coarser->value.size()];
+    joint.accepted.erase(coarser);
+  }
   joint.accepted.push_back(a);
   return joint.fit(3);
 }
@@ -309,9 +324,10 @@ bool is_nothing(const JointModel::GatheredError& error) {
   return error.windows > 0 && error.position_m2 < kNothing && error.heading_rad2 < kNothing;
 }
 
-double most_left(const JointModel& joint, bool local) {
-  if (joint.truth_noise_lasts) return kMaterialWhereSmoothed;
-  if (joint.innovations_correlated()) return kMaterial;
+double most_left(const JointModel& joint, bool local, std::size_t numbers) {
+  const double of_correlated = std::max(0.5, 1.0 - (1.0 - kMaterial) * static_cast<double>(numbers));
+  if (joint.truth_noise_lasts) return std::min(kMaterialWhereSmoothed, of_correlated);
+  if (joint.innovations_correlated()) return of_correlated;
   return local ? kNoWorseByAnEvent : kNoWorse;
 }
 
@@ -329,7 +345,8 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
   for (const Effect& e : catalogue()) all.push_back(&e);
   const int runs = static_cast<int>(joint.views().size());
   if (runs > 1)
-    for (const Effect& e : effects::wheel_eccentricity_of_each_run(runs)) all.push_back(&e);
+    for (const auto* of_each : {&effects::wheel_eccentricity_of_each_run(runs), &effects::clock_rate_of_each_run(runs)})
+      for (const Effect& e : *of_each) all.push_back(&e);
   bool commands = false;
   for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
   std::vector<ScoredCandidate> scored(all.size());
@@ -346,12 +363,11 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double f
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
     scored[i] = best_of(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
-  // Phases of their own need to gain what so many more parameters gain by chance one time in a thousand.
+  // Phases or rates of their own need to gain what so many more parameters gain by chance one time in a thousand.
   for (ScoredCandidate& own : scored)
     for (const ScoredCandidate& shared : scored) {
       const int more = own.test.freedom - shared.test.freedom;
-      if (own.effect->name == "wheel_eccentricity" && shared.effect->name == own.effect->name && more > 0 &&
-          shared.effect->component == own.effect->component &&
+      if (is_finer(*own.effect, *shared.effect) && more > 0 &&
           chi_square_tail(own.test.judged() - shared.test.judged(), more) > 1e-3)
         own.test.statistic = 0.0, own.p_value = 1.0;
     }
@@ -364,6 +380,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
   Selected out;
   std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
   double share = 0.3;
+  let_clocks_in(joint);
   for (int step = 0; step < kMostEffects; ++step) {
     double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
     for (std::size_t k = 0; k < joint.accepted.size(); ++k)
@@ -417,13 +434,18 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
       fit_noise_too(joint);
-      accepted = kept > 8.0 && is_material(before.gathered_error(), joint.gathered_error(),
-                                           most_left(before, standing[tried]->effect->local));
+      accepted = kept > 8.0 &&
+                 is_material(before.gathered_error(), joint.gathered_error(),
+                             most_left(before, standing[tried]->effect->local, standing[tried]->test.value.size()));
       if (!accepted) joint = before;
     }
     if (!accepted) {
       with_all = std::move(scored);
       break;
+    }
+    if (joint.clocks_are_held) {
+      align_clocks(joint);
+      joint.fit(2);
     }
     // Its place and time were found under the noise that it made itself.
     for (std::size_t k = 0; k < joint.accepted.size(); ++k) {

@@ -34,9 +34,12 @@ bool is_nothing(const JointModel::GatheredError& error);
 // correlated the truth's noise is not what the likelihood takes it for, and small gains of likelihood mean little; less
 // where the truth was smoothed, since its own turns are then late. Where they are white the likelihood is believed:
 // what dead reckoning gains by a weak effect is lost in what it gains and loses by chance.
-double most_left(const JointModel& joint, bool local = false);
-constexpr double kMaterial = 0.985;
+double most_left(const JointModel& joint, bool local = false, std::size_t numbers = 1);
+constexpr double kMaterial = 0.985;  // for each number that is fitted
 bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, double most_left);
+
+// Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
+constexpr double kDecisive = 200.0;
 
 // A log-likelihood ratio below which two names are not told apart.
 constexpr double kClearlyBeaten = 5.0;

@@ -51,6 +51,7 @@ Effect of_wheel(Wheel wheel) {
 }
 Effect of_wheel_in_each_run(Wheel wheel, int runs) {
   Effect e = out_of_round(wheel);
+  e.of_each_recording = true;
   for (int r = 0; r < runs; ++r)
     for (const char* name : {"sine", "cosine"}) e.amplitudes.push_back({name, "1", 0.005, -0.2, 0.2});
   e.motions = [wheel, runs](const DriveView& view, const std::vector<double>&) {

@@ -11,6 +11,8 @@ namespace odolab {
 
 namespace {
 
+constexpr double kFurthest_s = 0.3, kFastest = 0.005;  // of a clock that was set by hand
+
 // What must be a robot's own. Scales act on the commands, since a prediction takes those at their word.
 struct Own {
   double speed_scale = 1.0, yaw_scale = 1.0, yaw_per_m = 0.0;
@@ -163,13 +165,17 @@ std::optional<TransferErrors> transferred(const FittedModel& others, const Vehic
 
 std::optional<TrackError> with_own_clock(const FittedModel& others, const Recording& recording) {
   const Track truth = truth_track(recording);
-  const auto error_at = [&](double offset_s) -> std::optional<TrackError> {
+  const bool with_rate = std::any_of(others.effects.begin(), others.effects.end(), [](const FittedEffect& e) {
+    return e.active.effect == "clock_rate" && !e.recording.empty();
+  });
+  const auto error_at = [&](double offset_s, double rate) -> std::optional<TrackError> {
     Vehicle vehicle = others.vehicle;
     vehicle.truth.time_offset_s = offset_s;
     std::vector<ActiveEffect> effects = others.effects_in(recording.name);
     effects.erase(std::remove_if(effects.begin(), effects.end(),
                                  [](const ActiveEffect& e) { return e.effect == "truth_time_offset"; }),
                   effects.end());
+    if (with_rate) effects.push_back({"clock_rate", "vehicle", {{"rate", rate}}});
     const Result<Track> track = predicted_track(recording, vehicle, effects);
     if (!track) return std::nullopt;
     return track_error(*track, truth);
@@ -178,17 +184,27 @@ std::optional<TrackError> with_own_clock(const FittedModel& others, const Record
     return e ? std::pow(e->position_rms_m, 2) + std::pow(0.2 * e->heading_rms_rad, 2) : 1e9;  // 0.2 m: half a robot
   };
   std::optional<TrackError> best;
-  double best_s = 0.0;
-  for (const double step_s : {0.02, 0.002}) {
-    const double middle_s = best_s;
-    for (int k = -15; k <= 15; ++k) {
-      const double offset_s = middle_s + k * step_s;
-      const std::optional<TrackError> e = error_at(offset_s);
-      if (best && cost(e) >= cost(best)) continue;
-      best = e;
-      best_s = offset_s;
+  double best_s = 0.0, best_rate = 0.0;
+  const auto better = [&](double offset_s, double rate) {
+    if (std::abs(offset_s) > kFurthest_s || std::abs(rate) > kFastest) return false;
+    const std::optional<TrackError> e = error_at(offset_s, rate);
+    if (best && cost(e) >= cost(best)) return false;
+    best = e;
+    best_s = offset_s;
+    best_rate = rate;
+    return true;
+  };
+  for (int k = -15; k <= 15; ++k) better(k * kFurthest_s / 15.0, 0.0);
+  // Offset and rate together as well: what a rate does in the middle an offset undoes.
+  const double half_s = 0.5 * (recording.time_s.back() - recording.time_s.front());
+  for (double step_s = 0.08; step_s > 0.001; step_s *= 0.5)
+    for (bool moved = true; moved;) {
+      const double rate = step_s / half_s;
+      moved = better(best_s + step_s, best_rate) || better(best_s - step_s, best_rate);
+      if (with_rate)
+        moved = better(best_s, best_rate + rate) || better(best_s, best_rate - rate) ||
+                better(best_s + step_s, best_rate + rate) || better(best_s - step_s, best_rate - rate) || moved;
     }
-  }
   return best;
 }
 

@@ -29,8 +29,9 @@ struct TransferErrors {
 std::optional<TransferErrors> transferred(const FittedModel& others, const Vehicle& nominal, const Recording& robot,
                                           double share);
 
-// A recording predicted by a model of others, frozen but for the offset of the truth's clock, which was set by hand for
-// each file: the one in 0.3 s either way that gives the least error. Nothing where there is too little truth.
+// A recording predicted by a model of others, frozen but for the truth's clock, which was set by hand for each file:
+// the offset within 0.3 s that gives the least error, and where the others' clocks were found to have rates of their
+// own the rate within 0.5 %. Nothing where there is too little truth.
 std::optional<TrackError> with_own_clock(const FittedModel& others, const Recording& recording);
 
 }  // namespace odolab

@@ -62,13 +62,13 @@ TEST(CorrelatedTruth, OfATrackerThatSmoothsBendsNoCalibration) {
   EXPECT_GT(fit->truth_apart_s, 0.0) << fit->lasting_correlation;
   const DifferentialDrive found = std::get<DifferentialDrive>(fit->vehicle.kind);
   // Four standard errors of three parameters: passed by chance 9998 times in 10 000.
-  for (const ParameterEstimate& p : fit->parameters) {
-    if (p.name == "wheelbase_m") EXPECT_LT(std::abs(found.wheelbase_m - c.actual.wheelbase_m), 4.0 * p.stderr_value);
-    if (p.name == "wheel_radius_left_m")
-      EXPECT_LT(std::abs(found.wheel_radius_left_m - c.actual.wheel_radius_left_m), 4.0 * p.stderr_value);
-    if (p.name == "wheel_radius_right_m")
-      EXPECT_LT(std::abs(found.wheel_radius_right_m - c.actual.wheel_radius_right_m), 4.0 * p.stderr_value);
-  }
+  const std::pair<const char*, double> off[] = {
+      {"wheelbase_m", found.wheelbase_m - c.actual.wheelbase_m},
+      {"wheel_radius_left_m", found.wheel_radius_left_m - c.actual.wheel_radius_left_m},
+      {"wheel_radius_right_m", found.wheel_radius_right_m - c.actual.wheel_radius_right_m}};
+  for (const ParameterEstimate& p : fit->parameters)
+    for (const auto& [name, by_m] : off)
+      EXPECT_TRUE(p.name != name || std::abs(by_m) < 4.0 * p.stderr_value) << name << " off by " << by_m;
 }
 
 TEST(CorrelatedTruth, IsNotSuspectedWhereTheNoiseIsWhite) {

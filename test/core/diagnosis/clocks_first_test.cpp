@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/fitted_model.h"
+#include "test/support/missing_physics.h"
+#include "test/support/other_clock.h"
+
+namespace odolab::test {
+namespace {
+
+struct OwnClocks {
+  Case of;
+  std::vector<double> offset_s, rate;
+};
+
+// Clocks that were set by hand, each at the start and at the end of its recording.
+OwnClocks with_own_clocks(std::vector<double> rate) {
+  CaseSettings settings;
+  settings.runs = static_cast<int>(rate.size());
+  settings.duration_s = 50.0;
+  OwnClocks c{generated_case(settings, 8311), {0.03, -0.05, 0.08, -0.02}, std::move(rate)};
+  for (std::size_t r = 0; r < c.of.recordings.size(); ++r)
+    c.of.recordings[r] = with_truths_clock(c.of.recordings[r], c.offset_s[r], c.rate[r]);
+  return c;
+}
+
+const FoundParameter& parameter(const Finding& f, const std::string& name) {
+  for (const FoundParameter& p : f.parameters)
+    if (p.name == name) return p;
+  ADD_FAILURE() << name;
+  return f.parameters.front();
+}
+
+TEST(ClocksFirst, ThatWereSetByHandHaveARateEach) {
+  const OwnClocks c = with_own_clocks({-0.003, 0.002, -0.0008});
+  const Result<Diagnosis> d = diagnose(c.of.recordings, {}, c.of.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  ASSERT_FALSE(d->findings.empty());
+  const Finding& clock = d->findings.front();
+  ASSERT_EQ(clock.effect, "clock_rate");
+  for (std::size_t r = 0; r < c.rate.size(); ++r) {
+    const FoundParameter& p = parameter(clock, "rate_" + std::to_string(r + 1));
+    // Four standard errors of three numbers are exceeded by chance once in 5000 cases.
+    EXPECT_NEAR(p.value, c.rate[r], 4.0 * p.stderr_value) << r;
+    EXPECT_LT(p.stderr_value, 1e-4);  // a fiftieth of a second over the recording is plain to see
+  }
+  EXPECT_NEAR(parameter(clock, "rate").value, -0.0006, 4.0 * parameter(clock, "rate").stderr_value);
+  for (const Finding& f : d->findings)
+    EXPECT_TRUE(f.effect == "clock_rate" || f.effect.rfind("truth_", 0) == 0) << f.effect;
+  // With its own clock each run is predicted from the others down to the noise, which calibration alone is not.
+  ASSERT_TRUE(d->held_out.with_findings && d->held_out.calibrated && d->held_out.noise_floor);
+  EXPECT_LT(d->held_out.with_findings->position_rms_m, 1.1 * d->held_out.noise_floor->position_rms_m);
+  EXPECT_GT(d->held_out.calibrated->position_rms_m, 2.0 * d->held_out.noise_floor->position_rms_m);
+
+  // A model that is made of it gives each recording its own.
+  const FittedModel model = model_of(*d);
+  for (std::size_t r = 0; r < c.rate.size(); ++r) {
+    double rate = 0.0;
+    for (const ActiveEffect& a : model.effects_in(c.of.recordings[r].name))
+      if (a.effect == "clock_rate") rate += a.parameter("rate");
+    EXPECT_NEAR(rate, c.rate[r], 4.0 * parameter(clock, "rate").stderr_value * std::sqrt(3.0)) << r;
+  }
+}
+
+TEST(ClocksFirst, OfOneRateInAllRecordingsAreOneNumber) {
+  const OwnClocks c = with_own_clocks({0.002, 0.002, 0.002});
+  const Result<Diagnosis> d = diagnose(c.of.recordings, {}, c.of.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  ASSERT_FALSE(d->findings.empty());
+  const Finding& clock = d->findings.front();
+  ASSERT_EQ(clock.effect, "clock_rate");
+  ASSERT_EQ(clock.parameters.size(), 1u);
+  EXPECT_NEAR(clock.parameters[0].value, 0.002, 4.0 * clock.parameters[0].stderr_value);
+}
+
+TEST(ClocksFirst, AreAlignedInAHeldOutRunBeforeItIsJudged) {
+  const OwnClocks c = with_own_clocks({-0.003, 0.002, -0.0008, 0.003});
+  const std::vector<Recording> train(c.of.recordings.begin(), c.of.recordings.end() - 1);
+  const Result<Diagnosis> d = diagnose(train, {c.of.recordings.back()}, c.of.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  ASSERT_TRUE(d->held_out.with_findings && d->held_out.calibrated && d->held_out.noise_floor);
+  EXPECT_LT(d->held_out.with_findings->position_rms_m, 1.15 * d->held_out.noise_floor->position_rms_m);
+  EXPECT_GT(d->held_out.calibrated->position_rms_m, 2.0 * d->held_out.noise_floor->position_rms_m);
+}
+
+}  // namespace
+}  // namespace odolab::test
