@@ -54,6 +54,12 @@ bool is_data_fault(const Finding& finding) {
          (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
 }
 
+// What is measured otherwise than the vehicle's file says, and not driven otherwise.
+bool is_of_the_measurement(const Finding& finding) {
+  return finding.effect == "truth_mounting_offset" || finding.effect == "truth_time_offset" ||
+         finding.effect == "clock_rate";
+}
+
 std::string figures_text(const FitFigures& f) {
   return number_text("%.2f mm", 1e3 * f.position_rms_m) + number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad));
 }
@@ -140,43 +146,50 @@ std::string effect_text(const std::string& effect, const std::string& component)
 }
 
 std::string verdict_sentence(const Diagnosis& diagnosis) {
-  std::vector<std::string> names, faults;
+  std::vector<std::string> physics, measured, open, faults;  // `open`: names that these recordings do not tell apart
   for (const Finding& f : diagnosis.findings) {
-    std::vector<std::string>& list = is_data_fault(f) ? faults : names;
-    const std::string name = effect_text(f.effect, f.component);
+    if (f.effect == "unknown") continue;
+    std::vector<std::string> either{effect_text(f.effect, f.component)};
+    if (diagnosis.verdict == Verdict::ambiguous)
+      for (const Alternative& a : f.alternatives) either.push_back(effect_text(a.effect, a.component));
+    if (either.size() > 3) {
+      either.resize(3);
+      either.push_back("others");
+    }
+    std::vector<std::string>& list = is_data_fault(f)           ? faults
+                                     : either.size() > 1        ? open
+                                     : is_of_the_measurement(f) ? measured
+                                                                : physics;
+    const std::string name = list_of(either, "or");
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   }
   std::string sentence;
   switch (diagnosis.verdict) {
     case Verdict::found:
-      if (names.empty() && !faults.empty()) return "The data are at fault: " + list_of(faults, "and") + ".";
-      sentence = "What the model lacks: " + list_of(names, "and") + ".";
+    case Verdict::ambiguous: {
+      const bool any = !physics.empty() || !measured.empty();
+      if (!any && open.empty()) return "The data are at fault: " + list_of(faults, "and") + ".";
+      if (!physics.empty())
+        sentence = "What the model lacks: " + list_of(physics, "and") + ".";
+      else if (any)
+        sentence = open.empty() ? "No physics is missing." : "";
+      if (!measured.empty())
+        sentence += (sentence.empty() ? "" : " ") +
+                    ("Clocks or markers are not as the vehicle's file says: " + list_of(measured, "and") + ".");
+      if (!open.empty())
+        sentence += (any ? " Not told apart by these recordings: "
+                         : "Something is missing, and these recordings cannot tell what: ") +
+                    list_of(open, "and") + ".";
       break;
+    }
     case Verdict::nothing_missing:
       sentence = "Nothing is missing: calibration explains these recordings down to their noise.";
       break;
     case Verdict::unknown_effect:
       sentence = "Something is missing that no known effect describes.";
-      names.erase(std::remove_if(names.begin(), names.end(),
-                                 [](const std::string& n) { return n.rfind("an effect in no list", 0) == 0; }),
-                  names.end());
-      if (!names.empty()) sentence += " Beside it: " + list_of(names, "and") + ".";
+      for (const auto* also : {&physics, &measured}) open.insert(open.begin(), also->begin(), also->end());
+      if (!open.empty()) sentence += " Beside it: " + list_of(open, "and") + ".";
       break;
-    case Verdict::ambiguous: {
-      std::vector<std::string> sets;
-      for (const Finding& f : diagnosis.findings) {
-        if (is_data_fault(f)) continue;
-        std::vector<std::string> either{effect_text(f.effect, f.component)};
-        for (const Alternative& a : f.alternatives) either.push_back(effect_text(a.effect, a.component));
-        if (either.size() > 3) {
-          either.resize(3);
-          either.push_back("others");
-        }
-        sets.push_back(list_of(either, "or"));
-      }
-      sentence = "Something is missing, and these recordings cannot tell what: " + list_of(sets, "and") + ".";
-      break;
-    }
     case Verdict::cannot_say:
       sentence = "These recordings cannot say whether anything is missing.";
       break;

@@ -38,6 +38,27 @@ TEST(VerdictSentence, NamesWhatWasFound) {
   EXPECT_EQ(verdict_sentence(d), "The data are at fault: truth frozen.");
 }
 
+TEST(VerdictSentence, TellsAMarkerFromPhysics) {
+  Diagnosis d = test::diagnosis_by_hand();
+  Finding mounting;
+  mounting.effect = "truth_mounting_offset";
+  mounting.component = "truth";
+  d.findings = {mounting};
+  EXPECT_EQ(verdict_sentence(d),
+            "No physics is missing. Clocks or markers are not as the vehicle's file says: truth mounting offset.");
+  Finding toe;
+  toe.effect = "wheel_toe";
+  toe.component = "vehicle";
+  toe.alternatives = {{"truth_mounting_offset", "truth", 1.0, ""}};
+  Finding zone = d.findings[0];
+  zone.effect = "slip_zone";
+  zone.component = "floor";
+  d.findings = {zone, toe};
+  d.verdict = Verdict::ambiguous;
+  EXPECT_EQ(verdict_sentence(d), "What the model lacks: slip zone of the floor. Not told apart by these recordings: wheel toe of "
+                                 "the vehicle or truth mounting offset.");
+}
+
 TEST(EffectText, ReadsAsAPersonWouldSayIt) {
   EXPECT_EQ(effect_text("wheel_toe", "both_wheels"), "wheel toe of both wheels");
   EXPECT_EQ(effect_text("wheel_eccentricity", "truck_a.left_wheel"), "wheel eccentricity of the left wheel of truck a");
