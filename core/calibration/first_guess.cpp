@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/calibration/late_truth.h"
+
 namespace odolab {
 
 namespace {
@@ -216,6 +218,15 @@ std::string contradiction_in(const std::vector<InnovationRun>& runs, const Diffe
                   radius_ratio);
     return text;
   }
+  if (p.turn.explained < 0.3 || p.way.explained < 0.3)
+    if (const std::optional<double> late_s = late_truth_s(runs)) {
+      std::snprintf(
+          text, sizeof text,
+          "a truth whose stamps are %.1f s %s than the wheels' by what both do; truth_mounting.time_offset_s = %.1f in "
+          "the vehicle's file says so",
+          std::abs(*late_s), *late_s > 0.0 ? "later" : "earlier", *late_s);
+      return text;
+    }
   if (p.turn.explained < 0.3 && p.way.explained < 0.3)
     return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are "
            "not cumulative, or "

@@ -63,6 +63,13 @@ bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
                            (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
 }
 
+// For those who know nothing of clocks: the truth's stamps as they are by the vehicle's file.
+std::vector<InnovationRun> by_the_wheels_clock(std::vector<InnovationRun> runs, double truth_late_s) {
+  for (InnovationRun& run : runs)
+    for (TruthSample& t : run.truth) t.time_s -= truth_late_s;
+  return runs;
+}
+
 // All truth samples that are there.
 Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                   const LeastSquaresOptions& options, const Progress& progress) {
@@ -87,10 +94,11 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   const Error stopped{"calibration", "stopped before its end", ""};
   for (const std::optional<Error>& fault : faults_in(recordings, nominal))
     if (fault) return *fault;
-  if (const std::string contradiction = contradiction_in(runs, *drive); !contradiction.empty())
+  const std::vector<InnovationRun> on_one_clock = by_the_wheels_clock(runs, nominal.truth.time_offset_s);
+  if (const std::string contradiction = contradiction_in(on_one_clock, *drive); !contradiction.empty())
     return Error{recordings.size() == 1 ? recordings[0].name : "the recordings", contradiction,
                  "wheels and truth of one robot, in the units that the columns are named after"};
-  const FirstGuess guess = first_guess(runs, *drive);
+  const FirstGuess guess = first_guess(on_one_clock, *drive);
   const std::vector<std::string> jumps = counter_jumps_in(runs);
 
   std::vector<int> active = {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase};

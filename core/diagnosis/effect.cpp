@@ -151,8 +151,8 @@ const std::vector<Effect>& catalogue() {
 
 const Effect* catalogue_entry(const ActiveEffect& active) {
   const auto given = [&](const Effect::Amplitude& shape) {
-    return shape.name == "recording" || std::any_of(active.parameters.begin(), active.parameters.end(),
-                                                    [&](const auto& p) { return p.first == shape.name; });
+    return !is_estimated(shape) || std::any_of(active.parameters.begin(), active.parameters.end(),
+                                               [&](const auto& p) { return p.first == shape.name; });
   };
   const Effect* best = nullptr;
   int best_fit = -1;

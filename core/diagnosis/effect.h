@@ -68,6 +68,9 @@ BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m);
 std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, double apart_s,
                                          const std::function<bool(const EffectStep&)>& may_happen);
 
+// A shape that is given and not estimated: when the session of all recordings began.
+inline constexpr const char* kSessionStart = "session_start_s";
+
 struct Effect {
   std::string name, component;
   struct Amplitude {
@@ -113,6 +116,11 @@ struct Effect {
       to_parameters;
   std::function<std::vector<double>(const ActiveEffect&)> from_parameters;
 };
+
+// Whether a shape of that name is estimated: neither the number of a recording nor a time that is given.
+inline bool is_estimated(const Effect::Amplitude& shape) {
+  return shape.name != "recording" && shape.name != kSessionStart;
+}
 
 // Every entry, once for each component that it can act on.
 const std::vector<Effect>& catalogue();

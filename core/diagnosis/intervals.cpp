@@ -67,7 +67,7 @@ std::vector<int> free_shapes(const Effect& effect) {
   std::vector<int> free;
   if (effect.shape_follows_amplitude) return free;
   for (std::size_t k = 0; k < effect.shapes.size(); ++k)
-    if (effect.shapes[k].name != "recording") free.push_back(static_cast<int>(k));
+    if (is_estimated(effect.shapes[k])) free.push_back(static_cast<int>(k));
   return free;
 }
 
@@ -155,6 +155,10 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
     out.push_back({a.effect->shapes[s].name, a.shape[s], se, a.effect->shapes[s].unit});
     ++k;
   }
+  const bool in_another_form = a.effect->forms.size() > 1 && a.shape.back() > 0.0;
+  for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
+    if (in_another_form && a.effect->shapes[k].name == kSessionStart)
+      out.push_back({kSessionStart, a.shape[k], 0.0, a.effect->shapes[k].unit});
   return out;
 }
 

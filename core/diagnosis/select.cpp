@@ -48,7 +48,7 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
   std::vector<std::vector<double>> near;
   for (std::size_t k = 0; k < e.shapes.size(); ++k)
     for (double side : {-1.0, 1.0}) {
-      if (e.shapes[k].name == "recording") continue;
+      if (!is_estimated(e.shapes[k])) continue;
       std::vector<double> s = shape;
       const std::string& unit = e.shapes[k].unit;
       if (unit == "s" && !e.shape_follows_amplitude)

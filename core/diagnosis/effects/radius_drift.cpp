@@ -1,16 +1,23 @@
-// Wheels that grow or shrink with time: warming, wear, pressure. The share of the radius is per_s times the time.
-#include <cmath>
+// Wheels that grow or shrink with time: warming, wear, pressure. The share of the radius is per_s times the time: since
+// each recording's start, or on through the session where recordings are stamped by one clock and wheels did not cool
+// between.
+#include <algorithm>
 
 #include "core/diagnosis/effect.h"
 
 namespace odolab::effects {
 
 namespace {
+constexpr std::size_t kFrom = 0, kForm = 1;  // of a shape
+constexpr double kThroughTheSession = 1.0;
+
 Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "radius_drift";
   e.component = component_of(wheel);
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
+  e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
+  e.forms = {"anew in each recording", "on through all recordings, by their stamps"};
   e.sentence = std::string("the radius of the ") +
                (wheel == Wheel::left    ? "left wheel"
                 : wheel == Wheel::right ? "right wheel"
@@ -19,10 +26,18 @@ Effect of_wheel(Wheel wheel) {
   e.regime = "grows with the time since the start";
   e.looks_like = {"one_sided_drag", "payload_radius_change", "clock_rate"};
   e.told_apart_by = "the same straight early and late in a long run";
-  e.motions = [wheel](const DriveView& view, const std::vector<double>&) {
+  e.scan = [](const std::vector<DriveView>& views) {
+    double first_s = 0.0;
+    for (std::size_t r = 0; r < views.size(); ++r)
+      if (!views[r].steps.empty())
+        first_s = r == 0 ? views[r].steps[0].time_s : std::min(first_s, views[r].steps[0].time_s);
+    return std::vector<std::vector<double>>{{first_s}};
+  };
+  e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
+    const bool session = shape.size() > kForm && shape[kForm] == kThroughTheSession;
     Motions m;
     for (const EffectStep& s : view.steps) {
-      const double t = s.since_start_s;
+      const double t = session ? s.time_s - shape[kFrom] : s.since_start_s;
       if (wheel == Wheel::both)
         m.push_back({t * s.forward_m(), 0.0, t * s.turn_rad});
       else
