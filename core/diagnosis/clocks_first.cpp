@@ -121,13 +121,16 @@ void let_clocks_in(JointModel& joint) {
     return;
   const auto simplify = [&](const Effect* rates, const std::vector<double>& value) {
     JointModel simpler = held(joint, rates, value, moments);
-    if (!is_likelier(best, simpler)) best = std::move(simpler);
+    if (is_likelier(best, simpler)) return false;
+    best = std::move(simpler);
+    return true;
   };
+  bool simpler = true;
   if (n > 1) {
     own = best.accepted.back().value;
-    simplify(shared, {std::accumulate(own.begin(), own.end(), 0.0) / static_cast<double>(n)});
+    simpler = simplify(shared, {std::accumulate(own.begin(), own.end(), 0.0) / static_cast<double>(n)});
   }
-  simplify(nullptr, {});
+  if (simpler) simplify(nullptr, {});
 
   // Where the slopes say the same, clocks may move on with all else.
   JointModel free = best;

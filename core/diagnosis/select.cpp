@@ -246,6 +246,17 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
   return best;
 }
 
+// An accepted effect as it stands, held against nothing else.
+ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
+  const AcceptedEffect& a = joint.accepted[accepted];
+  ScoredCandidate c;
+  c.effect = a.effect;
+  c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
+  c.test.shape = a.shape;
+  judge(c);
+  return c;
+}
+
 // What happens in one place or at one moment is judged by how large it seems in all others. While it is left out of the
 // model it shows in all that comes behind it, the more so the smaller the noise is: others' scatter is then taken from
 // the model that has it.
@@ -381,6 +392,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
   std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
   double share = 0.3;
   let_clocks_in(joint);
+  const Effect* clocks = joint.accepted.empty() ? nullptr : joint.accepted.front().effect;  // known beyond doubt
   for (int step = 0; step < kMostEffects; ++step) {
     double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
     for (std::size_t k = 0; k < joint.accepted.size(); ++k)
@@ -465,6 +477,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     // A name may have been the best only while another was missing.
     if (joint.accepted.size() > 1)
       for (std::size_t k = 0; k + 1 < joint.accepted.size(); ++k) {
+        if (joint.accepted[k].effect == clocks) continue;
         const std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
         const ScoredCandidate* own = nullptr;
         for (const ScoredCandidate& c : instead)
@@ -494,7 +507,11 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
   };
   for (std::size_t k = 0; k < joint.accepted.size();) {
     if (with_all.empty()) with_all = scored_candidates(joint, family_wise_error);
-    std::vector<ScoredCandidate> instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
+    std::vector<ScoredCandidate> instead;
+    if (joint.accepted[k].effect == clocks)
+      instead.push_back(tested_alone(joint, k));
+    else
+      instead = scored_candidates(joint, family_wise_error, static_cast<int>(k));
     judge_locals_by(with_all, instead);
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
