@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/effect.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/replay.h"
@@ -40,6 +41,19 @@ Vec2 wheel_at(const Pose& axle, const std::string& component, const Vehicle& veh
 
 bool is_of_the_truth(const ActiveEffect& active) {
   return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
+}
+
+// With wheels that have drifted since the session began: the simulation's own drift starts with the recording.
+Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects, const Recording& recording) {
+  auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
+  if (!drive || recording.time_s.empty()) return vehicle;
+  for (const ActiveEffect& a : effects) {
+    if (a.effect != "radius_drift" || !has(a, kSessionStart)) continue;
+    const double grown = 1.0 + a.parameter("per_s") * (recording.time_s.front() - a.parameter(kSessionStart));
+    if (a.component != "right_wheel") drive->wheel_radius_left_m *= grown;
+    if (a.component != "left_wheel") drive->wheel_radius_right_m *= grown;
+  }
+  return vehicle;
 }
 
 }  // namespace
@@ -159,10 +173,11 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
 
 Result<Replay> replay_with(const FittedModel& model, const std::shared_ptr<const Recording>& recording,
                            const Progress& progress) {
-  const Vehicle vehicle = model.vehicle_in(recording->name);
+  const std::vector<ActiveEffect> effects = model.effects_in(recording->name);
+  const Vehicle vehicle = as_it_sets_off(model.vehicle_in(recording->name), effects, *recording);
   Scenario scenario = replay_scenario(vehicle, *recording);
   scenario.step_s = kStep_s;
-  for (const ActiveEffect& fitted : model.effects_in(recording->name))
+  for (const ActiveEffect& fitted : effects)
     if (const auto active = effect_for_scenario(fitted, *recording, vehicle)) scenario.effects.push_back(*active);
   return replay(scenario, recording, progress);
 }

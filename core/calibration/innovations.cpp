@@ -17,12 +17,21 @@ constexpr double kSmall = 1e-100, kLarge = 1e100;
 // The same as `wrapped`, sooner where there is nothing to do.
 double soon_wrapped(double angle_rad) { return std::abs(angle_rad) < kPi ? angle_rad : wrapped(angle_rad); }
 
-// The heading that lays the first metres of dead reckoning onto a truth without headings.
-double heading_from_shape(const InnovationRun& run, const SummedRun& summed, const TruthMounting& mounting, int first,
-                          int last) {
-  double cosine = 0.0, sine = 0.0, travelled = 0.0;
+struct UnknownHeading {
+  double guess_rad = 0.0, stderr_rad = 1.0;
+};
+
+// The heading that lays the first metres of dead reckoning onto a truth without headings. Its error is taken ten times
+// as large as the truth's noise makes it, since the filter uses the same samples again, and between a tenth of a radian
+// and one. Not wider than need be: at rest a filter that knows nothing of the heading turns it about the tracked point
+// with every sample, each time as if it had learned something.
+UnknownHeading heading_from_shape(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                                  int first, int last) {
+  constexpr double kTimes = 10.0, kLeast_rad = 0.1;
+  double cosine = 0.0, sine = 0.0, travelled = 0.0, square_m2 = 0.0;
+  int samples = 0;
   Pose pose;
-  const Vec2 m = mounting.axle_T_tracked.position(), start = pose * m;
+  const Vec2 m = model.truth.axle_T_tracked.position(), start = pose * m;
   for (int t = first; t + 1 < last && !is_cut(run, t + 1); ++t) {
     pose = pose * summed.motions[t].motion;
     travelled += length(summed.motions[t].motion.position());
@@ -30,9 +39,15 @@ double heading_from_shape(const InnovationRun& run, const SummedRun& summed, con
     const Vec2 guess = pose * m - start, truth = run.truth[t + 1].position - run.truth[first].position;
     cosine += dot(guess, truth);
     sine += cross(guess, truth);
+    square_m2 += dot(guess, guess);
+    ++samples;
     if (travelled > 2.0 && std::hypot(cosine, sine) > 0.5) break;
   }
-  return std::atan2(sine, cosine);
+  UnknownHeading heading{std::atan2(sine, cosine), 1.0};
+  if (square_m2 > 0.0)
+    heading.stderr_rad =
+        std::clamp(kTimes * model.noise.truth_position_m / std::sqrt(square_m2 / samples), kLeast_rad, 1.0);
+  return heading;
 }
 
 class PoseFilter {
@@ -138,8 +153,9 @@ class PoseFilter {
     if (heading_is_read) {
       tracked_heading = *truth.heading_rad;
     } else {
-      tracked_heading = heading_from_shape(run_, summed_, model_.truth, k, last_) + m.heading_rad;
-      heading2 = 1.0;  // unknown: an error of one radian
+      const UnknownHeading unknown = heading_from_shape(run_, summed_, model_, k, last_);
+      tracked_heading = unknown.guess_rad + m.heading_rad;
+      heading2 = unknown.stderr_rad * unknown.stderr_rad;
     }
     state_.heading_rad = tracked_heading - m.heading_rad;
     face();

@@ -12,6 +12,7 @@
 #include "core/calibration/likelihood_fit.h"
 #include "core/calibration/recording_fault.h"
 #include "core/calibration/restamped.h"
+#include "core/calibration/shape_guess.h"
 
 namespace odolab {
 
@@ -116,6 +117,10 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     for (int c = column::shared; c < start.size(); ++c) active.push_back(c);
   LikelihoodFit fit(std::move(runs), start);
   if (guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
+  if (const auto shape = shape_guess(fit.runs(), *drive, nominal.truth)) {
+    fit.start_from(shape->drive);
+    if (options.fit_truth_mounting) fit.start_from(shape->tracked_m);
+  }
 
   // FitParameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where
   // nothing is odd, since each depends little on the others.

@@ -42,6 +42,10 @@ class LikelihoodFit {
 
   // Begins elsewhere than at the nominal values; the priors stay where they are.
   void start_from(const DifferentialDrive& drive) { now_.shared.drive = drive; }
+  void start_from(Vec2 tracked_point) {
+    now_.shared.truth.axle_T_tracked.x_m = tracked_point.x_m;
+    now_.shared.truth.axle_T_tracked.y_m = tracked_point.y_m;
+  }
 
   struct Sums {
     double chi2 = 0.0;  // without the prior

@@ -1,0 +1,145 @@
+#include "core/calibration/shape_guess.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/calibration/minimise.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kStretch_s = 8.0, kApart_s = 0.15;  // of a stretch, and of its samples
+constexpr std::size_t kFewest = 12;                  // samples
+constexpr double kShortest_m = 0.1;                  // what a stretch must be across
+constexpr double kWorst = 0.1;                       // share of the stretches that may be at fault
+constexpr std::size_t kMostStretches = 60;
+
+struct Sample {
+  double left_rad = 0.0, right_rad = 0.0;  // by how much the wheels turned since the one before
+  Vec2 truth;
+};
+using Stretch = std::vector<Sample>;
+
+Stretch stretch_of(const InnovationRun& run, double from_s, double to_s, double late_s) {
+  Stretch stretch;
+  double next_s = from_s, left = 0.0, right = 0.0;
+  std::size_t w = 0;
+  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+    const TruthSample& t = run.truth[i];
+    if (t.time_s < next_s || run.set_aside[i]) continue;
+    if (t.time_s > to_s) break;
+    const double at_s = t.time_s - late_s;
+    if (at_s < run.wheels.front().time_s || at_s > run.wheels.back().time_s) continue;
+    while (w + 2 < run.wheels.size() && run.wheels[w + 1].time_s < at_s) ++w;
+    const WheelSample &a = run.wheels[w], &b = run.wheels[w + 1];
+    const double share = (at_s - a.time_s) / (b.time_s - a.time_s);
+    const double l = a.left_rad + share * (b.left_rad - a.left_rad),
+                 r = a.right_rad + share * (b.right_rad - a.right_rad);
+    stretch.push_back({stretch.empty() ? 0.0 : l - left, stretch.empty() ? 0.0 : r - right, t.position});
+    left = l, right = r;
+    next_s = t.time_s + kApart_s;
+  }
+  return stretch;
+}
+
+double size2(const Stretch& stretch) {
+  Vec2 mean{};
+  for (const Sample& s : stretch) mean = mean + s.truth;
+  mean = (1.0 / static_cast<double>(stretch.size())) * mean;
+  double sum = 0.0;
+  for (const Sample& s : stretch) sum += dot(s.truth - mean, s.truth - mean);
+  return sum / static_cast<double>(stretch.size());
+}
+
+struct Drive {
+  double left_m, right_m, wheelbase_m;
+  Vec2 tracked;
+};
+
+// Mean square distance of the dead-reckoned stretch from the truth, laid onto it as well as turning and shifting can.
+double misfit(const Stretch& stretch, const Drive& drive) {
+  Pose pose;
+  Vec2 mean_guess{}, mean_truth{};
+  std::vector<Vec2> guess;
+  guess.reserve(stretch.size());
+  for (const Sample& s : stretch) {
+    const double left = drive.left_m * s.left_rad, right = drive.right_m * s.right_rad;
+    const double forward = 0.5 * (left + right), turn = (right - left) / drive.wheelbase_m;
+    const double heading = pose.heading_rad + 0.5 * turn;
+    pose = {pose.x_m + forward * std::cos(heading), pose.y_m + forward * std::sin(heading), pose.heading_rad + turn};
+    guess.push_back(pose * drive.tracked);
+    mean_guess = mean_guess + guess.back();
+    mean_truth = mean_truth + s.truth;
+  }
+  const double n = static_cast<double>(stretch.size());
+  mean_guess = (1.0 / n) * mean_guess;
+  mean_truth = (1.0 / n) * mean_truth;
+  double cosine = 0.0, sine = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < stretch.size(); ++i) {
+    const Vec2 g = guess[i] - mean_guess, t = stretch[i].truth - mean_truth;
+    cosine += dot(g, t);
+    sine += cross(g, t);
+    squares += dot(g, g) + dot(t, t);
+  }
+  return std::max(0.0, squares - 2.0 * std::hypot(cosine, sine)) / n;
+}
+
+}  // namespace
+
+std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal,
+                                      const TruthMounting& mounting) {
+  std::vector<Stretch> stretches;
+  double sizes = 0.0;
+  for (const InnovationRun& run : runs) {
+    if (run.truth_has_heading || run.truth.size() < kFewest || run.wheels.size() < 2) return std::nullopt;
+    for (double from_s = run.truth.front().time_s; from_s < run.truth.back().time_s; from_s += kStretch_s) {
+      Stretch stretch = stretch_of(run, from_s, from_s + kStretch_s, mounting.time_offset_s);
+      if (stretch.size() < kFewest || size2(stretch) < kShortest_m * kShortest_m) continue;
+      stretches.push_back(std::move(stretch));
+    }
+  }
+  if (stretches.empty()) return std::nullopt;
+  if (stretches.size() > kMostStretches) {  // evenly over all
+    std::vector<Stretch> fewer;
+    for (std::size_t k = 0; k < kMostStretches; ++k) fewer.push_back(stretches[k * stretches.size() / kMostStretches]);
+    stretches = std::move(fewer);
+  }
+  for (const Stretch& s : stretches) sizes += size2(s);
+  const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>((1.0 - kWorst) * stretches.size()));
+
+  // By the logarithm of each size, and the tracked point in parts of the wheelbase.
+  const Pose& m = mounting.axle_T_tracked;
+  const auto drive_of = [&](const std::vector<double>& v) {
+    return Drive{nominal.wheel_radius_left_m * std::exp(v[0] + v[1]),
+                 nominal.wheel_radius_right_m * std::exp(v[0] - v[1]),
+                 nominal.wheelbase_m * std::exp(v[2]),
+                 {m.x_m + v[3] * nominal.wheelbase_m, m.y_m + v[4] * nominal.wheelbase_m}};
+  };
+  const auto worst_left_out = [&](const std::vector<double>& v) {
+    const Drive drive = drive_of(v);
+    std::vector<double> each;
+    for (const Stretch& s : stretches) each.push_back(misfit(s, drive));
+    std::nth_element(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(kept - 1), each.end());
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kept; ++k) sum += each[k];
+    // Drives that cannot tell stay where they were: a tenth is worth a millimetre.
+    for (double x : v) sum += 1e-6 * static_cast<double>(kept) * 100.0 * x * x;
+    return sum;
+  };
+  const double least = 1e-9 * static_cast<double>(kept);
+  std::vector<double> at = minimised(worst_left_out, std::vector<double>(5, 0.0), 0.05, least, 500);
+  at = minimised(worst_left_out, at, 0.01, least, 500);
+  const double fraction =
+      worst_left_out(at) / (sizes * static_cast<double>(kept) / static_cast<double>(stretches.size()));
+  constexpr double kTwentieth = 0.05 * 0.05;
+  if (fraction > kTwentieth) return std::nullopt;
+  const Drive found = drive_of(at);
+  ShapeGuess guess{nominal, found.tracked};
+  guess.drive.wheel_radius_left_m = found.left_m;
+  guess.drive.wheel_radius_right_m = found.right_m;
+  guess.drive.wheelbase_m = found.wheelbase_m;
+  return guess;
+}
+
+}  // namespace odolab
