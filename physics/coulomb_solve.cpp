@@ -169,8 +169,8 @@ void CoulombSolve::take_pulls(double share, double soft_mps) {
     change = share * change;
     const double size = std::sqrt(dot(slip, slip) + soft_mps * soft_mps);
     const Vec2 pull = (1.0 / size) * (slip + change - (dot(slip, change) / size) * pulls_[m]);
-    const double much = length(pull);
-    pulls_[m] = much > kFullPull ? (kFullPull / much) * pull : pull;
+    const double much2 = dot(pull, pull);
+    pulls_[m] = much2 > kFullPull * kFullPull ? (kFullPull / std::sqrt(much2)) * pull : pull;
   }
 }
 

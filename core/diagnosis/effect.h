@@ -1,6 +1,7 @@
 // What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -44,7 +45,8 @@ struct DriveView {
   template <typename Visit>
   void steps_near(Vec2 place, double within_m, Visit&& visit) const {
     for (std::size_t i = 0; i < steps.size();) {
-      const double away_m = length(steps[i].position - place) - within_m;
+      const Vec2 to = steps[i].position - place;
+      const double away_m = std::sqrt(dot(to, to)) - within_m;
       if (away_m <= 0.0) visit(i);
       i += away_m <= longest_step_m ? 1 : static_cast<std::size_t>(away_m / longest_step_m);
     }

@@ -54,37 +54,8 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
                               w[3 * r + 2] * steps_[k].residual[2]);
   }
 
-  // The same pieces that summed_up walks through.
-  const auto& wheels = run.wheels;
-  const double b = model.drive.wheelbase_m;
-  std::size_t i = 0;
-  double now_s = run.truth[0].time_s - model.truth.time_offset_s;
-  pieces_.reserve(wheels.size() + run.truth.size());
-  for (int t = 0; t + 1 < n; ++t) {
-    first_piece_.push_back(static_cast<int>(pieces_.size()));
-    const double end_s = run.truth[t + 1].time_s - model.truth.time_offset_s;
-    Pose pose;
-    while (now_s < end_s) {
-      while (i + 2 < wheels.size() && wheels[i + 1].time_s <= now_s) ++i;
-      const double until_s = i + 2 >= wheels.size() ? end_s : std::min(end_s, wheels[i + 1].time_s);
-      const double share = (until_s - now_s) / (wheels[i + 1].time_s - wheels[i].time_s);
-      const double left_m = model.drive.wheel_radius_left_m * share * (wheels[i + 1].left_rad - wheels[i].left_rad);
-      const double right_m = model.drive.wheel_radius_right_m * share * (wheels[i + 1].right_rad - wheels[i].right_rad);
-      double forward = 0.5 * (left_m + right_m), sideways = 0.0, turn = (right_m - left_m) / b;
-      for (const ExtraColumn& e : run.extra) {
-        forward += share * e.value * e.per_step[i].forward_m;
-        sideways += share * e.value * e.per_step[i].sideways_m;
-        turn += share * e.value * e.per_step[i].turn_rad;
-      }
-      const double middle = pose.heading_rad + 0.5 * turn, c = std::cos(middle), s = std::sin(middle);
-      const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
-      pieces_.push_back({static_cast<int>(i), static_cast<float>(share), dx, dy, c, s});
-      pose = {pose.x_m + dx, pose.y_m + dy, pose.heading_rad + turn};
-      now_s = until_s;
-    }
-  }
-  first_piece_.push_back(static_cast<int>(pieces_.size()));
   prepare_carry();
+  cut_into_pieces();
 }
 
 void LinearisedRun::prepare_carry() {
@@ -197,20 +168,6 @@ Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion,
   return {first, n};
 }
 
-Stretch LinearisedRun::touched(std::size_t first, std::size_t end) const {
-  const auto piece_of = [&](std::size_t step) {
-    return static_cast<int>(std::lower_bound(pieces_.begin(), pieces_.end(), static_cast<int>(step),
-                                             [](const Piece& p, int s) { return p.interval < s; }) -
-                            pieces_.begin());
-  };
-  const int n = samples();
-  const auto truth_of = [&](int piece) {
-    return static_cast<int>(std::upper_bound(first_piece_.begin(), first_piece_.end(), piece) - first_piece_.begin()) -
-           1;
-  };
-  return {std::clamp(truth_of(piece_of(first)), 0, n - 1), std::clamp(truth_of(piece_of(end)) + 1, 0, n - 1)};
-}
-
 namespace {
 
 // The steps in which something moves, within those that the motions hold.
@@ -239,11 +196,13 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
     double e0 = d0 - carry.dy * d2, e1 = d1 + carry.dx * d2, e2 = d2;
     if (t < with_motion.last) {
-      double jac[3] = {0.0, 0.0, 0.0};
-      add_motion(motions, t, jac);
-      e0 += carry.c * jac[0] - carry.s * jac[1];
-      e1 += carry.s * jac[0] + carry.c * jac[1];
-      e2 += jac[2];
+      for (int p = first_piece_[t]; p < first_piece_[t + 1]; ++p) {
+        const Piece& piece = pieces_[p];
+        const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
+        e0 += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
+        e1 += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
+        e2 += piece.share * m.turn_rad;
+      }
     }
     double* const o = out + 3 * (t + 1);
     for (int r = 0; r < 3; ++r) o[r] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
@@ -258,104 +217,6 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
     }
   }
   return {first, n};
-}
-
-template <int k>
-void LinearisedRun::products(const Motions* const* motions, const Tails& tails, double* products) const {
-  std::size_t first_step = motions[0]->first(), end_step = motions[0]->end();
-  for (int j = 1; j < k; ++j) {
-    first_step = std::min(first_step, motions[j]->first());
-    end_step = std::max(end_step, motions[j]->end());
-  }
-  const Stretch with_motion = touched(first_step, end_step);
-  double d[3][k] = {}, sum[k][k] = {};
-  for (int t = with_motion.first; t < with_motion.last; ++t) {
-    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
-    double e[3][k];
-    for (int j = 0; j < k; ++j) {
-      double jac[3] = {0.0, 0.0, 0.0};
-      add_motion(*motions[j], t, jac);
-      e[0][j] = d[0][j] - carry.dy * d[2][j] + carry.c * jac[0] - carry.s * jac[1];
-      e[1][j] = d[1][j] + carry.dx * d[2][j] + carry.s * jac[0] + carry.c * jac[1];
-      e[2][j] = d[2][j] + jac[2];
-    }
-    for (int r = 0; r < 3; ++r) {
-      double o[k];
-      for (int j = 0; j < k; ++j)
-        o[j] = carry.out[3 * r] * e[0][j] + carry.out[3 * r + 1] * e[1][j] + carry.out[3 * r + 2] * e[2][j];
-      for (int i = 0; i < k; ++i)
-        for (int j = i; j < k; ++j) sum[i][j] += o[i] * o[j];
-      for (int j = 0; j < k; ++j)
-        d[r][j] = carry.on[3 * r] * e[0][j] + carry.on[3 * r + 1] * e[1][j] + carry.on[3 * r + 2] * e[2][j];
-    }
-  }
-  const std::array<double, 6>& s = tails[static_cast<std::size_t>(with_motion.last)];
-  for (int i = 0; i < k; ++i)
-    for (int j = i; j < k; ++j) {
-      const double x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];
-      const double y = s[1] * d[0][j] + s[3] * d[1][j] + s[4] * d[2][j];
-      const double h = s[2] * d[0][j] + s[4] * d[1][j] + s[5] * d[2][j];
-      products[i * k + j] = products[j * k + i] = sum[i][j] + d[0][i] * x + d[1][i] * y + d[2][i] * h;
-    }
-}
-
-void LinearisedRun::products_of_motions(const std::vector<Motions>& motions, const Tails& tails, double* out) const {
-  const std::size_t count = motions.size();
-  std::fill(out, out + count * count, 0.0);
-  std::vector<std::size_t> acting;
-  for (std::size_t j = 0; j < count; ++j)
-    if (!motions[j].empty()) acting.push_back(j);
-  if (acting.empty()) return;
-  const auto put = [&](std::size_t i, std::size_t j, double value) {
-    out[acting[i] * count + acting[j]] = out[acting[j] * count + acting[i]] = value;
-  };
-  if (acting.size() <= 3) {
-    const Motions* of[3] = {};
-    for (std::size_t j = 0; j < acting.size(); ++j) of[j] = &motions[acting[j]];
-    double made[9];
-    if (acting.size() == 1) products<1>(of, tails, made);
-    if (acting.size() == 2) products<2>(of, tails, made);
-    if (acting.size() == 3) products<3>(of, tails, made);
-    for (std::size_t i = 0; i < acting.size(); ++i)
-      for (std::size_t j = i; j < acting.size(); ++j) put(i, j, made[i * acting.size() + j]);
-    return;
-  }
-  for (std::size_t i = 0; i < acting.size(); ++i)  // in pairs
-    for (std::size_t j = i; j < acting.size(); ++j) {
-      const Motions* of[2] = {&motions[acting[i]], &motions[acting[j]]};
-      double made[4];
-      products<2>(of, tails, made);
-      put(i, j, made[1]);
-    }
-}
-
-// `carried` and `of_motion` the other way about: each line is the transpose of one there.
-std::vector<BodyMotion> LinearisedRun::score_of_motions(const double* whitened) const {
-  std::vector<BodyMotion> score(run_->wheels.size() - 1);
-  double a0 = 0.0, a1 = 0.0, a2 = 0.0;  // by the derivative of the pose behind sample t + 1
-  for (int t = samples() - 2; t >= 0; --t) {
-    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
-    const double* o = whitened + 3 * (t + 1);
-    double e[3];
-    for (int k = 0; k < 3; ++k)
-      e[k] = carry.out[k] * o[0] + carry.out[3 + k] * o[1] + carry.out[6 + k] * o[2] + carry.on[k] * a0 +
-             carry.on[3 + k] * a1 + carry.on[6 + k] * a2;
-    a0 = e[0];
-    a1 = e[1];
-    a2 = e[2];
-    const double d0 = carry.c * a0 + carry.s * a1, d1 = -carry.s * a0 + carry.c * a1;
-    double d2 = a2;
-    for (int p = first_piece_[t + 1] - 1; p >= first_piece_[t]; --p) {
-      const Piece& piece = pieces_[p];
-      BodyMotion& sum = score[static_cast<std::size_t>(piece.interval)];
-      sum.forward_m += piece.share * (piece.c * d0 + piece.s * d1);
-      sum.sideways_m += piece.share * (-piece.s * d0 + piece.c * d1);
-      sum.turn_rad += piece.share * (-0.5 * piece.dy * d0 + 0.5 * piece.dx * d1 + d2);
-      d2 += -piece.dy * d0 + piece.dx * d1;
-    }
-    a2 += -carry.dy * a0 + carry.dx * a1;
-  }
-  return score;
 }
 
 void LinearisedRun::of_parameter(int parameter, double* out) const {

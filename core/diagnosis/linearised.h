@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -40,20 +41,39 @@ class LinearisedRun {
   // The sum of squares that a derivative of the pose still brings behind each sample: xx, xy, xh, yy, yh, hh.
   using Tails = std::vector<std::array<double, 6>>;
   Tails tails() const;
-  // Products of the columns of several motions with each other, k by k, row by row: as `of_motion` gives them, without
-  // writing them down. Costs what the motions last, and nothing for what they leave behind.
-  void products_of_motions(const std::vector<Motions>& motions, const Tails& tails, double* products) const;
   // The product of `whitened` with the column of every motion at once: how fast it grows with the forward, sideways and
   // turning motion of each wheel interval. One pass backward, whatever the number of columns asked for.
   std::vector<BodyMotion> score_of_motions(const double* whitened) const;
+  // The same for what moves in each truth interval, x, y and heading at its end in the room: 3 numbers for each.
+  std::vector<double> score_of_intervals(const double* whitened) const;
+  // What candidates do in truth intervals [first, end), x, y and heading at the interval's end in the room. So many lie
+  // side by side: of interval t, column j, number r and candidate l at ((t * columns + j) * 3 + r) * abreast + l,
+  // counted from the first interval.
+  static constexpr std::size_t kAbreast = 4;
+  struct Moved {
+    std::size_t abreast = 1;
+    std::vector<std::size_t> columns;  // in which any of them acts
+    int first = 0, end = 0;
+    std::vector<double> by;
+    std::vector<char> any;  // of the intervals: whether anything moves in them
+  };
+  // Of one candidate, or of kAbreast, those that do not act being empty; all have the same number of columns. What
+  // `moved` held is forgotten.
+  void move(const std::vector<std::vector<Motions>>& candidates, Moved& moved) const;
+  // Products of the columns of each candidate with each other, as `of_motion` gives them, without writing them down:
+  // columns by columns of `moved`, those of all candidates side by side. Costs what the motions last, and nothing for
+  // what they leave behind.
+  void products_of(const Moved& moved, const Tails& tails, std::vector<double>& products) const;
   // By the rate of the wheels' clock, against the truth's, about the run's first truth sample.
   void of_clock_rate(double* out) const;
 
  private:
-  struct Piece {  // of a wheel interval within a truth interval, in the frame of the latter's start
-    int interval;
-    float share;
-    double dx, dy, c, s;
+  // The part of a wheel interval that lies in a truth interval, and what the body's motion in it moves at the latter's
+  // end in the room: forward by (forward_x, forward_y), sideways a right angle to the left of that, a turn by (turn_x,
+  // turn_y) and `share` of itself.
+  struct Piece {
+    int interval, truth;
+    double share, forward_x, forward_y, turn_x, turn_y;
   };
   // What a truth sample does to the derivative of the pose: e = F d + R jac is predicted, `out` e whitened, `on` e goes
   // on. Nothing is whitened where the sample was not used, and nothing goes on where the filter starts anew.
@@ -65,26 +85,19 @@ class LinearisedRun {
   void prepare_carry();
   // Truth intervals [first, last) that the wheel intervals [first, end) touch.
   Stretch touched(std::size_t first, std::size_t end) const;
-  // The derivative of the motion in truth interval t, in the frame of its start.
-  void add_motion(const Motions& motions, int t, double* d) const {
-    for (int p = first_piece_[t]; p < first_piece_[t + 1]; ++p) {
-      const Piece& piece = pieces_[p];
-      const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
-      const double f = piece.share * m.forward_m, l = piece.share * m.sideways_m, w = piece.share * m.turn_rad;
-      d[0] += -piece.dy * d[2] + piece.c * f - piece.s * l - 0.5 * piece.dy * w;
-      d[1] += piece.dx * d[2] + piece.s * f + piece.c * l + 0.5 * piece.dx * w;
-      d[2] += w;
-    }
-  }
-  template <int k>
-  void products(const Motions* const* motions, const Tails& tails, double* products) const;
+  void cut_into_pieces();
+  template <int columns, int abreast>
+  void products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const;
+  template <int abreast>
+  void products_of_all(const Moved& moved, const Tails& tails, double* products) const;
   template <typename Motion>
   Stretch carried(Motion&& motion, int first, int last_with_motion, int parameter, double* out) const;
 
   std::shared_ptr<const InnovationRun> run_;
   SummedRun summed_;
   std::vector<Piece> pieces_;
-  std::vector<int> first_piece_;  // of each truth interval
+  std::vector<int> first_piece_;      // of each truth interval
+  std::vector<int> piece_of_wheels_;  // the first one of each wheel interval, or of those behind it
   std::vector<FilterStep> steps_;
   struct Turned {  // cosine and sine of a step's headings, before and predicted
     double c0, s0, c1, s1;

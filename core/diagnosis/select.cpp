@@ -167,18 +167,20 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
   }
   std::vector<double> statistics;
   std::vector<std::size_t> of_shape;  // the number of the shape that each of them belongs to
-  const auto consider = [&](const std::vector<double>& shape, bool count) {
-    CandidateTest t = scan.test(e, shape);
-    if (count && t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
+  const auto take = [&](CandidateTest t, const std::vector<double>& shape) {
     if (t.value.empty() || !physical(e, t.value)) return false;
     if (t.statistic <= best.test.statistic) return false;
     t.shape = shape;
-    best.test = t;
+    best.test = std::move(t);
     return true;
   };
+  const auto consider = [&](const std::vector<double>& shape) { return take(scan.test(e, shape), shape); };
   std::vector<std::pair<double, std::size_t>> places;  // a place is looked for from several starts
+  const std::vector<CandidateTest> scanned_tests = scan.tests(e, shapes);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    consider(shapes[k], true);
+    const CandidateTest& t = scanned_tests[k];
+    if (t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
+    take(t, shapes[k]);
     of_shape.resize(statistics.size(), k);
     if (e.local && e.scan && e.shapes.size() >= 2 && !e.of_one_recording && !statistics.empty())
       places.emplace_back(-statistics.back(), k);
@@ -190,7 +192,7 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
     for (std::size_t form = 0; form < forms; ++form) {
       std::vector<double> s = best.test.shape;
       s.back() = static_cast<double>(form);
-      consider(s, false);
+      consider(s);
     }
   };
   if (forms > 1 && !every_form) other_forms();
@@ -200,8 +202,9 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
       for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
         for (int round = 0; round < 4; ++round) {
           bool moved = false;
-          for (const std::vector<double>& s : shapes_near(e, best.test.shape, scale))
-            moved = consider(s, false) || moved;
+          const std::vector<std::vector<double>> near = shapes_near(e, best.test.shape, scale);
+          const std::vector<CandidateTest> there = scan.tests(e, near);
+          for (std::size_t k = 0; k < near.size(); ++k) moved = take(there[k], near[k]) || moved;
           if (!moved) break;
         }
     };
@@ -212,7 +215,7 @@ ScoredCandidate best_of(const JointModel& joint, const CandidateScan& scan, cons
     for (std::size_t k = 1; k < std::min<std::size_t>(places.size(), 8); ++k) {
       best = first;
       best.test.statistic = 0.0;
-      if (!consider(shapes[places[k].second], false)) continue;
+      if (!consider(shapes[places[k].second])) continue;
       climb();
       if (best.test.statistic > top.test.statistic) top = best;
     }
