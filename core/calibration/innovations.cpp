@@ -11,7 +11,7 @@ namespace odolab {
 
 namespace {
 
-// A Cholesky factor's product is that far from what a double cannot hold before its logarithm is taken.
+// A product of determinants is that far from what a double cannot hold before its logarithm is taken.
 constexpr double kSmall = 1e-100, kLarge = 1e100;
 
 // The same as `wrapped`, sooner where there is nothing to do.
@@ -50,6 +50,11 @@ UnknownHeading heading_from_shape(const InnovationRun& run, const SummedRun& sum
   return heading;
 }
 
+// How many columns of derivatives are carried along: none, those of a run without extra ones and one that stays empty,
+// or as many as there are.
+constexpr int kNoColumns = 0, kUsualColumns = column::first_extra + 1, kAnyColumns = Eigen::Dynamic;
+
+template <int columns>
 class PoseFilter {
  public:
   PoseFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
@@ -59,12 +64,13 @@ class PoseFilter {
         model_(model),
         options_(options),
         slopes_(slopes),
-        p_(options.derivatives ? summed.columns : 0),
-        last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last),
-        jacobian_(3, p_) {
-    derivative_.setZero(3, p_);
-    information_.setZero(p_, p_);
-    score_.setZero(p_);
+        p_(columns == kNoColumns ? 0 : summed.columns),
+        last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last) {
+    const int carried = columns == kAnyColumns ? p_ : columns;
+    derivative_.setZero(3, carried);
+    jacobian_.setZero(3, carried);
+    information_.setZero(carried, carried);
+    score_.setZero(carried);
     const DifferentialDrive& drive = model.drive;
     const double count = count_rad(run, drive);
     const double left = std::pow(count * drive.wheel_radius_left_m, 2) / 12.0,
@@ -114,12 +120,9 @@ class PoseFilter {
       }
     }
     take_logarithm();
-    sums_.information.assign(information_.data(), information_.data() + information_.size());
-    sums_.score.assign(score_.data(), score_.data() + score_.size());
-    if (p_ > 0) {  // only one half was summed
-      for (int r = 0; r < p_; ++r)
-        for (int c = 0; c < r; ++c) sums_.information[c * p_ + r] = sums_.information[r * p_ + c] = information_(r, c);
-    }
+    for (int r = 0; r < p_; ++r) sums_.score.push_back(score_(r));
+    for (int r = 0; r < p_; ++r)
+      for (int c = 0; c < p_; ++c) sums_.information.push_back(information_(r, c));
     return std::move(sums_);
   }
 
@@ -132,7 +135,8 @@ class PoseFilter {
     if (!options_.on_step) return;
     step_ = FilterStep{};
     step_.starts = true;
-    step_.heading_before_rad = step_.heading_rad = state_.heading_rad;
+    step_.heading_rad = state_.heading_rad;
+    step_.before = step_.here = facing_;
     step_.arm = arm();
     report_step(k);
   }
@@ -158,32 +162,36 @@ class PoseFilter {
       heading2 = unknown.stderr_rad * unknown.stderr_rad;
     }
     state_.heading_rad = tracked_heading - m.heading_rad;
-    face();
+    facing_ = turn_of(state_.heading_rad);
     const Vec2 arm = this->arm();
     state_.x_m = truth.position.x_m - arm.x_m;
     state_.y_m = truth.position.y_m - arm.y_m;
     covariance_ = {position2_, 0.0, 0.0, position2_, 0.0, heading2};
     covariance_ = covariance_.carried(-arm.x_m, -arm.y_m);  // back from the point to the axle
-    covariance_.add(count_error_.turned(cos_, sin_));
+    covariance_.add(count_error_.turned(facing_.c, facing_.s));
     if (slopes_) slopes_->begin_at(position2_, heading_is_read ? heading2_ : 0.0, arm);
-    if (p_ == 0) return;
-    derivative_.setZero();
-    const double c = cos_, s = sin_;
-    derivative_.col(column::mounting_x) << -c, -s, 0.0;
-    derivative_.col(column::mounting_y) << s, -c, 0.0;
-    if (run_.truth_has_heading) derivative_.col(column::mounting_heading) << -arm.y_m, arm.x_m, -1.0;
+    if constexpr (columns != kNoColumns) {
+      derivative_.setZero();
+      const double c = facing_.c, s = facing_.s;
+      derivative_.col(column::mounting_x) << -c, -s, 0.0;
+      derivative_.col(column::mounting_y) << s, -c, 0.0;
+      if (run_.truth_has_heading) derivative_.col(column::mounting_heading) << -arm.y_m, arm.x_m, -1.0;
+    }
   }
 
   void predict(int t) {
     const RelativeMotion& step = summed_.motions[t];
-    const double c = cos_, s = sin_;
+    const double c = facing_.c, s = facing_.s;
     const double dx = c * step.motion.x_m - s * step.motion.y_m, dy = s * step.motion.x_m + c * step.motion.y_m;
-    const double* jac = p_ > 0 ? &summed_.derivatives[3 * static_cast<std::size_t>(p_) * t] : nullptr;
-    for (int k = 0; k < p_; ++k, jac += 3) {
-      double* d = &derivative_(0, k);
-      d[0] += -dy * d[2] + c * jac[0] - s * jac[1];
-      d[1] += dx * d[2] + s * jac[0] + c * jac[1];
-      d[2] += jac[2];
+    if constexpr (columns != kNoColumns) {
+      constexpr int kGiven = columns == kUsualColumns ? column::first_extra : columns;
+      const Eigen::Map<const Eigen::Matrix<double, 3, kGiven>> jac(
+          &summed_.derivatives[3 * static_cast<std::size_t>(p_) * t], 3, p_);
+      auto x = derivative_.row(0).template head<kGiven>(p_), y = derivative_.row(1).template head<kGiven>(p_),
+           heading = derivative_.row(2).template head<kGiven>(p_);
+      x += -dy * heading + c * jac.row(0) - s * jac.row(1);
+      y += dx * heading + s * jac.row(0) + c * jac.row(1);
+      heading += jac.row(2);
     }
     PoseCovariance noise = PoseCovariance::packed(step.count_noise);
     const PoseCovariance of_wheels = PoseCovariance::packed(step.wheel_noise).times(wheel2_),
@@ -202,26 +210,28 @@ class PoseFilter {
     covariance_.add(noise.turned(c, s));
     if (options_.on_step) {
       step_.moved = {dx, dy};
-      step_.heading_before_rad = state_.heading_rad;
+      step_.before = facing_;
     }
-    state_ = {state_.x_m + dx, state_.y_m + dy, state_.heading_rad + step.motion.heading_rad};
-    face();
+    state_.x_m += dx;
+    state_.y_m += dy;
+    turn(step.motion.heading_rad);
     step_.heading_rad = state_.heading_rad;
+    step_.here = facing_;
   }
 
-  // Cosine and sine of the heading, for all that asks.
-  void face() {
-    cos_ = std::cos(state_.heading_rad);
-    sin_ = std::sin(state_.heading_rad);
+  void turn(double by_rad) {
+    constexpr int kOften = 256;  // turned on and on, cosine and sine would drift away in the end
+    state_.heading_rad += by_rad;
+    facing_ = ++turns_ % kOften == 0 ? turn_of(state_.heading_rad) : facing_.then(turn_of(by_rad));
   }
   Vec2 arm() const {  // from the axle to the tracked point, in the room
     const Pose& m = model_.truth.axle_T_tracked;
-    return {cos_ * m.x_m - sin_ * m.y_m, sin_ * m.x_m + cos_ * m.y_m};
+    return {facing_.c * m.x_m - facing_.s * m.y_m, facing_.s * m.x_m + facing_.c * m.y_m};
   }
 
   void take_logarithm() {
-    sums_.log_determinant += 2.0 * std::log(root_determinant_);
-    root_determinant_ = 1.0;
+    sums_.log_determinant += std::log(determinant_);
+    determinant_ = 1.0;
   }
 
   // README, Eqs. 8 and 9. False where the gate refuses the sample.
@@ -233,7 +243,7 @@ class PoseFilter {
     const double residual[3] = {truth.position.x_m - state_.x_m - arm.x_m, truth.position.y_m - state_.y_m - arm.y_m,
                                 n == 3 ? soon_wrapped(*truth.heading_rad - state_.heading_rad - m.heading_rad) : 0.0};
     PoseCovariance s = covariance_;
-    s.add(count_error_.turned(cos_, sin_));
+    s.add(count_error_.turned(facing_.c, facing_.s));
     s = s.carried(arm.x_m, arm.y_m);
     s.xx += position2_;
     s.yy += position2_;
@@ -242,28 +252,31 @@ class PoseFilter {
       s.xh = s.yh = 0.0;
       s.hh = 1.0;
     }
-    // Cholesky factor of S by hand: lower l, S = l l'.
-    const double l00 = std::sqrt(s.xx), l10 = s.xy / l00, l20 = s.xh / l00;
-    const double l11 = std::sqrt(std::max(s.yy - l10 * l10, 1e-300)), l21 = (s.yh - l20 * l10) / l11;
-    const double l22 = std::sqrt(std::max(s.hh - l20 * l20 - l21 * l21, 1e-300));
-    const auto whiten = [&](double* v) {
-      v[0] /= l00;
-      v[1] = (v[1] - l10 * v[0]) / l11;
-      v[2] = (v[2] - l20 * v[0] - l21 * v[1]) / l22;
+    // S = l d l' by hand, l lower with ones on its diagonal, d diagonal; i: one over d.
+    const double i0 = 1.0 / s.xx, l10 = s.xy * i0, l20 = s.xh * i0;
+    const double d1 = std::max(s.yy - l10 * s.xy, 1e-300), i1 = 1.0 / d1, under = s.yh - l20 * s.xy, l21 = under * i1;
+    const double d2 = std::max(s.hh - l20 * s.xh - l21 * under, 1e-300), i2 = 1.0 / d2;
+    const auto decorrelate = [&](double* v) {  // by l^-1
+      v[1] -= l10 * v[0];
+      v[2] -= l20 * v[0] + l21 * v[1];
     };
-    double white[3] = {residual[0], residual[1], residual[2]};
-    whiten(white);
-    const double squared = white[0] * white[0] + white[1] * white[1] + white[2] * white[2];
+    double left[3] = {residual[0], residual[1], residual[2]};
+    decorrelate(left);
+    const double weighed[3] = {i0 * left[0], i1 * left[1], i2 * left[2]};
+    const double squared = left[0] * weighed[0] + left[1] * weighed[1] + left[2] * weighed[2];
+    const auto whiten = [&](const double* v, double* white) {  // as by the Cholesky factor
+      white[0] = std::sqrt(i0) * v[0];
+      white[1] = std::sqrt(i1) * v[1];
+      white[2] = std::sqrt(i2) * v[2];
+    };
     const bool refused = options_.gate > 0.0 && squared > (n == 3 ? options_.gate : 0.9 * options_.gate);
     if (options_.on_innovation) {
       Innovation out;
       out.time_s = truth.time_s;
       out.truth_index = k;
       out.size = n;
-      for (int j = 0; j < 3; ++j) {
-        out.residual[j] = residual[j];
-        out.white[j] = white[j];
-      }
+      for (int j = 0; j < 3; ++j) out.residual[j] = residual[j];
+      whiten(left, out.white);
       s.pack(out.covariance);
       out.squared = squared;
       out.set_aside = refused;
@@ -275,13 +288,13 @@ class PoseFilter {
       return false;
     }
     sums_.chi2 += squared;
-    root_determinant_ *= l00 * l11 * (n == 3 ? l22 : 1.0);
-    if (root_determinant_ < kSmall || root_determinant_ > kLarge) take_logarithm();
+    determinant_ *= s.xx * d1 * (n == 3 ? d2 : 1.0);
+    if (determinant_ < kSmall || determinant_ > kLarge) take_logarithm();
     sums_.scalars += n;
 
     // The gain acts on the error of the pose alone, not on the rounding of this very reading of the encoders: that part
     // of S is uncorrelated with the pose before and after.
-    double by[3][3];  // by[j]: l^-1 H P of column j, so that K = by l^-1
+    double by[3][3], gain[3][3];  // by[j]: l^-1 H P of column j; gain[j] the same over d, so that K = gain l^-1
     const double p[3][3] = {{covariance_.xx, covariance_.xy, covariance_.xh},
                             {covariance_.xy, covariance_.yy, covariance_.yh},
                             {covariance_.xh, covariance_.yh, covariance_.hh}};
@@ -289,54 +302,57 @@ class PoseFilter {
       by[j][0] = p[0][j] - arm.y_m * p[2][j];
       by[j][1] = p[1][j] + arm.x_m * p[2][j];
       by[j][2] = n == 2 ? 0.0 : p[2][j];
-      whiten(by[j]);
+      decorrelate(by[j]);
+      gain[j][0] = i0 * by[j][0], gain[j][1] = i1 * by[j][1], gain[j][2] = i2 * by[j][2];
     }
-    if (slopes_) {
-      const double third = n == 3 ? 1.0 / l22 : 0.0;
-      slopes_->update({l10, l20, l21, 1.0 / l00, 1.0 / l11, third, by, white, arm, n == 3}, position2_, heading2_);
+    if (slopes_) {  // which know the Cholesky factor
+      double of_columns[3][3], white[3];
+      for (int j = 0; j < 3; ++j) whiten(by[j], of_columns[j]);
+      whiten(left, white);
+      const double r0 = std::sqrt(s.xx), r1 = std::sqrt(d1);
+      slopes_->update({l10 * r0, l20 * r0, l21 * r1, std::sqrt(i0), std::sqrt(i1), n == 3 ? std::sqrt(i2) : 0.0,
+                       of_columns, white, arm, n == 3},
+                      position2_, heading2_);
     }
     const auto product = [](const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-    covariance_.xx -= product(by[0], by[0]);
-    covariance_.xy -= product(by[0], by[1]);
-    covariance_.xh -= product(by[0], by[2]);
-    covariance_.yy -= product(by[1], by[1]);
-    covariance_.yh -= product(by[1], by[2]);
-    covariance_.hh -= product(by[2], by[2]);
+    covariance_.xx -= product(by[0], gain[0]);
+    covariance_.xy -= product(by[0], gain[1]);
+    covariance_.xh -= product(by[0], gain[2]);
+    covariance_.yy -= product(by[1], gain[1]);
+    covariance_.yh -= product(by[1], gain[2]);
+    covariance_.hh -= product(by[2], gain[2]);
 
-    if (p_ > 0) {
-      const double c = cos_, sn = sin_;
-      for (int j = 0; j < p_; ++j) {
-        const double* d = &derivative_(0, j);
-        double* o = &jacobian_(0, j);
-        o[0] = d[0] - arm.y_m * d[2];
-        o[1] = d[1] + arm.x_m * d[2];
-        o[2] = n == 3 ? d[2] : 0.0;
+    if constexpr (columns != kNoColumns) {
+      auto x = jacobian_.row(0), y = jacobian_.row(1), heading = jacobian_.row(2);
+      x = derivative_.row(0) - arm.y_m * derivative_.row(2);
+      y = derivative_.row(1) + arm.x_m * derivative_.row(2);
+      if (n == 3)
+        heading = derivative_.row(2);
+      else
+        heading.setZero();
+      x(column::mounting_x) += facing_.c;
+      y(column::mounting_x) += facing_.s;
+      x(column::mounting_y) -= facing_.s;
+      y(column::mounting_y) += facing_.c;
+      if (n == 3) heading(column::mounting_heading) += 1.0;
+      y -= l10 * x;
+      heading -= l20 * x + l21 * y;
+      for (Eigen::Index r = 0; r < information_.rows(); ++r) {
+        const double a0 = i0 * x(r), a1 = i1 * y(r), a2 = i2 * heading(r);
+        information_.row(r) += a0 * x + a1 * y + a2 * heading;
       }
-      jacobian_(0, column::mounting_x) += c;
-      jacobian_(1, column::mounting_x) += sn;
-      jacobian_(0, column::mounting_y) -= sn;
-      jacobian_(1, column::mounting_y) += c;
-      if (n == 3) jacobian_(2, column::mounting_heading) += 1.0;
-      for (int j = 0; j < p_; ++j) whiten(&jacobian_(0, j));
-      for (int r = 0; r < p_; ++r) {
-        const double a0 = jacobian_(0, r), a1 = jacobian_(1, r), a2 = jacobian_(2, r);
-        for (int q = 0; q <= r; ++q)
-          information_(r, q) += a0 * jacobian_(0, q) + a1 * jacobian_(1, q) + a2 * jacobian_(2, q);
-        score_(r) += a0 * white[0] + a1 * white[1] + a2 * white[2];
-      }
+      score_ += weighed[0] * x + weighed[1] * y + weighed[2] * heading;
       if (options_.batch > 0) {
         const std::size_t number = static_cast<std::size_t>(k / options_.batch);
         if (sums_.batch_scores.size() <= number) sums_.batch_scores.resize(number + 1, std::vector<double>(p_, 0.0));
         for (int r = 0; r < p_; ++r)
-          sums_.batch_scores[number][r] +=
-              jacobian_(0, r) * white[0] + jacobian_(1, r) * white[1] + jacobian_(2, r) * white[2];
+          sums_.batch_scores[number][r] += weighed[0] * x(r) + weighed[1] * y(r) + weighed[2] * heading(r);
       }
-      for (int j = 0; j < p_; ++j)
-        for (int r = 0; r < 3; ++r) derivative_(r, j) -= product(by[r], &jacobian_(0, j));
+      for (int r = 0; r < 3; ++r) derivative_.row(r) -= gain[r][0] * x + gain[r][1] * y + gain[r][2] * heading;
     }
-    state_ = {state_.x_m + product(by[0], white), state_.y_m + product(by[1], white),
-              state_.heading_rad + product(by[2], white)};
-    face();
+    state_.x_m += product(gain[0], left);
+    state_.y_m += product(gain[1], left);
+    turn(product(gain[2], left));
     if (options_.on_step) {
       step_.used = true;
       step_.size = n;
@@ -345,9 +361,9 @@ class PoseFilter {
       s.pack(step_.covariance);
       // K, column by column from the last.
       for (int r = 0; r < 3; ++r) {
-        const double g2 = by[r][2] / l22;
-        const double g1 = (by[r][1] - g2 * l21) / l11;
-        const double g0 = (by[r][0] - g1 * l10 - g2 * l20) / l00;
+        const double g2 = gain[r][2];
+        const double g1 = gain[r][1] - g2 * l21;
+        const double g0 = gain[r][0] - g1 * l10 - g2 * l20;
         step_.gain[3 * r] = g0;
         step_.gain[3 * r + 1] = g1;
         step_.gain[3 * r + 2] = g2;
@@ -365,13 +381,14 @@ class PoseFilter {
   int p_;
   int last_;
   Pose state_;
-  double cos_ = 1.0, sin_ = 0.0;  // of its heading
+  Turn facing_;  // cosine and sine of its heading
+  int turns_ = 0;
   PoseCovariance covariance_, count_error_;
   double position2_, heading2_, wheel2_, body2_, sideways2_;  // variances
-  double root_determinant_ = 1.0;                             // of the samples since the last logarithm
-  Eigen::Matrix<double, 3, Eigen::Dynamic> derivative_, jacobian_;
-  Eigen::MatrixXd information_;
-  Eigen::VectorXd score_;
+  double determinant_ = 1.0;                                  // of the samples since the last logarithm
+  Eigen::Matrix<double, 3, columns, Eigen::RowMajor> derivative_, jacobian_;
+  Eigen::Matrix<double, columns, columns, Eigen::RowMajor> information_;
+  Eigen::Matrix<double, 1, columns> score_;
   InnovationSums sums_;
   FilterStep step_;
 };
@@ -388,7 +405,9 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
 
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options) {
-  return PoseFilter(run, summed, model, options).run();
+  if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
+  if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
+  return PoseFilter<kAnyColumns>(run, summed, model, options).run();
 }
 
 NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model, int first,
@@ -398,7 +417,7 @@ NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, cons
   options.first = first;
   options.last = last;
   NoiseCarry carried;
-  const InnovationSums sums = PoseFilter(run, summed, model, options, &carried).run();
+  const InnovationSums sums = PoseFilter<kNoColumns>(run, summed, model, options, &carried).run();
   NoiseSlopes out;
   out.value = sums.chi2 + sums.log_determinant;
   out.scalars = sums.scalars;

@@ -58,11 +58,22 @@ LikelihoodFit::Sums LikelihoodFit::sums(const FitParameters& parameters, bool de
   std::vector<InnovationSums> of_run(n);
   each(n, [&](int r) {
     const InnovationModel model = parameters.of(r);
-    of_run[r] = filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    of_run[r] = filtered(runs_[r], summed(r, model), model, options);
   });
   Sums total = none();
   for (int r = 0; r < n; ++r) add(total, r, of_run[r]);
   return total;
+}
+
+const SummedRun& LikelihoodFit::summed(int run, const InnovationModel& model) const {
+  Kept& kept = kept_[static_cast<std::size_t>(run)];
+  const DifferentialDrive &was = kept.drive, &is = model.drive;
+  const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
+  if (kept.summed.motions.empty() || was.wheel_radius_left_m != is.wheel_radius_left_m ||
+      was.wheel_radius_right_m != is.wheel_radius_right_m || was.wheelbase_m != is.wheelbase_m ||
+      kept.clock_s != model.truth.time_offset_s || kept.body_is_noisy != body_is_noisy)
+    kept = {is, model.truth.time_offset_s, body_is_noisy, summed_up(runs_[static_cast<std::size_t>(run)], model)};
+  return kept.summed;
 }
 
 void LikelihoodFit::each(int count, const std::function<void(int)>& work) const {
@@ -116,10 +127,10 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
 }
 
 void LikelihoodFit::fit_noise(const std::vector<int>& active) {
-  std::vector<SummedRun> summed;
+  std::vector<const SummedRun*> of_run;
   bool any_heading = false;
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
-    summed.push_back(summed_up(runs_[r], now_.of(r)));
+    of_run.push_back(&summed(r, now_.of(r)));
     any_heading = any_heading || runs_[r].truth_has_heading;
   }
   const std::vector<Stretch> stretches = noise_stretches();
@@ -136,7 +147,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
       FilterOptions options;
       options.first = s.first;
       options.last = s.last;
-      of_stretch[i] = filtered(runs_[s.run], summed[s.run], with(noise, s.run), options);
+      of_stretch[i] = filtered(runs_[s.run], *of_run[s.run], with(noise, s.run), options);
     });
     Sums total = none();
     for (std::size_t i = 0; i < stretches.size(); ++i) add(total, stretches[i].run, of_stretch[i]);
@@ -152,7 +163,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
     std::vector<NoiseSlopes> of_stretch(stretches.size());
     each(static_cast<int>(stretches.size()), [&](int i) {
       const Stretch& s = stretches[i];
-      of_stretch[i] = noise_slopes(runs_[s.run], summed[s.run], with(noise, s.run), s.first, s.last);
+      of_stretch[i] = noise_slopes(runs_[s.run], *of_run[s.run], with(noise, s.run), s.first, s.last);
     });
     NoiseSlopes sum;
     for (const NoiseSlopes& s : of_stretch) sum.add(s);
@@ -181,7 +192,7 @@ bool LikelihoodFit::gate() {
     const std::vector<char> cut = runs_[r].cut;
     cut_where_left_out(runs_[r], model.truth.time_offset_s);
     changed = changed || runs_[r].cut != cut;
-    InnovationSums s = filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    InnovationSums s = filtered(runs_[r], summed(r, model), model, options);
     changed = changed || s.set_aside != runs_[r].set_aside;
     restarts_ += s.restarts;
     runs_[r].set_aside = std::move(s.set_aside);
@@ -205,7 +216,7 @@ void LikelihoodFit::correlations(double* out) const {
       has_before = true;
     };
     const InnovationModel model = now_.of(r);
-    filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    filtered(runs_[r], summed(r, model), model, options);
   }
   for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
 }
@@ -222,7 +233,7 @@ double LikelihoodFit::lasting_correlation() const {
       for (int k = 0; k < i.size; ++k) white.back()[static_cast<std::size_t>(k)] = i.white[k];
     };
     const InnovationModel model = now_.of(r);
-    filtered(runs_[r], summed_up(runs_[r], model), model, options);
+    filtered(runs_[r], summed(r, model), model, options);
     const auto period_s = [](const auto& samples) {
       return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
     };

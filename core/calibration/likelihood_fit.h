@@ -38,7 +38,7 @@ std::vector<double> prior_sizes(const FitParameters& nominal);
 class LikelihoodFit {
  public:
   LikelihoodFit(std::vector<InnovationRun> runs, const FitParameters& nominal)
-      : runs_(std::move(runs)), nominal_(nominal), now_(nominal), prior_(prior_sizes(nominal)) {}
+      : runs_(std::move(runs)), kept_(runs_.size()), nominal_(nominal), now_(nominal), prior_(prior_sizes(nominal)) {}
 
   // Begins elsewhere than at the nominal values; the priors stay where they are.
   void start_from(const DifferentialDrive& drive) { now_.shared.drive = drive; }
@@ -109,7 +109,18 @@ class LikelihoodFit {
   // All truth, or stretches spread evenly where there is more than the noise needs.
   std::vector<Stretch> noise_stretches() const;
 
+  // A run summed up, as the last time where what that depends on is as it was then. May be asked for several runs at
+  // once.
+  const SummedRun& summed(int run, const InnovationModel& model) const;
+
+  struct Kept {
+    DifferentialDrive drive;
+    double clock_s = 0.0;
+    bool body_is_noisy = false;
+    SummedRun summed;
+  };
   std::vector<InnovationRun> runs_;
+  mutable std::vector<Kept> kept_;  // of each run; without motions where there is none yet
   FitParameters nominal_;
   FitParameters now_;
   std::vector<double> prior_;

@@ -1,158 +1,241 @@
 // The wheels between two truth samples, summed up: README.md in this folder, Eqs. 2 to 6.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "core/calibration/innovations.h"
 #include "core/calibration/pose_covariance.h"
 #include "core/calibration/wheel_line.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
 namespace {
 
-using Eigen::Vector3d;
-
 // A wheel on which the vehicle pivots scrubs: this share of its noise comes from the other wheel's way. Without it such
 // turns would be believed without end.
 constexpr double kScrub = 0.3;
+
+// Both wheels, as they are read and as they are smoothed for derivatives.
+struct Rotation {
+  double left = 0.0, right = 0.0, left_smooth = 0.0, right_smooth = 0.0;
+};
+
+// Times are asked for in order; that at which one stretch ends begins the next, and is reckoned once.
+class Rotations {
+ public:
+  explicit Rotations(const InnovationRun& run)
+      : run_(run),
+        smoothed_(!run.smooth.empty()),
+        line_(run.wheels, run.speeds_are_held),
+        smooth_(smoothed_ ? run.smooth : run.wheels, run.speeds_are_held) {}
+
+  std::size_t interval_at(double time_s) { return line_.interval_at(time_s); }
+
+  // Between two times within interval i.
+  Rotation between(std::size_t i, double from_s, double to_s) {
+    const WheelSample &a = run_.wheels[i], &b = run_.wheels[i + 1];
+    if (from_s == a.time_s && to_s == b.time_s) {
+      const WheelSample &c = smoothed_ ? run_.smooth[i] : a, &d = smoothed_ ? run_.smooth[i + 1] : b;
+      return {b.left_rad - a.left_rad, b.right_rad - a.right_rad, d.left_rad - c.left_rad, d.right_rad - c.right_rad};
+    }
+    const Rotation before = at(i, from_s), then = at(i, to_s);
+    return {then.left - before.left, then.right - before.right, then.left_smooth - before.left_smooth,
+            then.right_smooth - before.right_smooth};
+  }
+
+  // At a time within interval i, for derivatives.
+  WheelRates rates(std::size_t i, double time_s) {
+    if (i != rates_in_ || time_s != rates_at_s_) {
+      rates_ = smooth_.rates(i, time_s);
+      rates_in_ = i;
+      rates_at_s_ = time_s;
+    }
+    return rates_;
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  // Since sample i.
+  Rotation at(std::size_t i, double time_s) {
+    if (i == last_in_ && time_s == last_at_s_) return last_;
+    if (time_s == run_.wheels[i].time_s) return {};
+    const auto [left, right] = line_.turned_rad(i, time_s);
+    last_ = {left, right, left, right};
+    if (smoothed_) {
+      const auto [left_smooth, right_smooth] = smooth_.turned_rad(i, time_s);
+      last_.left_smooth = left_smooth;
+      last_.right_smooth = right_smooth;
+    }
+    last_in_ = i;
+    last_at_s_ = time_s;
+    return last_;
+  }
+
+  const InnovationRun& run_;
+  bool smoothed_;
+  WheelLine line_, smooth_;
+  Rotation last_;
+  std::size_t last_in_ = kNone, rates_in_ = kNone;
+  double last_at_s_ = 0.0, rates_at_s_ = 0.0;
+  WheelRates rates_;
+};
+
+// Noise of both wheels and of the body, Eq. 5, for sizes of 1 m per root metre. With a half of the forward motion and q
+// half of what a turn of a metre at the wheel does, the left wheel moves the pose by a - q, the right one by a + q, the
+// body forward by 2 a and in its turn by 2 q: all are sums of a a' + q q' and of a q' + q a'.
+class RollingNoise {
+ public:
+  // A step by (dx, dy) at a heading of that cosine and sine, in which the wheels went so far there and back.
+  void add(double left_m, double right_m, const Turn& heading, double dx, double dy, double inverse_base) {
+    const double way_m = 0.5 * (left_m + right_m), more_m = (1.0 - kScrub) * (right_m - left_m);
+    const double ax = 0.5 * heading.c, ay = 0.5 * heading.s;
+    const double qx = -0.5 * dy * inverse_base, qy = 0.5 * dx * inverse_base, qh = inverse_base;
+    even_ = even_.carried(dx, dy);
+    even_.xx += way_m * (ax * ax + qx * qx);
+    even_.xy += way_m * (ax * ay + qx * qy);
+    even_.xh += way_m * (qx * qh);
+    even_.yy += way_m * (ay * ay + qy * qy);
+    even_.yh += way_m * (qy * qh);
+    even_.hh += way_m * (qh * qh);
+    uneven_ = uneven_.carried(dx, dy);
+    uneven_.xx += more_m * (2.0 * ax * qx);
+    uneven_.xy += more_m * (ax * qy + ay * qx);
+    uneven_.xh += more_m * (ax * qh);
+    uneven_.yy += more_m * (2.0 * ay * qy);
+    uneven_.yh += more_m * (ay * qh);
+    sideways_.xx += way_m * (heading.s * heading.s);
+    sideways_.xy -= way_m * (heading.s * heading.c);
+    sideways_.yy += way_m * (heading.c * heading.c);
+  }
+  void pack(RelativeMotion& out, bool body_is_noisy) const {
+    PoseCovariance wheels = even_.times(2.0);
+    wheels.add(uneven_);
+    wheels.pack(out.wheel_noise);
+    if (!body_is_noisy) return;
+    even_.times(4.0).pack(out.body_noise);
+    sideways_.pack(out.sideways_noise);
+  }
+
+ private:
+  PoseCovariance even_, uneven_, sideways_;
+};
+
 }  // namespace
 
 SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
+  using Eigen::Vector3d;
+  using Columns = Eigen::Array4d;  // of both radii and the wheelbase, and one that stays empty
   const DifferentialDrive& drive = model.drive;
-  const double b = drive.wheelbase_m;
+  const double b = drive.wheelbase_m, inverse_base = 1.0 / b;
+  const double left_radius_m = drive.wheel_radius_left_m, right_radius_m = drive.wheel_radius_right_m;
   const int extras = static_cast<int>(run.extra.size());
   const int p = column::first_extra + extras;
   const double count = count_rad(run, drive);
+  const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
   SummedRun summed;
   summed.columns = p;
   summed.motions.resize(run.truth.size() - 1);
   summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
+  summed.end_velocity.resize(3 * summed.motions.size());
 
-  WheelLine line(run.wheels, run.speeds_are_held);
-  const bool smoothed = !run.smooth.empty();
-  const WheelLine smooth_line(smoothed ? run.smooth : run.wheels, run.speeds_are_held);
+  Rotations rotations(run);
   const auto time_of = [&](std::size_t truth_index) {
     return run.truth[truth_index].time_s - model.truth.time_offset_s;
   };
+  // Of the body: the clock's derivative needs it at both ends of a motion.
+  const auto velocity_in = [&](std::size_t interval, double time_s) {
+    const WheelRates rate = rotations.rates(interval, time_s);
+    const double left = left_radius_m * rate.left_radps, right = right_radius_m * rate.right_radps;
+    Vector3d v(0.5 * (right + left), 0.0, (right - left) * inverse_base);
+    for (const ExtraColumn& e : run.extra)
+      if (e.value != 0.0)
+        v += e.value / (run.wheels[interval + 1].time_s - run.wheels[interval].time_s) *
+             Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
+    return v;
+  };
   double now_s = time_of(0);
-  std::size_t i = line.interval_at(now_s);
+  std::size_t i = 0;
 
   for (std::size_t t = 0; t < summed.motions.size(); ++t) {
     RelativeMotion& out = summed.motions[t];
     double* const jac = &summed.derivatives[3 * static_cast<std::size_t>(p) * t];
     const double end_s = time_of(t + 1);
-    PoseCovariance wheel_noise, body_noise, sideways_noise, count_noise;
-    const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
+    RollingNoise rolling_noise;
+    PoseCovariance count_noise;
     bool counts_left_behind = false;
     Pose& pose = out.motion;
+    Columns by_x = Columns::Zero(), by_y = Columns::Zero(), by_heading = Columns::Zero();
 
-    // Body velocity at the start: the clock's derivative needs it at both ends.
-    Vector3d velocity;
-    const auto velocity_in = [&](std::size_t interval, double time_s) {
-      const WheelRates rate = smooth_line.rates(interval, time_s);
-      const double left = drive.wheel_radius_left_m * rate.left_radps,
-                   right = drive.wheel_radius_right_m * rate.right_radps;
-      Vector3d v(0.5 * (right + left), 0.0, (right - left) / b);
-      const double dt = run.wheels[interval + 1].time_s - run.wheels[interval].time_s;
-      for (const ExtraColumn& e : run.extra)
-        if (e.value != 0.0)
-          v += e.value / dt *
-               Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
-      return v;
-    };
-    i = line.interval_at(now_s);
+    i = rotations.interval_at(now_s);
     const Vector3d start_velocity = velocity_in(i, now_s);
 
     while (now_s < end_s) {
-      i = line.interval_at(now_s);
+      i = rotations.interval_at(now_s);
       const bool last_interval = i + 2 >= run.wheels.size();
       const double until_s = last_interval ? end_s : std::min(end_s, run.wheels[i + 1].time_s);
-      const WheelSample &w0 = run.wheels[i], &w1 = run.wheels[i + 1];
-      const double share = (until_s - now_s) / (w1.time_s - w0.time_s);
-      const auto [left_before, right_before] = line.turned_rad(i, now_s);
-      const auto [left_then, right_then] = line.turned_rad(i, until_s);
-      const double left_rad = left_then - left_before, right_rad = right_then - right_before;
-      const double left_m = drive.wheel_radius_left_m * left_rad, right_m = drive.wheel_radius_right_m * right_rad;
+      const Rotation rad = rotations.between(i, now_s, until_s);
+      const double left_m = left_radius_m * rad.left, right_m = right_radius_m * rad.right;
 
       // README, Eq. 3: what the wheels say and what the extra columns add.
-      const double wheel_turn = (right_m - left_m) / b;
-      double forward = 0.5 * (right_m + left_m), sideways = 0.0, turn = wheel_turn;
+      double forward = 0.5 * (right_m + left_m), sideways = 0.0, turn = (right_m - left_m) * inverse_base;
+      const double share = extras > 0 ? (until_s - now_s) / (run.wheels[i + 1].time_s - run.wheels[i].time_s) : 0.0;
       for (const ExtraColumn& e : run.extra) {
         if (e.value == 0.0) continue;
         forward += share * e.value * e.per_step[i].forward_m;
         sideways += share * e.value * e.per_step[i].sideways_m;
         turn += share * e.value * e.per_step[i].turn_rad;
       }
-      const double middle = pose.heading_rad + 0.5 * turn;
-      const double c = std::cos(middle), s = std::sin(middle);
+      const Turn middle = turn_of(pose.heading_rad + 0.5 * turn);
+      const double c = middle.c, s = middle.s;
       const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
 
-      // Derivatives, Eq. 4: of the old pose by its own heading, and of the step by forward, sideways and turn.
-      const auto carry = [&](double* d, double f, double l, double w) {
+      // Derivatives, Eq. 4: of the old pose by its own heading, and of the step by forward and turn; and sideways.
+      const double left_turn = rad.left_smooth * inverse_base, right_turn = rad.right_smooth * inverse_base;
+      const Columns by_forward(0.5 * rad.left_smooth, 0.5 * rad.right_smooth, 0.0, 0.0);
+      const Columns by_turn(-left_turn, right_turn,
+                            -(right_radius_m * right_turn - left_radius_m * left_turn) * inverse_base, 0.0);
+      const Columns by_middle = by_heading + 0.5 * by_turn;
+      by_x += c * by_forward - dy * by_middle;
+      by_y += s * by_forward + dx * by_middle;
+      by_heading += by_turn;
+      for (int e = 0; e < extras; ++e) {
+        const BodyMotion& m = run.extra[e].per_step[i];
+        const double f = share * m.forward_m, l = share * m.sideways_m, w = share * m.turn_rad;
+        double* const d = jac + 3 * (column::first_extra + e);
         d[0] += -dy * d[2] + c * f - s * l - 0.5 * dy * w;
         d[1] += dx * d[2] + s * f + c * l + 0.5 * dx * w;
         d[2] += w;
-      };
-      double left_d = left_rad, right_d = right_rad;
-      if (smoothed) {
-        const auto [left_0, right_0] = smooth_line.turned_rad(i, now_s);
-        const auto [left_1, right_1] = smooth_line.turned_rad(i, until_s);
-        left_d = left_1 - left_0;
-        right_d = right_1 - right_0;
-      }
-      carry(jac + 3 * column::wheel_radius_left, 0.5 * left_d, 0.0, -left_d / b);
-      carry(jac + 3 * column::wheel_radius_right, 0.5 * right_d, 0.0, right_d / b);
-      carry(jac + 3 * column::wheelbase, 0.0, 0.0,
-            -(drive.wheel_radius_right_m * right_d - drive.wheel_radius_left_m * left_d) / (b * b));
-      for (int e = 0; e < extras; ++e) {
-        const BodyMotion& m = run.extra[e].per_step[i];
-        carry(jac + 3 * (column::first_extra + e), share * m.forward_m, share * m.sideways_m, share * m.turn_rad);
       }
 
-      // Noise of both wheels, Eq. 5.
-      const Vector3d by_left(0.5 * c + 0.5 * dy / b, 0.5 * s - 0.5 * dx / b, -1.0 / b);
-      const Vector3d by_right(0.5 * c - 0.5 * dy / b, 0.5 * s + 0.5 * dx / b, 1.0 / b);
-      wheel_noise = wheel_noise.carried(dx, dy);
-      const double way_m = 0.5 * (std::abs(left_m) + std::abs(right_m));
-      const double left_way_m = (1.0 - kScrub) * std::abs(left_m) + kScrub * way_m;
-      const double right_way_m = (1.0 - kScrub) * std::abs(right_m) + kScrub * way_m;
-      wheel_noise.add(left_way_m, by_left(0), by_left(1), by_left(2));
-      wheel_noise.add(right_way_m, by_right(0), by_right(1), by_right(2));
-      if (body_is_noisy) {
-        body_noise = body_noise.carried(dx, dy);
-        sideways_noise = sideways_noise.carried(dx, dy);
-        body_noise.add(way_m, c, s, 0.0);
-        body_noise.add(way_m, -dy / b, dx / b, 2.0 / b);  // the turn
-        sideways_noise.add(way_m, -s, c, 0.0);
-      }
+      rolling_noise.add(std::abs(left_m), std::abs(right_m), middle, dx, dy, inverse_base);
       if (counts_left_behind) count_noise = count_noise.carried(dx, dy);
-      if (!run.settles.empty() && run.settles[i] && now_s == w0.time_s) {
-        if (run.settles[i] & 1) {
-          const double m = count * drive.wheel_radius_left_m;
-          count_noise.add(m * m / 12.0, by_left(0), by_left(1), by_left(2));
-          counts_left_behind = true;
-        }
-        if (run.settles[i] & 2) {
-          const double m = count * drive.wheel_radius_right_m;
-          count_noise.add(m * m / 12.0, by_right(0), by_right(1), by_right(2));
+      if (!run.settles.empty() && run.settles[i] && now_s == run.wheels[i].time_s) {
+        for (const double side : {-1.0, 1.0}) {  // left, right
+          if (!(run.settles[i] & (side < 0.0 ? 1 : 2))) continue;
+          const double m = count * (side < 0.0 ? left_radius_m : right_radius_m);
+          const double half = 0.5 * side * inverse_base;
+          count_noise.add(m * m / 12.0, 0.5 * c - half * dy, 0.5 * s + half * dx, 2.0 * half);
           counts_left_behind = true;
         }
       }
       pose = {pose.x_m + dx, pose.y_m + dy, pose.heading_rad + turn};
       now_s = until_s;
     }
-    velocity = velocity_in(i, end_s);
-    const double c_end = std::cos(pose.heading_rad), s_end = std::sin(pose.heading_rad);
-    const Vector3d moved_end(c_end * velocity(0) - s_end * velocity(1), s_end * velocity(0) + c_end * velocity(1),
-                             velocity(2));
+    for (int k = 0; k < 3; ++k) {
+      double* const d = jac + 3 * k;
+      d[0] = by_x(k), d[1] = by_y(k), d[2] = by_heading(k);
+    }
+    const Vector3d velocity = velocity_in(i, end_s);
+    const Turn end = turn_of(pose.heading_rad);
+    const double moved_end[3] = {end.c * velocity(0) - end.s * velocity(1), end.s * velocity(0) + end.c * velocity(1),
+                                 velocity(2)};
     double* const clock = jac + 3 * column::truth_clock;  // Eq. 6: both ends move back in time
-    clock[0] += start_velocity(0) - start_velocity(2) * pose.y_m - moved_end(0);
-    clock[1] += start_velocity(1) + start_velocity(2) * pose.x_m - moved_end(1);
-    clock[2] += start_velocity(2) - moved_end(2);
-    for (int k = 0; k < 3; ++k) summed.end_velocity.push_back(moved_end(k));
-    wheel_noise.pack(out.wheel_noise);
-    body_noise.pack(out.body_noise);
-    sideways_noise.pack(out.sideways_noise);
+    clock[0] = start_velocity(0) - start_velocity(2) * pose.y_m - moved_end[0];
+    clock[1] = start_velocity(1) + start_velocity(2) * pose.x_m - moved_end[1];
+    clock[2] = start_velocity(2) - moved_end[2];
+    for (std::size_t k = 0; k < 3; ++k) summed.end_velocity[3 * t + k] = moved_end[k];
+    rolling_noise.pack(out, body_is_noisy);
     count_noise.pack(out.count_noise);
   }
   return summed;

@@ -153,8 +153,10 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   int q = 7;
   for (const Question& c : questions) q += static_cast<int>(c.effect->amplitudes.size());
   MatrixXd z = MatrixXd::Zero(rows, q);
-  for (int c = 0; c < 6; ++c) linear.of_parameter(c, z.col(c).data());
-  linear.of_parameter(column::truth_clock, z.col(6).data());
+  std::array<double*, column::first_extra> of_parameters{};
+  for (int c = 0; c < 6; ++c) of_parameters[static_cast<std::size_t>(c)] = z.col(c).data();
+  of_parameters[column::truth_clock] = z.col(6).data();
+  linear.of_parameters(of_parameters);
   int at = 7;
   const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
   for (const Question& c : questions) {

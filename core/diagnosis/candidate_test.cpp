@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/scanned_products.h"
 
 namespace odolab {
 
@@ -178,9 +179,25 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (c.of_run[r].size() == 0) continue;
     const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
-    products.with_itself.noalias() += c.of_run[r].transpose() * c.of_run[r];
-    now_->add_products(r, now_->z[r].middleRows(from, rows), c.of_run[r], products.with_model);
-    products.with_residual.noalias() += c.of_run[r].transpose() * now_->residual[r].segment(from, rows);
+    std::vector<Eigen::Index> acting;  // what belongs to one run each is zero in all others
+    for (Eigen::Index j = 0; j < c.of_run[r].cols(); ++j)
+      if (!c.of_run[r].col(j).isZero(0.0)) acting.push_back(j);
+    if (acting.empty()) continue;
+    const MatrixXd some = static_cast<Eigen::Index>(acting.size()) < c.of_run[r].cols()
+                              ? MatrixXd(c.of_run[r](Eigen::all, acting))
+                              : MatrixXd();
+    const MatrixXd& own = some.size() > 0 ? some : c.of_run[r];
+    const MatrixXd with_itself = own.transpose() * own;
+    const MatrixXd with_model = now_->z[r].middleRows(from, rows).transpose() * own;
+    const VectorXd with_residual = own.transpose() * now_->residual[r].segment(from, rows);
+    for (std::size_t i = 0; i < acting.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j < acting.size(); ++j)
+        products.with_itself(acting[i], acting[j]) += with_itself(at, static_cast<Eigen::Index>(j));
+      for (std::size_t m = 0; m < now_->columns[r].size(); ++m)
+        products.with_model(now_->columns[r][m], acting[i]) += with_model(static_cast<Eigen::Index>(m), at);
+      products.with_residual(acting[i]) += with_residual(at);
+    }
   }
   const Absorbing by = absorbing(without);
   MatrixXd beta;
@@ -235,6 +252,13 @@ CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thor
     out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
   }
   return out;
+}
+
+std::shared_ptr<ScannedProducts> JointModel::scanned_products() const {
+  if (!now_->scanned)
+    now_->scanned = std::make_shared<ScannedProducts>(now_->views, now_->runs, now_->columns, now_->z, now_->residual,
+                                                      static_cast<int>(gram_.rows()));
+  return now_->scanned;
 }
 
 std::vector<BodyMotion> JointModel::score_of_motions(int run) const {

@@ -47,17 +47,17 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   view.from_commands = from_commands;
   const std::vector<WheelSample>& smooth = run.smooth.empty() ? run.wheels : run.smooth;
   const std::vector<WheelSample>& wheels = way == Way::smoothed ? smooth : run.wheels;
-  const std::vector<DriveStep> steps = drive_steps(run, drive);
-  const int n = static_cast<int>(steps.size());
+  std::vector<DriveStep> reckoned;
+  if (truth_poses.empty()) reckoned = drive_steps(run, drive);
+  const int n = static_cast<int>(run.wheels.size()) - 1;
   view.steps.resize(n);
   std::size_t k = 0;
   for (int i = 0; i < n; ++i) {
-    const DriveStep& d = steps[i];
     const WheelSample &a = wheels[i], &b = wheels[i + 1], &first = wheels.front();
     EffectStep& s = view.steps[i];
-    s.time_s = d.time_s;
-    s.duration_s = d.duration_s;
-    s.since_start_s = d.time_s - first.time_s;
+    s.time_s = 0.5 * (run.wheels[i].time_s + run.wheels[i + 1].time_s);
+    s.duration_s = run.wheels[i + 1].time_s - run.wheels[i].time_s;
+    s.since_start_s = s.time_s - first.time_s;
     s.left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad);
     s.right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
     s.turn_rad = (s.right_m - s.left_m) / drive.wheelbase_m;
@@ -67,9 +67,10 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     s.right_by_rad = b.right_rad - a.right_rad;
     s.left_read_rad = run.wheels[i + 1].left_rad - run.wheels[i].left_rad;
     s.right_read_rad = run.wheels[i + 1].right_rad - run.wheels[i].right_rad;
-    s.heading_rad = d.heading_rad;
-    s.position = d.position;
-    if (!truth_poses.empty()) {
+    if (truth_poses.empty()) {
+      s.heading_rad = reckoned[i].heading_rad;
+      s.position = reckoned[i].position;
+    } else {
       while (k + 2 < truth_poses.size() && truth_poses[k + 1].time_s <= s.time_s) ++k;
       const TimedPose &p = truth_poses[k], &q = truth_poses[std::min(k + 1, truth_poses.size() - 1)];
       const double gap = q.time_s - p.time_s;
@@ -78,8 +79,12 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
       s.heading_rad = p.pose.heading_rad + share * wrapped(q.pose.heading_rad - p.pose.heading_rad);
     }
   }
-  for (int i = 0; i + 1 < n; ++i)
-    view.longest_step_m = std::max(view.longest_step_m, length(view.steps[i + 1].position - view.steps[i].position));
+  double longest_m2 = 0.0;
+  for (int i = 0; i + 1 < n; ++i) {
+    const Vec2 step = view.steps[i + 1].position - view.steps[i].position;
+    longest_m2 = std::max(longest_m2, dot(step, step));
+  }
+  view.longest_step_m = std::max(view.longest_step_m, std::sqrt(longest_m2));
   for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
   // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
   // kick, so that over shorter times noise itself would depend on acceleration.

@@ -188,9 +188,11 @@ void JointModel::linearise(bool with_columns) {
     MatrixXd& z = next->z[r];
     z = MatrixXd::Zero(rows, static_cast<Eigen::Index>(acting.size()));
     Eigen::Index at = 0;
+    std::array<double*, column::first_extra> of_parameters{};
     for (int c = 0; c < 6; ++c)
-      if (nuisance_active[c]) linear.of_parameter(c, z.col(at++).data());
-    if (clock_active[r]) linear.of_parameter(column::truth_clock, z.col(at++).data());
+      if (nuisance_active[c]) of_parameters[static_cast<std::size_t>(c)] = z.col(at++).data();
+    if (clock_active[r]) of_parameters[column::truth_clock] = z.col(at++).data();
+    linear.of_parameters(of_parameters);
     if (runs_[r].counts_show)
       for (const Motions& of_wheel : counts_at_rest(runs_[r], model.drive))
         linear.of_motion(of_wheel, z.col(at++).data());

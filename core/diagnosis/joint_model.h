@@ -42,6 +42,8 @@ struct CandidateProducts {
   Eigen::VectorXd with_residual;
 };
 
+class ScannedProducts;
+
 class JointModel {
  public:
   JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands, const LeastSquaresCalibration& start,
@@ -121,6 +123,7 @@ class JointModel {
     std::vector<std::vector<int>> columns;  // those that act in a run
     std::vector<Eigen::MatrixXd> z;         // of each run: only these
     std::vector<Eigen::VectorXd> residual;
+    mutable std::shared_ptr<ScannedProducts> scanned;  // made when the first asks
     // Of all columns, those that act in a run; and z' by, put where they belong.
     Eigen::VectorXd acting(std::size_t run, const Eigen::VectorXd& of_all) const;
     template <typename Rows, typename By>
@@ -141,6 +144,8 @@ class JointModel {
   // The test without its thorough part; `absorbed`: what the kept columns take of each of the candidate's.
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
+  // Of the linearisation as it is. Not to be asked for the first time by several threads.
+  std::shared_ptr<ScannedProducts> scanned_products() const;
   JointModel() = default;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const DriveView& view) const;

@@ -1,5 +1,6 @@
 #include "core/diagnosis/linearised.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +10,7 @@ namespace {
 
 // Lower Cholesky factor's inverse of a symmetric 3 by 3 matrix, times the rotation into the vehicle's frame.
 void whitener_of(const FilterStep& step, double* out) {
-  const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
+  const double c = step.here.c, s = step.here.s;
   const double* m = step.covariance;
   // R' S R with R the rotation by the heading: rows along, across, heading.
   const double xx = c * c * m[0] + 2.0 * c * s * m[1] + s * s * m[3];
@@ -42,10 +43,7 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
   sums_ = filtered(run, summed_, model, options);
   whitener_.assign(9 * static_cast<std::size_t>(n), 0.0);
   residual_.assign(3 * static_cast<std::size_t>(n), 0.0);
-  turned_.resize(n);
   for (int k = 0; k < n; ++k) {
-    const double before = steps_[k].heading_before_rad, here = steps_[k].heading_rad;
-    turned_[k] = {std::cos(before), std::sin(before), std::cos(here), std::sin(here)};
     if (!steps_[k].used) continue;
     double* w = &whitener_[9 * static_cast<std::size_t>(k)];
     whitener_of(steps_[k], w);
@@ -65,8 +63,8 @@ void LinearisedRun::prepare_carry() {
     const FilterStep& step = steps_[k];
     Carry& carry = carry_[static_cast<std::size_t>(k)];
     if (step.truth_index < 0 || step.starts) continue;
-    carry.c = turned_[k].c0;
-    carry.s = turned_[k].s0;
+    carry.c = step.before.c;
+    carry.s = step.before.s;
     carry.dx = step.moved.x_m;
     carry.dy = step.moved.y_m;
     carry.on[0] = carry.on[4] = carry.on[8] = 1.0;
@@ -110,62 +108,6 @@ LinearisedRun::Tails LinearisedRun::tails() const {
     tails[static_cast<std::size_t>(k) - 1] = {of_e[0], of_e[1], xh, of_e[4], yh, -carry.dy * xh + carry.dx * yh + eh};
   }
   return tails;
-}
-
-// `motion(t, j)` writes the derivative of the motion from truth sample t to t + 1, in the frame of t.
-template <typename Motion>
-Stretch LinearisedRun::carried(Motion&& motion, int first, int last_with_motion, int parameter, double* out) const {
-  const int n = samples();
-  double d0 = 0.0, d1 = 0.0, d2 = 0.0;
-  double largest = 0.0;
-  const auto start_at = [&](const FilterStep& step) {
-    d0 = d1 = d2 = 0.0;
-    const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
-    if (parameter == column::mounting_x) d0 = -c, d1 = -s;
-    if (parameter == column::mounting_y) d0 = s, d1 = -c;
-    if (parameter == column::mounting_heading && run_->truth_has_heading)
-      d0 = -step.arm.y_m, d1 = step.arm.x_m, d2 = -1.0;
-  };
-  const bool mounting = parameter >= column::mounting_x && parameter <= column::mounting_heading;
-  if (first == 0 && steps_[0].starts) start_at(steps_[0]);
-  out[3 * first] = out[3 * first + 1] = out[3 * first + 2] = 0.0;
-  for (int t = first; t + 1 < n; ++t) {
-    const FilterStep& step = steps_[t + 1];
-    double* o = out + 3 * (t + 1);
-    o[0] = o[1] = o[2] = 0.0;
-    if (step.truth_index < 0) continue;  // before the filter's start
-    if (step.starts) {
-      start_at(step);
-      continue;
-    }
-    const double c = turned_[t + 1].c0, s = turned_[t + 1].s0;
-    double jac[3] = {0.0, 0.0, 0.0};
-    if (t < last_with_motion) motion(t, jac);
-    d0 += -step.moved.y_m * d2 + c * jac[0] - s * jac[1];
-    d1 += step.moved.x_m * d2 + s * jac[0] + c * jac[1];
-    d2 += jac[2];
-    if (!step.used) continue;
-    double j0 = d0 - step.arm.y_m * d2, j1 = d1 + step.arm.x_m * d2, j2 = d2;
-    if (mounting) {
-      const double ch = turned_[t + 1].c1, sh = turned_[t + 1].s1;
-      if (parameter == column::mounting_x) j0 += ch, j1 += sh;
-      if (parameter == column::mounting_y) j0 -= sh, j1 += ch;
-      if (parameter == column::mounting_heading) j2 += 1.0;
-    }
-    if (step.size == 2) j2 = 0.0;
-    const double* w = &whitener_[9 * static_cast<std::size_t>(t + 1)];
-    for (int r = 0; r < 3; ++r) o[r] = (w[3 * r] * j0 + w[3 * r + 1] * j1 + w[3 * r + 2] * j2);
-    d0 -= step.gain[0] * j0 + step.gain[1] * j1 + step.gain[2] * j2;
-    d1 -= step.gain[3] * j0 + step.gain[4] * j1 + step.gain[5] * j2;
-    d2 -= step.gain[6] * j0 + step.gain[7] * j1 + step.gain[8] * j2;
-    if (t >= last_with_motion) {  // behind a short event nothing is left after a while
-      const double size = std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]);
-      if (size < 1e-6 * largest && t > last_with_motion + 5) return {first, t + 2};
-    } else {
-      largest = std::max(largest, static_cast<double>(std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2])));
-    }
-  }
-  return {first, n};
 }
 
 namespace {
@@ -219,28 +161,96 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
   return {first, n};
 }
 
-void LinearisedRun::of_parameter(int parameter, double* out) const {
-  const auto motion = [&](int t, double* d) {
-    const double* jac = &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + parameter)];
-    for (int k = 0; k < 3; ++k) d[k] = jac[k];
+void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>& out) const {
+  constexpr int kLanes = column::first_extra + 1;  // one stays empty
+  using Lanes = Eigen::Array<double, kLanes, 1>;
+  using Given = Eigen::Map<const Eigen::Matrix<double, 3, column::first_extra>>;
+  const int n = samples();
+  Lanes d[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+  const auto put = [&](int t, const Lanes* o) {
+    for (int c = 0; c < column::first_extra; ++c)
+      if (double* const to = out[static_cast<std::size_t>(c)])
+        for (int r = 0; r < 3; ++r) to[3 * t + r] = o[r](c);
   };
-  carried(motion, 0, samples(), parameter, out);
+  // By the mounting where the filter begins, from the sample itself.
+  const auto start_at = [&](const FilterStep& step) {
+    for (Lanes& row : d) row.setZero();
+    d[0](column::mounting_x) = -step.here.c, d[1](column::mounting_x) = -step.here.s;
+    d[0](column::mounting_y) = step.here.s, d[1](column::mounting_y) = -step.here.c;
+    if (!run_->truth_has_heading) return;
+    d[0](column::mounting_heading) = -step.arm.y_m;
+    d[1](column::mounting_heading) = step.arm.x_m;
+    d[2](column::mounting_heading) = -1.0;
+  };
+  if (steps_[0].starts) start_at(steps_[0]);
+  const Lanes nothing[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+  put(0, nothing);
+  for (int t = 0; t + 1 < n; ++t) {
+    const FilterStep& step = steps_[t + 1];
+    if (step.truth_index < 0 || step.starts) {  // before the filter's start, or where it starts anew
+      put(t + 1, nothing);
+      if (step.starts) start_at(step);
+      continue;
+    }
+    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
+    const Given jac(&summed_.derivatives[3 * static_cast<std::size_t>(summed_.columns) * static_cast<std::size_t>(t)]);
+    Lanes x = Lanes::Zero(), y = Lanes::Zero(), heading = Lanes::Zero();
+    x.head<column::first_extra>() = jac.row(0).transpose().array();
+    y.head<column::first_extra>() = jac.row(1).transpose().array();
+    heading.head<column::first_extra>() = jac.row(2).transpose().array();
+    const Lanes e0 = d[0] - carry.dy * d[2] + carry.c * x - carry.s * y;
+    const Lanes e1 = d[1] + carry.dx * d[2] + carry.s * x + carry.c * y;
+    const Lanes e2 = d[2] + heading;
+    Lanes o[3];
+    for (int r = 0; r < 3; ++r) {
+      o[r] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
+      d[r] = carry.on[3 * r] * e0 + carry.on[3 * r + 1] * e1 + carry.on[3 * r + 2] * e2;
+    }
+    if (step.used) {  // what is read moves with the mounting too
+      const double* w = &whitener_[9 * static_cast<std::size_t>(t + 1)];
+      const double c = step.here.c, s = step.here.s;
+      for (int r = 0; r < 3; ++r) {
+        const double *by = w + 3 * r, *gain = step.gain + 3 * r;
+        o[r](column::mounting_x) += by[0] * c + by[1] * s;
+        d[r](column::mounting_x) -= gain[0] * c + gain[1] * s;
+        o[r](column::mounting_y) += by[1] * c - by[0] * s;
+        d[r](column::mounting_y) -= gain[1] * c - gain[0] * s;
+        if (step.size != 3) continue;
+        o[r](column::mounting_heading) += by[2];
+        d[r](column::mounting_heading) -= gain[2];
+      }
+    }
+    put(t + 1, o);
+  }
 }
 
 void LinearisedRun::of_clock_rate(double* out) const {
-  // A clock that runs fast is an offset that grows: at both ends of a motion the body's velocity there, times the time
-  // since the first sample. The clock's own derivative holds the difference of both; the end's part is split off.
-  const auto motion = [&](int t, double* d) {
-    if (first_piece_[t] >= first_piece_[t + 1]) return;
-    const double t0 = run_->truth[t].time_s - run_->truth[0].time_s,
-                 t1 = run_->truth[t + 1].time_s - run_->truth[0].time_s;
-    const double* jac = &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + column::truth_clock)];
-    const double* end = &summed_.end_velocity[3 * static_cast<std::size_t>(t)];
-    // offset(t) = -rate (t - t_0): jac = start velocity - end velocity
-    for (int k = 0; k < 3; ++k) d[k] = -(t0 * (jac[k] + end[k]) - t1 * end[k]);
-    // The start's velocity also swings the motion about, which jac has in it already.
-  };
-  carried(motion, 0, samples(), -1, out);
+  const int n = samples();
+  double d0 = 0.0, d1 = 0.0, d2 = 0.0;
+  out[0] = out[1] = out[2] = 0.0;
+  for (int t = 0; t + 1 < n; ++t) {
+    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
+    double motion[3] = {0.0, 0.0, 0.0};
+    if (first_piece_[t] < first_piece_[t + 1]) {
+      // A clock that runs fast is an offset that grows: at both ends of a motion the body's velocity there, times the
+      // time since the first sample. The clock's own derivative holds the difference of both; the end's part is split
+      // off. The start's velocity also swings the motion about, which that derivative has in it already.
+      const double t0 = run_->truth[t].time_s - run_->truth[0].time_s,
+                   t1 = run_->truth[t + 1].time_s - run_->truth[0].time_s;
+      const double* jac =
+          &summed_.derivatives[3 * (static_cast<std::size_t>(summed_.columns) * t + column::truth_clock)];
+      const double* end = &summed_.end_velocity[3 * static_cast<std::size_t>(t)];
+      // offset(t) = -rate (t - t_0): jac = start velocity - end velocity
+      for (int k = 0; k < 3; ++k) motion[k] = -(t0 * (jac[k] + end[k]) - t1 * end[k]);
+    }
+    const double e0 = d0 - carry.dy * d2 + carry.c * motion[0] - carry.s * motion[1],
+                 e1 = d1 + carry.dx * d2 + carry.s * motion[0] + carry.c * motion[1], e2 = d2 + motion[2];
+    double* const o = out + 3 * (t + 1);
+    for (int r = 0; r < 3; ++r) o[r] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
+    d0 = carry.on[0] * e0 + carry.on[1] * e1 + carry.on[2] * e2;
+    d1 = carry.on[3] * e0 + carry.on[4] * e1 + carry.on[5] * e2;
+    d2 = carry.on[6] * e0 + carry.on[7] * e1 + carry.on[8] * e2;
+  }
 }
 
 }  // namespace odolab

@@ -36,8 +36,8 @@ class LinearisedRun {
   // Derivative of the prediction by the value of an effect that moves the body by `per_step` between wheel samples.
   // `out` has three numbers for each sample and is written to within the returned stretch only.
   Stretch of_motion(const Motions& motions, double* out) const;
-  // The same by one of the seven parameters of `column`.
-  void of_parameter(int parameter, double* out) const;
+  // The same by the seven parameters of `column`, all in one pass; null for one that nobody asks for.
+  void of_parameters(const std::array<double*, column::first_extra>& out) const;
   // The sum of squares that a derivative of the pose still brings behind each sample: xx, xy, xh, yy, yh, hh.
   using Tails = std::vector<std::array<double, 6>>;
   Tails tails() const;
@@ -90,8 +90,6 @@ class LinearisedRun {
   void products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const;
   template <int abreast>
   void products_of_all(const Moved& moved, const Tails& tails, double* products) const;
-  template <typename Motion>
-  Stretch carried(Motion&& motion, int first, int last_with_motion, int parameter, double* out) const;
 
   std::shared_ptr<const InnovationRun> run_;
   SummedRun summed_;
@@ -99,10 +97,6 @@ class LinearisedRun {
   std::vector<int> first_piece_;      // of each truth interval
   std::vector<int> piece_of_wheels_;  // the first one of each wheel interval, or of those behind it
   std::vector<FilterStep> steps_;
-  struct Turned {  // cosine and sine of a step's headings, before and predicted
-    double c0, s0, c1, s1;
-  };
-  std::vector<Turned> turned_;
   std::vector<Carry> carry_;
   std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;

@@ -1,4 +1,5 @@
 // What motions of the body do to a linearised run: README.md in this folder, Eqs. 3 and 15.
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +35,8 @@ void LinearisedRun::cut_into_pieces() {
         sideways += share * e.value * e.per_step[i].sideways_m;
         turn += share * e.value * e.per_step[i].turn_rad;
       }
-      const double middle = heading_rad + 0.5 * turn, c = std::cos(middle), s = std::sin(middle);
+      const Turn middle = turn_of(heading_rad + 0.5 * turn);
+      const double c = middle.c, s = middle.s;
       const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
       // In the frame of the truth interval's start, and so far where this piece ends.
       pieces_.push_back({static_cast<int>(i), t, share, share * c, share * s, -0.5 * dy, 0.5 * dx});
@@ -123,24 +125,31 @@ void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Mo
     if (acts) moved.columns.push_back(j);
   }
   moved.end = std::max(moved.first, moved.end);
-  const std::size_t columns = moved.columns.size(), lanes = moved.abreast;
+  const std::size_t columns = moved.columns.size(), abreast = moved.abreast;
   const auto intervals = static_cast<std::size_t>(moved.end - moved.first);
-  moved.by.assign(3 * columns * lanes * intervals, 0.0);
+  moved.by.assign(3 * columns * abreast * intervals, 0.0);
   moved.any.assign(intervals, 0);
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < abreast; ++l)
     for (std::size_t j = 0; j < columns; ++j) {
       if (candidates[l].empty() || candidates[l][moved.columns[j]].empty()) continue;
       const Motions& motions = candidates[l][moved.columns[j]];
       const int last = piece_of_wheels_[motions.end()];
-      for (int p = piece_of_wheels_[motions.first()]; p < last; ++p) {
-        const Piece& piece = pieces_[p];
-        const BodyMotion& m = motions[static_cast<std::size_t>(piece.interval)];
-        if (m.forward_m == 0.0 && m.sideways_m == 0.0 && m.turn_rad == 0.0) continue;
-        const auto t = static_cast<std::size_t>(piece.truth - moved.first);
-        double* by = &moved.by[(t * columns + j) * 3 * lanes + l];
-        by[0] += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
-        by[lanes] += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
-        by[2 * lanes] += piece.share * m.turn_rad;
+      for (int p = piece_of_wheels_[motions.first()]; p < last;) {
+        const int truth = pieces_[p].truth;
+        double x = 0.0, y = 0.0, h = 0.0;
+        for (; p < last && pieces_[p].truth == truth; ++p) {
+          const Piece& piece = pieces_[p];
+          const BodyMotion& m = motions[static_cast<std::size_t>(piece.interval)];
+          x += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
+          y += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
+          h += piece.share * m.turn_rad;
+        }
+        if (x == 0.0 && y == 0.0 && h == 0.0) continue;
+        const auto t = static_cast<std::size_t>(truth - moved.first);
+        double* by = &moved.by[(t * columns + j) * 3 * abreast + l];
+        by[0] = x;
+        by[abreast] = y;
+        by[2 * abreast] = h;
         moved.any[t] = 1;
       }
     }
@@ -149,44 +158,38 @@ void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Mo
 // Of those columns of `moved` that `which` numbers.
 template <int columns, int abreast>
 void LinearisedRun::products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const {
+  using Lanes = Eigen::Array<double, abreast, 1>;
   constexpr int k = columns, m = abreast;
-  double d[3][k][m] = {}, sum[k][k][m] = {};
+  Lanes d[3][k], sum[k][k];
+  for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
+  for (auto& row : sum) std::fill(row, row + k, Lanes::Zero());
   const std::size_t stride = 3 * m * moved.columns.size();
   const double* by = moved.by.data();
   for (int t = moved.first; t < moved.end; ++t, by += stride) {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
-    double e[3][k][m], o[3][k][m];
+    Lanes o[3][k];
     for (int j = 0; j < k; ++j) {
       const double* u = by + 3 * m * which[j];
-      for (int l = 0; l < m; ++l) {
-        e[0][j][l] = d[0][j][l] - carry.dy * d[2][j][l] + u[l];
-        e[1][j][l] = d[1][j][l] + carry.dx * d[2][j][l] + u[m + l];
-        e[2][j][l] = d[2][j][l] + u[2 * m + l];
+      const Lanes e0 = d[0][j] - carry.dy * d[2][j] + Eigen::Map<const Lanes>(u);
+      const Lanes e1 = d[1][j] + carry.dx * d[2][j] + Eigen::Map<const Lanes>(u + m);
+      const Lanes e2 = d[2][j] + Eigen::Map<const Lanes>(u + 2 * m);
+      for (int r = 0; r < 3; ++r) {
+        o[r][j] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
+        d[r][j] = carry.on[3 * r] * e0 + carry.on[3 * r + 1] * e1 + carry.on[3 * r + 2] * e2;
       }
     }
-    for (int r = 0; r < 3; ++r)
-      for (int j = 0; j < k; ++j)
-        for (int l = 0; l < m; ++l) {
-          o[r][j][l] =
-              carry.out[3 * r] * e[0][j][l] + carry.out[3 * r + 1] * e[1][j][l] + carry.out[3 * r + 2] * e[2][j][l];
-          d[r][j][l] =
-              carry.on[3 * r] * e[0][j][l] + carry.on[3 * r + 1] * e[1][j][l] + carry.on[3 * r + 2] * e[2][j][l];
-        }
     for (int i = 0; i < k; ++i)
-      for (int j = i; j < k; ++j)
-        for (int l = 0; l < m; ++l)
-          sum[i][j][l] += o[0][i][l] * o[0][j][l] + o[1][i][l] * o[1][j][l] + o[2][i][l] * o[2][j][l];
+      for (int j = i; j < k; ++j) sum[i][j] += o[0][i] * o[0][j] + o[1][i] * o[1][j] + o[2][i] * o[2][j];
   }
   const std::array<double, 6>& s = tails[static_cast<std::size_t>(moved.end)];
   for (int i = 0; i < k; ++i)
-    for (int j = i; j < k; ++j)
-      for (int l = 0; l < m; ++l) {
-        const double x = s[0] * d[0][j][l] + s[1] * d[1][j][l] + s[2] * d[2][j][l];
-        const double y = s[1] * d[0][j][l] + s[3] * d[1][j][l] + s[4] * d[2][j][l];
-        const double h = s[2] * d[0][j][l] + s[4] * d[1][j][l] + s[5] * d[2][j][l];
-        products[(i * k + j) * m + l] = products[(j * k + i) * m + l] =
-            sum[i][j][l] + d[0][i][l] * x + d[1][i][l] * y + d[2][i][l] * h;
-      }
+    for (int j = i; j < k; ++j) {
+      const Lanes x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];
+      const Lanes y = s[1] * d[0][j] + s[3] * d[1][j] + s[4] * d[2][j];
+      const Lanes h = s[2] * d[0][j] + s[4] * d[1][j] + s[5] * d[2][j];
+      const Lanes product = sum[i][j] + d[0][i] * x + d[1][i] * y + d[2][i] * h;
+      for (int l = 0; l < m; ++l) products[(i * k + j) * m + l] = products[(j * k + i) * m + l] = product(l);
+    }
 }
 
 template <int abreast>

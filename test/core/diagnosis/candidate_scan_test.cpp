@@ -74,5 +74,37 @@ TEST(CandidateScan, SaysWhatTheColumnsSayWhereTheTruthHasNoHeadings) {
   expect_the_same(model_with(lateral_slip(), test::CaseSettings::Truth::coarse_without_heading), -1);
 }
 
+// Shapes are asked four abreast, over all the time that any of the four lasts, and remembered: that rounds otherwise,
+// in the last places of products that nearly cancel.
+TEST(CandidateScan, SaysTheSameOfAShapeWhateverElseIsAsked) {
+  const JointModel joint = model_with(lateral_slip(), test::CaseSettings::Truth::mocap);
+  JointModel again = joint;
+  again.linearise();
+  JointModel apart = joint;
+  apart.linearise();  // as `again`, and remembers nothing yet
+  const CandidateScan together(again), without(again, 0), alone(apart);
+  int asked = 0;
+  for (const Effect& e : catalogue()) {
+    if (e.only_commands || !e.scan) continue;
+    std::vector<std::vector<double>> shapes = e.scan(again.views());
+    shapes.resize(std::min<std::size_t>(shapes.size(), 7));  // a whole group and three left over
+    for (std::vector<double>& shape : shapes)
+      if (e.forms.size() > 1) shape.push_back(0.0);
+    const std::vector<CandidateTest> all = together.tests(e, shapes), once_more = together.tests(e, shapes);
+    const std::vector<CandidateTest> taken_out = without.tests(e, shapes);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      const CandidateTest one = alone.test(e, shapes[k]);
+      ASSERT_EQ(all[k].value.size(), one.value.size()) << e.name;
+      EXPECT_NEAR(all[k].statistic, one.statistic, 1e-6 + 1e-6 * one.statistic) << e.name << " " << k;
+      EXPECT_EQ(all[k].statistic, once_more[k].statistic) << e.name << " " << k;
+      const CandidateTest slow = again.test(again.columns_of(e, shapes[k]), 0);
+      if (taken_out[k].value.empty()) continue;
+      EXPECT_NEAR(taken_out[k].statistic, slow.statistic, 1e-4 + 1e-4 * slow.statistic) << e.name << " " << k;
+      ++asked;
+    }
+  }
+  EXPECT_GT(asked, 20);
+}
+
 }  // namespace
 }  // namespace odolab
