@@ -6,6 +6,7 @@
 
 #include "core/calibration/noise_carry.h"
 #include "core/calibration/pose_covariance.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
@@ -135,8 +136,7 @@ class PoseFilter {
     if (!options_.on_step) return;
     step_ = FilterStep{};
     step_.starts = true;
-    step_.heading_rad = state_.heading_rad;
-    step_.before = step_.here = facing_;
+    step_.heading_before_rad = step_.heading_rad = state_.heading_rad;
     step_.arm = arm();
     report_step(k);
   }
@@ -210,13 +210,12 @@ class PoseFilter {
     covariance_.add(noise.turned(c, s));
     if (options_.on_step) {
       step_.moved = {dx, dy};
-      step_.before = facing_;
+      step_.heading_before_rad = state_.heading_rad;
     }
     state_.x_m += dx;
     state_.y_m += dy;
     turn(step.motion.heading_rad);
     step_.heading_rad = state_.heading_rad;
-    step_.here = facing_;
   }
 
   void turn(double by_rad) {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/geometry/small_turn.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -145,12 +144,12 @@ struct Innovation {
 // What the filter did to arrive at one truth sample: enough to carry further derivatives through it afterwards.
 struct FilterStep {
   int truth_index = 0;
-  bool starts = false;        // begins anew here, from the sample itself
-  bool used = false;          // the sample corrected the pose
-  int size = 0;               // 3, or 2 where the truth has no heading
-  Vec2 moved;                 // predicted motion since the sample before, in the room
+  bool starts = false;  // begins anew here, from the sample itself
+  bool used = false;    // the sample corrected the pose
+  int size = 0;         // 3, or 2 where the truth has no heading
+  Vec2 moved;           // predicted motion since the sample before, in the room
+  double heading_before_rad = 0.0;
   double heading_rad = 0.0;   // predicted here
-  Turn before, here;          // cosine and sine of the heading at the sample before, and as predicted here
   Vec2 arm;                   // from the axle to the tracked point, in the room
   double residual[3] = {};    // truth minus prediction
   double covariance[6] = {};  // of the residual: xx, xy, xh, yy, yh, hh

@@ -146,6 +146,15 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
   for (int j = 0; j < k; ++j)
     out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
   // Directions that do not survive are left out of the test.
+  if (k == 1) {  // as below
+    const double share = effective(0, 0) / info(0, 0), scale = 1.0 / std::sqrt(info(0, 0));
+    const bool survives = share >= least_surviving;
+    out.statistic = survives ? scale * s(0) * (scale * s(0)) / share : 0.0;
+    out.freedom = 1;
+    out.value = {survives ? scale * (scale * s(0) / share) : 0.0};
+    out.stderr_value = {scale * std::sqrt(survives ? 1.0 / share : 1e6)};
+    return out;
+  }
   VectorXd scale(k);
   for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * effective * scale.asDiagonal());

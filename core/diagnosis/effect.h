@@ -1,7 +1,6 @@
 // What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -45,8 +44,7 @@ struct DriveView {
   template <typename Visit>
   void steps_near(Vec2 place, double within_m, Visit&& visit) const {
     for (std::size_t i = 0; i < steps.size();) {
-      const Vec2 to = steps[i].position - place;
-      const double away_m = std::sqrt(dot(to, to)) - within_m;
+      const double away_m = length(steps[i].position - place) - within_m;
       if (away_m <= 0.0) visit(i);
       i += away_m <= longest_step_m ? 1 : static_cast<std::size_t>(away_m / longest_step_m);
     }

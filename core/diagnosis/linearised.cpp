@@ -9,8 +9,8 @@ namespace odolab {
 namespace {
 
 // Lower Cholesky factor's inverse of a symmetric 3 by 3 matrix, times the rotation into the vehicle's frame.
-void whitener_of(const FilterStep& step, double* out) {
-  const double c = step.here.c, s = step.here.s;
+void whitener_of(const FilterStep& step, const Turn& here, double* out) {
+  const double c = here.c, s = here.s;
   const double* m = step.covariance;
   // R' S R with R the rotation by the heading: rows along, across, heading.
   const double xx = c * c * m[0] + 2.0 * c * s * m[1] + s * s * m[3];
@@ -43,10 +43,12 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
   sums_ = filtered(run, summed_, model, options);
   whitener_.assign(9 * static_cast<std::size_t>(n), 0.0);
   residual_.assign(3 * static_cast<std::size_t>(n), 0.0);
+  here_.resize(static_cast<std::size_t>(n));
   for (int k = 0; k < n; ++k) {
+    here_[static_cast<std::size_t>(k)] = turn_of(steps_[k].heading_rad);
     if (!steps_[k].used) continue;
     double* w = &whitener_[9 * static_cast<std::size_t>(k)];
-    whitener_of(steps_[k], w);
+    whitener_of(steps_[k], here_[static_cast<std::size_t>(k)], w);
     for (int r = 0; r < 3; ++r)
       residual_[3 * k + r] = (w[3 * r] * steps_[k].residual[0] + w[3 * r + 1] * steps_[k].residual[1] +
                               w[3 * r + 2] * steps_[k].residual[2]);
@@ -63,8 +65,9 @@ void LinearisedRun::prepare_carry() {
     const FilterStep& step = steps_[k];
     Carry& carry = carry_[static_cast<std::size_t>(k)];
     if (step.truth_index < 0 || step.starts) continue;
-    carry.c = step.before.c;
-    carry.s = step.before.s;
+    const Turn before = here_[static_cast<std::size_t>(k)].then(turn_of(step.heading_before_rad - step.heading_rad));
+    carry.c = before.c;
+    carry.s = before.s;
     carry.dx = step.moved.x_m;
     carry.dy = step.moved.y_m;
     carry.on[0] = carry.on[4] = carry.on[8] = 1.0;
@@ -173,23 +176,25 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
         for (int r = 0; r < 3; ++r) to[3 * t + r] = o[r](c);
   };
   // By the mounting where the filter begins, from the sample itself.
-  const auto start_at = [&](const FilterStep& step) {
+  const auto start_at = [&](int k) {
+    const FilterStep& step = steps_[k];
+    const Turn& here = here_[static_cast<std::size_t>(k)];
     for (Lanes& row : d) row.setZero();
-    d[0](column::mounting_x) = -step.here.c, d[1](column::mounting_x) = -step.here.s;
-    d[0](column::mounting_y) = step.here.s, d[1](column::mounting_y) = -step.here.c;
+    d[0](column::mounting_x) = -here.c, d[1](column::mounting_x) = -here.s;
+    d[0](column::mounting_y) = here.s, d[1](column::mounting_y) = -here.c;
     if (!run_->truth_has_heading) return;
     d[0](column::mounting_heading) = -step.arm.y_m;
     d[1](column::mounting_heading) = step.arm.x_m;
     d[2](column::mounting_heading) = -1.0;
   };
-  if (steps_[0].starts) start_at(steps_[0]);
+  if (steps_[0].starts) start_at(0);
   const Lanes nothing[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
   put(0, nothing);
   for (int t = 0; t + 1 < n; ++t) {
     const FilterStep& step = steps_[t + 1];
     if (step.truth_index < 0 || step.starts) {  // before the filter's start, or where it starts anew
       put(t + 1, nothing);
-      if (step.starts) start_at(step);
+      if (step.starts) start_at(t + 1);
       continue;
     }
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
@@ -208,7 +213,7 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
     }
     if (step.used) {  // what is read moves with the mounting too
       const double* w = &whitener_[9 * static_cast<std::size_t>(t + 1)];
-      const double c = step.here.c, s = step.here.s;
+      const double c = here_[static_cast<std::size_t>(t) + 1].c, s = here_[static_cast<std::size_t>(t) + 1].s;
       for (int r = 0; r < 3; ++r) {
         const double *by = w + 3 * r, *gain = step.gain + 3 * r;
         o[r](column::mounting_x) += by[0] * c + by[1] * s;

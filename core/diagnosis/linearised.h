@@ -10,6 +10,7 @@
 
 #include "core/calibration/innovations.h"
 #include "core/diagnosis/motions.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
@@ -97,6 +98,7 @@ class LinearisedRun {
   std::vector<int> first_piece_;      // of each truth interval
   std::vector<int> piece_of_wheels_;  // the first one of each wheel interval, or of those behind it
   std::vector<FilterStep> steps_;
+  std::vector<Turn> here_;  // of each step's predicted heading
   std::vector<Carry> carry_;
   std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;
