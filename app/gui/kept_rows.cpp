@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::int64_t kEvery = 500;  // rows between two thinnings, which walk through all that are kept
 
-// Every how manieth row of an age stays: each, from a minute on every second, from two minutes on every fourth.
+// Every how manieth row of an age stays: each, from half a minute on every second, from a minute on every fourth.
 std::int64_t spacing(std::int64_t age, std::int64_t widest) {
   std::int64_t every = 1;
   for (; age >= KeptRows::kAllOf && every < widest; age /= 2) every *= 2;
@@ -18,6 +18,7 @@ std::int64_t spacing(std::int64_t age, std::int64_t widest) {
 std::vector<bool> KeptRows::thin() {
   if (next_ - thinned_at_ < kEvery) return {};
   thinned_at_ = next_;
+  if (numbers_.size() > most_) widest_ *= 2;
   std::vector<bool> stays(numbers_.size());
   bool all = true;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {

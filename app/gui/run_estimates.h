@@ -29,7 +29,8 @@ class RunEstimates {
   void keep_pictures(const std::vector<bool>& stays);  // of those remembered
 
   // The true poses at the times of the estimates' tracks. Of samples that are minutes old every eighth is kept: at the
-  // usual 50 a second 0.16 s apart, between which a track may be taken as straight.
+  // usual 50 a second 0.16 s apart, between which a track may be taken as straight. From half an hour on it is every
+  // sixteenth, from an hour on every thirty-second, so that a track never has more than about 16 000 poses.
   const Track& truth() const { return truth_; }
   const std::vector<RunEstimate>& all() const { return estimates_; }
   // The one that the vehicle itself steers by.
@@ -40,7 +41,7 @@ class RunEstimates {
   std::vector<RunEstimate> estimates_;
   std::size_t steering_ = 0;
   Track truth_;
-  KeptRows kept_{8};  // samples
+  KeptRows kept_{8, 16000};  // samples
 };
 
 }  // namespace odolab

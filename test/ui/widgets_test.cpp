@@ -2,10 +2,28 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "test/ui/headless_screen.h"
 
 namespace odolab::ui {
 namespace {
+
+TEST(WrappedAt, BreaksAtBlanksAndAPathThatIsTooLongAtItsSlashes) {
+  HeadlessScreen screen;
+  screen.picture([] {
+    const float room = ImGui::CalcTextSize("/home/somebody/").x + 1.0f;
+    EXPECT_EQ(wrapped_at("one two", 1000.0f), "one two");
+    EXPECT_EQ(wrapped_at("found in one place", ImGui::CalcTextSize("found in").x + 1.0f), "found in\none\nplace");
+    EXPECT_EQ(wrapped_at("/home/somebody/file.csv: wrong", room), "/home/somebody/\nfile.csv: wrong");
+    EXPECT_EQ(wrapped_at("in /home/somebody/a", room), "in\n/home/somebody/\na");
+    const std::string letters = wrapped_at(std::string(40, 'x'), room);
+    EXPECT_EQ(std::count(letters.begin(), letters.end(), 'x'), 40);
+    EXPECT_GT(std::count(letters.begin(), letters.end(), '\n'), 0);
+    EXPECT_EQ(wrapped_at("ü", 0.0f), "ü");  // no letter is broken
+  });
+}
 
 // A field of 0.1 to 20 m that holds 4 m, alone in a window.
 class NumberFieldTest : public ::testing::Test {

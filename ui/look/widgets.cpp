@@ -45,6 +45,20 @@ void words_under_item(const std::string& text, const Theme& theme) {
   draw.AddText({low.x + pad, low.y + 0.5f * pad}, theme.error, text.c_str());
 }
 
+// How much of a word without a blank fits: up to one of its slashes if it has any, at least a letter.
+std::size_t fitting_part(const std::string& word, float width) {
+  if (ImGui::CalcTextSize(word.c_str()).x <= width) return word.size();
+  const auto begins_letter = [&](std::size_t i) { return (static_cast<unsigned char>(word[i]) & 0xC0) != 0x80; };
+  std::size_t letters = 0, to_slash = 0;
+  for (std::size_t i = 1; i < word.size(); ++i) {
+    if (!begins_letter(i)) continue;
+    if (letters > 0 && ImGui::CalcTextSize(word.c_str(), word.c_str() + i).x > width) break;
+    letters = i;
+    if (word[i - 1] == '/' && i > 1) to_slash = i;
+  }
+  return to_slash > 0 ? to_slash : letters > 0 ? letters : word.size();
+}
+
 // Beside the item before it, so that neither it nor its neighbours are covered.
 void tooltip_beside(const std::string& text, const Theme& theme) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), screen = ImGui::GetIO().DisplaySize;
@@ -196,13 +210,18 @@ std::string wrapped_at(const std::string& text, float width) {
   std::size_t at = 0;
   while (at < text.size()) {
     const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
-    const std::string longer = line.empty() ? text.substr(at, end - at) : line + " " + text.substr(at, end - at);
-    if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > width) {
+    std::string word = text.substr(at, end - at);
+    if (!line.empty() && ImGui::CalcTextSize((line + " " + word).c_str()).x > width) {
       lines += line + "\n";
-      line = text.substr(at, end - at);
-    } else {
-      line = longer;
+      line.clear();
     }
+    while (line.empty()) {
+      const std::size_t fits = fitting_part(word, width);
+      if (fits == word.size()) break;
+      lines += word.substr(0, fits) + "\n";
+      word.erase(0, fits);
+    }
+    line += (line.empty() ? "" : " ") + word;
     if (end < text.size() && text[end] == '\n') {
       lines += line + "\n";
       line.clear();
@@ -213,11 +232,8 @@ std::string wrapped_at(const std::string& text, float width) {
 }
 
 void words(const std::string& text, ImU32 colour, float width) {
-  const std::string lines = wrapped_at(text, width > 0.0f ? width : ImGui::GetContentRegionAvail().x);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0.0f);  // for what has no blank
-  ImGui::TextUnformatted(lines.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(wrapped_at(text, width > 0.0f ? width : ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
 }
 

@@ -36,7 +36,7 @@ std::optional<int> segmented(const char* id, const std::vector<std::string>& lab
 bool section(const char* title, const Theme& theme, bool open_at_first = true);
 // A small heading inside a panel.
 void heading(const char* title, const Theme& theme);
-// The text with line ends where it is as wide as this; broken at blanks alone.
+// The text with line ends where it is as wide as this; broken at blanks alone, and what has none at slashes or letters.
 std::string wrapped_at(const std::string& text, float width);
 // Words wrapped at blanks alone, so that no number is broken; `width` 0: the remaining one.
 void words(const std::string& text, ImU32 colour, float width = 0.0f);

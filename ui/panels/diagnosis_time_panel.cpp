@@ -118,7 +118,8 @@ void response_choice(const DiagnosisView& view, DiagnosisState& state, float wid
     return r.channel.substr(0, r.channel.find(" [")) + " against " + r.variable.substr(0, r.variable.find(" ["));
   };
   ImGui::SetNextItemWidth(width);
-  if (!ImGui::BeginCombo("##response", label(all[std::size_t(state.response)]).c_str())) return;
+  const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
+  if (!ImGui::BeginCombo("##response", fitted(label(all[std::size_t(state.response)]), room).c_str())) return;
   for (int k = 0; k < int(all.size()); ++k)
     if (ImGui::Selectable(label(all[std::size_t(k)]).c_str(), k == state.response)) {
       state.response = k;

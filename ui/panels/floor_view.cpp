@@ -120,12 +120,13 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
   if (state.show_grid) draw_origin(draw, camera, theme);
   if (scene.floor) draw_tilt(draw, camera, *scene.floor, theme);
   if (scene.tracks.empty() && scene.trails.empty() && scene.vehicles.empty() && !scene.empty_text.empty()) {
-    const ImVec2 size = ImGui::CalcTextSize(scene.empty_text.c_str());
+    const std::string words = wrapped_at(scene.empty_text, camera.high.x - camera.low.x - theme.px(32));
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     const ImVec2 at{std::round(0.5f * (camera.low.x + camera.high.x - size.x)),
                     std::round(0.5f * (camera.low.y + camera.high.y - size.y))};
     draw.AddRectFilled({at.x - theme.px(10), at.y - theme.px(6)},
                        {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
-    draw.AddText(at, theme.muted, scene.empty_text.c_str());
+    draw.AddText(at, theme.muted, words.c_str());
   }
   floor_legend(draw, scene, state, theme);
   if (state.brushing)

@@ -58,7 +58,9 @@ void square(const Pen& pen, ImVec2 low, float side, bool clockwise, double side_
     }
   pen.robot(a, theme.px(26), 0.0f, theme.ink, true);
   const ImVec2 middle{low.x + 0.5f * side, low.y + 0.5f * side};
-  pen.words({middle.x, middle.y - theme.px(10)}, clockwise ? "clockwise" : "counter-clockwise", colour, 0.5f);
+  const char* name = clockwise ? "clockwise" : "counter-clockwise";
+  if (ImGui::CalcTextSize(name).x > side - theme.px(8)) name = clockwise ? "cw" : "ccw";
+  pen.words({middle.x, middle.y - theme.px(10)}, name, colour, 0.5f);
   pen.words({middle.x, middle.y + theme.px(10)}, clockwise ? "turns right" : "turns left", theme.muted, 0.5f);
   pen.words({middle.x, clockwise ? a.y - theme.px(26) : a.y + theme.px(28)}, shown(side_m, kMetres) + " and turn",
             theme.muted, 0.5f);

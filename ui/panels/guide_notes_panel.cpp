@@ -56,17 +56,20 @@ void append_words_before(GuideKind kind, const Theme& theme) {
 
 Actions run_list(const GuideView& view, PageTask task, const GuideRound& round, const Theme& theme) {
   Actions actions;
-  const Unit mm{"", 1e3, 1, 0.0}, deg{"°", kDegrees.per_si, 2, 0.0};
+  const bool narrow = ImGui::GetContentRegionAvail().x < theme.px(210);
+  const Unit mm{"", 1e3, narrow ? 0 : 1, 0.0}, deg{"°", kDegrees.per_si, narrow ? 1 : 2, 0.0};
   heading("Runs", theme);
   if (round.runs.empty()) {
     note("None yet.", theme);
     return actions;
   }
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding,
+                      ImVec2(narrow ? theme.px(2) : ImGui::GetStyle().CellPadding.x, ImGui::GetStyle().CellPadding.y));
   if (ImGui::BeginTable("runs", 5, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_NoPadOuterX)) {
     for (const float weight : {0.85f, 0.95f, 0.95f, 0.9f, 0.55f})
       ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
     ImGui::TableNextRow();
-    for (const char* title : {"run", "x mm", "y mm", "turned", ""}) {
+    for (const char* title : {"run", "x mm", "y mm", narrow ? "turn" : "turned", ""}) {
       ImGui::TableNextColumn();
       if (title[0] == 'r')
         ImGui::TextDisabled("%s", title);
@@ -118,6 +121,7 @@ Actions run_list(const GuideView& view, PageTask task, const GuideRound& round, 
     }
     ImGui::EndTable();
   }
+  ImGui::PopStyleVar();
   bool any = false;
   for (std::size_t i = 0; i < view.misfits.size(); ++i) any = any || (view.misfits[i] && !round.runs[i].left_out);
   if (any) {
@@ -145,8 +149,7 @@ Actions guide_notes_panel(const GuideView& view, const Theme& theme) {
   const GuideRound* round = round_on(*view.session, task);
   if (round && task != PageTask::verdict) append(actions, run_list(view, task, *round, theme));
   const GuideOutcome& out = *view.outcome;
-  if (task == PageTask::robot || task == PageTask::tape || task == PageTask::drive ||
-      (task == PageTask::recordings && out.sentences.empty()))
+  if (task == PageTask::robot || task == PageTask::tape || task == PageTask::drive || (!round && out.sentences.empty()))
     append_words_before(view.session->kind, theme);
   const bool measured = !out.rounds.empty() && out.rounds.front().measure;
   if (task == PageTask::runs && !measured) return actions;

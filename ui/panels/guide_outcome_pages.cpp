@@ -1,4 +1,6 @@
 // The pages after the drive: the numbers, whether to correct once more, what is taken away.
+#include <algorithm>
+
 #include "ui/panels/guide_entry_parts.h"
 
 namespace odolab::ui {
@@ -169,10 +171,13 @@ Actions finish_page(const GuideView& view, GuidePageState& state, const Theme& t
     look.enabled = enabled;
     look.why_disabled = why;
     look.tip = "Writes " + folder + file;
-    if (text_button(words, theme, look, theme.px(230))) actions.push_back(ExportGuide{what, folder + file});
+    const float width = std::min(theme.px(230), 0.5f * ImGui::GetContentRegionAvail().x);
+    if (text_button(words, theme, look, width)) actions.push_back(ExportGuide{what, folder + file});
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", fitted(folder + file, ImGui::GetContentRegionAvail().x).c_str());
+    const float room = ImGui::GetContentRegionAvail().x;
+    const std::string path = ImGui::CalcTextSize((folder + file).c_str()).x <= room ? folder + file : file;
+    ImGui::TextDisabled("%s", fitted(path, room).c_str());
   };
   const char* none = "There is no calibration to write yet.";
   if (view.session->kind != GuideKind::extended_umbmark) {

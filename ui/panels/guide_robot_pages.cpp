@@ -17,12 +17,16 @@ float field_column(const Theme& theme) {
   return std::min(theme.px(300), ImGui::GetWindowContentRegionMax().x - theme.px(160));
 }
 
-// A labelled field in a column that is not too wide to read.
+// A labelled field in a column that is not too wide to read; below its label where the page is too narrow for both.
 Edited row(const char* label, const NumberField& field, double& value, const Theme& theme) {
+  const float begin = ImGui::GetCursorPosX(), column = field_column(theme);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   tooltip(field.tip, theme);
-  ImGui::SameLine(field_column(theme));
+  if (begin + ImGui::CalcTextSize(label).x + theme.px(8) <= column)
+    ImGui::SameLine(column);
+  else
+    ImGui::SetCursorPosX(column);
   return number_field(field, value, theme.px(150), theme);
 }
 

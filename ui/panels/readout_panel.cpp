@@ -157,13 +157,13 @@ void gauge_table(const Readout& r, const Theme& theme) {
 Actions readout_panel(const Readout& r, EstimatorState& estimators, const Theme& theme) {
   Actions actions;
   heading("Gap between estimate and truth", theme);
+  const Unit& unit = r.gap_m < 0.9995 ? kMillimetres : kMetres;
   const float half = 0.5f * ImGui::GetContentRegionAvail().x;
-  big_figure(r.gap_m < 0.9995 ? shown(r.gap_m, kMillimetres) : shown(r.gap_m, kMetres), "position", theme.orange, half,
-             theme);
+  big_figure(shown(r.gap_m, unit), "position", theme.orange, half, theme);
   ImGui::SameLine(0, 0);
   big_figure(shown(r.gap_heading_rad, kDegrees), "heading", theme.orange, half, theme);
-  note(shown(std::abs(r.gap_along_m), kMillimetres) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") +
-           shown(std::abs(r.gap_across_m), kMillimetres) + (r.gap_across_m >= 0.0 ? " left" : " right"),
+  note(shown(std::abs(r.gap_along_m), unit) + (r.gap_along_m >= 0.0 ? " ahead, " : " behind, ") +
+           shown(std::abs(r.gap_across_m), unit) + (r.gap_across_m >= 0.0 ? " left" : " right"),
        theme);
   heading("Poses", theme);
   pose_table(r, theme);

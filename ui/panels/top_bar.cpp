@@ -121,7 +121,9 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
   for (const std::string& m : modes) width += ImGui::CalcTextSize(m.c_str()).x + 2.0f * theme.px(12);
   const float modes_x = size.x - width - theme.px(12);
   const float room = modes_x - x - theme.px(32);
-  const std::string title = fitted(bar.title, room);
+  // A few letters of it would say nothing.
+  const bool has_room = room > theme.px(100) || room > ImGui::CalcTextSize(bar.title.c_str()).x;
+  const std::string title = has_room ? fitted(bar.title, room) : "";
   ImGui::SetCursorPos({std::round(x + theme.px(16) + 0.5f * (room - ImGui::CalcTextSize(title.c_str()).x)), y});
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", title.c_str());

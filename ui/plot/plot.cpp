@@ -422,12 +422,13 @@ PlotResult plot(const char* id, ImVec2 size, const Plot& what, PlotView& view, c
   draw.AddRect(result.low, result.high, theme.line);
   if (what.legend) draw_legend(draw, what, frame, outer, size.x, theme);
   if (!any && !what.empty_text.empty()) {
-    const ImVec2 text = ImGui::CalcTextSize(what.empty_text.c_str());
+    const std::string words = wrapped_at(what.empty_text, result.high.x - result.low.x - theme.px(24));
+    const ImVec2 text = ImGui::CalcTextSize(words.c_str());
     const ImVec2 at{std::round(0.5f * (result.low.x + result.high.x - text.x)),
                     std::round(result.low.y + 0.42f * (result.high.y - result.low.y) - 0.5f * text.y)};
     draw.AddRectFilled({at.x - theme.px(8), at.y - theme.px(4)},
                        {at.x + text.x + theme.px(8), at.y + text.y + theme.px(4)}, theme.paper);
-    draw.AddText(at, theme.muted, what.empty_text.c_str());
+    draw.AddText(at, theme.muted, words.c_str());
   }
   if (result.hovered && any && !selecting && !ImGui::IsMouseDown(0)) {
     draw.AddLine({mouse.x, result.low.y}, {mouse.x, result.high.y}, faded(theme.muted, 0.5f), 1.0f);
