@@ -22,10 +22,13 @@ std::string guess_words(const std::string& guess) {
   return guess.empty() ? "nothing is missing" : guess == kOutsideGuess ? "something in no list" : with_blanks(guess);
 }
 
+// A log-likelihood gain: what is large needs no digits behind the point.
+std::string gain_text(double gain) { return number_text(gain < 100.0 ? "%.3g" : "%.0f", gain); }
+
 std::string evidence_words(const Finding& f) {
   std::string words;
   if (f.log_likelihood_gain > 0.0)
-    words = number_text("log-likelihood gain %.4g, ", f.log_likelihood_gain) +
+    words = "log-likelihood gain " + gain_text(f.log_likelihood_gain) + ", " +
             (f.p_value < 1e-15 ? "by chance below 1e-15" : number_text("by chance %.1g", f.p_value));
   if (f.share_of_mismatch > 0.0)
     words += (words.empty() ? "" : "; ") + number_text("%.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
@@ -43,7 +46,7 @@ ui::FindingCard card_of(const Finding& f, bool on) {
                                  quantity_text(p.value, p.stderr_value, p.unit));
   for (const Alternative& a : f.alternatives) {
     card.alternatives.emplace_back((f.effect == "unknown" ? "resembles " : "or ") + effect_text(a.effect, a.component) +
-                                       number_text(" (gain %.4g)", a.log_likelihood_gain),
+                                       " (gain " + gain_text(a.log_likelihood_gain) + ")",
                                    a.told_apart_by);
   }
   card.can_be_switched = can_be_switched_on(f);
@@ -58,7 +61,8 @@ void add_proof(ui::DiagnosisView& view, const Diagnosis& d) {
                      : d.left_out_in_turn ? "Each run predicted from the others"
                                           : "On the runs that were held out";
   const auto add = [&](const char* label, const std::optional<FitFigures>& f, ui::ProofBar::Kind kind) {
-    if (f) view.proof.push_back({label, f->position_rms_m, f->heading_rms_rad, kind});
+    if (f && (f->position_rms_m > 0.0 || f->heading_rms_rad > 0.0))  // exactly zero: there was nothing to measure it on
+      view.proof.push_back({label, f->position_rms_m, f->heading_rms_rad, kind});
   };
   add("calibrated only", fit.calibrated, ui::ProofBar::Kind::calibrated);
   if (!d.findings.empty()) add("with what was found", fit.with_findings, ui::ProofBar::Kind::with_findings);

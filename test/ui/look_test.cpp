@@ -32,11 +32,13 @@ TEST(Units, OfALengthSuitItsSize) {
   EXPECT_EQ(shown_length(1.25), "1.25 m");
 }
 
-TEST(Clock, ShowsMinutesSecondsAndHundredths) {
+TEST(Clock, ShowsMinutesSecondsAndHundredthsAndOfHoursNoHundredths) {
   EXPECT_EQ(clock(41.2), "00:41.20");
   EXPECT_EQ(clock(130.0), "02:10.00");
   EXPECT_EQ(clock(59.999), "01:00.00");  // rounds as a whole, never 00:60.00
   EXPECT_EQ(clock(-3.0), "00:00.00");
+  EXPECT_EQ(clock(3599.99), "59:59.99");
+  EXPECT_EQ(clock(96847.78), "26:54:07");  // hours need no hundredths
 }
 
 TEST(Fitted, NeverIsWiderThanAsked) {

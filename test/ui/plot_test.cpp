@@ -184,5 +184,25 @@ TEST_F(PlotTest, SurvivesDataThatIsNoNumber) {
   EXPECT_TRUE(std::isfinite(view.y1));
 }
 
+TEST(Plot, IsNotFlattenedByAnUncertaintyFarWiderThanItsCurve) {
+  const double x[] = {0.0, 1.0, 2.0}, y[] = {0.0, 0.1, 0.2};
+  const auto span_with = [&](double half) {
+    double low[3], high[3];
+    for (int i = 0; i < 3; ++i) {
+      low[i] = y[i] - half;
+      high[i] = y[i] + half;
+    }
+    Plot what;
+    what.series.push_back({"curve", x, y, 3, 0, Stroke::line, Marker::none});
+    what.areas.push_back({x, low, high, 3, 0});
+    const PlotView view = view_of_all(what, {200.0f, 100.0f});
+    return view.y1 - view.y0;
+  };
+  EXPECT_GT(span_with(0.1), 0.4);  // all of a usual one is in sight
+  EXPECT_LT(span_with(0.1), 0.6);
+  EXPECT_LT(span_with(100.0), 2.0);  // three times 0.2 on either side, and some air
+  EXPECT_GT(span_with(100.0), 1.4);
+}
+
 }  // namespace
 }  // namespace odolab::ui

@@ -48,6 +48,11 @@ std::string clock(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) seconds = 0.0;
   const long hundredths = std::lround(seconds * 100.0);
   char text[48];
+  if (hundredths >= 360000) {
+    const long whole = hundredths / 100;
+    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+    return text;
+  }
   std::snprintf(text, sizeof text, "%02ld:%02ld.%02ld", hundredths / 6000, hundredths / 100 % 60, hundredths % 100);
   return text;
 }

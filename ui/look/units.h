@@ -35,7 +35,7 @@ std::string shown(double value_si, const Unit& unit, int decimals);
 std::string shown_with_error(double value_si, double stderr_si, const Unit& unit, int decimals);
 // A length in the unit that suits its size: "0.43 mm", "12.3 mm", "1.25 m".
 std::string shown_length(double metres);
-// "00:41.20"
+// "00:41.20", "26:54:07"
 std::string clock(double seconds);
 // "×0.5", "×2", "×50"
 std::string times(double factor);

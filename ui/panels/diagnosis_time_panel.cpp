@@ -53,8 +53,10 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
   what.brushes = true;
   what.empty_text = !run.problem.empty() ? "Left out: " + run.problem
                     : !view.diagnosis    ? "The mismatch over time, once it was diagnosed"
-                    : run.held_out       ? "Held out, and nothing to draw over time: judged by the bars on the right"
-                                         : "This run was not part of the answer";
+                    : view.diagnosis->verdict == Verdict::cannot_say
+                        ? "Too little truth along this run for a mismatch over time"
+                    : run.held_out ? "Held out, and nothing to draw over time: judged by the bars on the right"
+                                   : "This run was not part of the answer";
   const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
                              run.mismatch ? run.mismatch->time_s.back() : 0.0};
   const double noise_y[2] = {1.0, 1.0};
@@ -139,7 +141,9 @@ Actions diagnosis_time_panel(const DiagnosisView& view, DiagnosisState& state, c
   const DiagnosedRun& run = view.runs[std::min(state.run, view.runs.size() - 1)];
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = theme.px(16), line = ImGui::GetFrameHeight() + theme.px(4);
-  const bool two = view.responses && !view.responses->empty() && room.x > theme.px(700);
+  const bool two =
+      view.responses && room.x > theme.px(700) &&
+      std::any_of(view.responses->begin(), view.responses->end(), [](const Response& r) { return !r.at.empty(); });
   const float left = two ? std::round(0.62f * room.x) : room.x, right = room.x - left - gap;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(fitted(run.held_out ? run.name + ", held out" : run.name, 0.3f * left).c_str());

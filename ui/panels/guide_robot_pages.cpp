@@ -17,17 +17,21 @@ float field_column(const Theme& theme) {
   return std::min(theme.px(300), ImGui::GetWindowContentRegionMax().x - theme.px(160));
 }
 
-// A labelled field in a column that is not too wide to read; below its label where the page is too narrow for both.
+// A labelled field in a column that is not too wide to read; narrower, and then below its label, where the page is too
+// narrow for both.
 Edited row(const char* label, const NumberField& field, double& value, const Theme& theme) {
   const float begin = ImGui::GetCursorPosX(), column = field_column(theme);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   tooltip(field.tip, theme);
-  if (begin + ImGui::CalcTextSize(label).x + theme.px(8) <= column)
-    ImGui::SameLine(column);
+  const float right = column + theme.px(150), beside = begin + ImGui::CalcTextSize(label).x + theme.px(8);
+  const bool has_room = beside <= right - theme.px(104);
+  const float left = has_room ? std::max(column, beside) : column;
+  if (has_room)
+    ImGui::SameLine(left);
   else
-    ImGui::SetCursorPosX(column);
-  return number_field(field, value, theme.px(150), theme);
+    ImGui::SetCursorPosX(left);
+  return number_field(field, value, right - left, theme);
 }
 
 }  // namespace

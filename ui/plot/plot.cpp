@@ -65,9 +65,12 @@ Margins margins(const Plot& what, ImVec2 size, const Theme& theme) {
           line + theme.px(5)};
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kWidestArea = 3.0;  // times the height of the curves, on either side
+
 struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+  double low = kInfinity;
+  double high = -kInfinity;
 
   void take(double v) {
     if (!std::isfinite(v)) return;
@@ -86,11 +89,14 @@ void fit(const Plot& what, PlotView& view, float width, float height) {
         x.take(s.x[i]);
         y.take(s.y[i]);
       }
+  // An uncertainty far wider than what it belongs to fills the plot and does not flatten its curve.
+  const double wide = y.empty() || !(y.high > y.low) ? kInfinity : kWidestArea * (y.high - y.low);
+  const double lowest = y.empty() ? -kInfinity : y.low - wide, highest = y.empty() ? kInfinity : y.high + wide;
   for (const PlotArea& a : what.areas)
     for (std::size_t i = 0; i < a.count; ++i) {
       x.take(a.x[i]);
-      y.take(a.low[i]);
-      y.take(a.high[i]);
+      y.take(std::max(a.low[i], lowest));
+      y.take(std::min(a.high[i], highest));
     }
   if (what.equal_scale) {
     if (x.empty()) x = y = {-0.1, 0.1};

@@ -60,7 +60,7 @@ struct Plot {
   std::vector<PlotSeries> series;
   std::vector<PlotMark> marks;
   std::vector<PlotBand> bands;          // behind everything
-  std::vector<PlotArea> areas;          // behind the curves; they count for the range of the axes
+  std::vector<PlotArea> areas;          // behind the curves; they count for the range of the axes up to a few times it
   bool brushes = false;                 // a drag chooses a stretch instead of zooming into it
   std::optional<double> cursor_x;       // e.g. the time that is shown
   std::optional<double> x_low, x_high;  // instead of the data's range where the plot is fitted
