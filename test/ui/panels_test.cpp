@@ -65,6 +65,37 @@ TEST(TopBar, AModeIsChosenByAClick) {
   EXPECT_TRUE(found);
 }
 
+TEST(TopBar, AnotherMenuOpensByOneClickAndEscapeClosesIt) {
+  HeadlessScreen screen;
+  TopBar bar;
+  WindowChoices choices;
+  float menu_x[2] = {0.0f, 0.0f};
+  int open = -1;
+  const auto content = [&] {
+    top_bar(bar, choices, screen.theme);
+    open = ImGui::IsPopupOpen("file") ? 0 : ImGui::IsPopupOpen("edit") ? 1 : -1;
+  };
+  const auto click = [&](float x) {
+    screen.click({x, 20.0f}, content, {0, 0}, {1280, 40});
+    screen.picture(content, {0, 0}, {1280, 40});
+  };
+  for (float x = 84.0f; x < 200.0f && menu_x[1] == 0.0f; x += 6.0f) {
+    click(x);
+    if (open < 0) continue;
+    menu_x[open] = x;
+    screen.press_key(ImGuiKey_Escape, content, {0, 0}, {1280, 40});
+    ASSERT_EQ(open, -1);
+  }
+  ASSERT_GT(menu_x[0], 0.0f);
+  ASSERT_GT(menu_x[1], 0.0f);
+  click(menu_x[0]);
+  EXPECT_EQ(open, 0);
+  click(menu_x[1]);
+  EXPECT_EQ(open, 1);
+  click(menu_x[1]);
+  EXPECT_EQ(open, -1);
+}
+
 TEST(VehiclePanel, ADiameterThatIsDraggedChangesTheRadiusByHalfOfItAndIsHandedOverOnce) {
   HeadlessScreen screen;
   Scenario draft;

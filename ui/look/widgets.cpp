@@ -205,6 +205,11 @@ void heading(const char* title, const Theme& theme) {
   ImGui::TextUnformatted(wrapped_at(title, ImGui::GetContentRegionAvail().x).c_str());
 }
 
+void close_on_escape() {
+  const int escape = ImGui::GetKeyIndex(ImGuiKey_Escape);
+  if (escape >= 0 && ImGui::IsKeyPressed(escape)) ImGui::CloseCurrentPopup();
+}
+
 std::string wrapped_at(const std::string& text, float width) {
   std::string lines, line;
   std::size_t at = 0;

@@ -28,6 +28,9 @@ bool text_button(const char* label, const Theme& theme, const ButtonLook& look, 
 // takes the place there is, a button of -1 what is left of the row.
 bool job_progress(double share_done, const Theme& theme, float bar_width = 0.0f, float button_width = -1.0f);
 
+// Inside a popup: Escape closes it, and what is open of it.
+void close_on_escape();
+
 // One of several; returns the new choice when it changes. Only the first `available` can be chosen.
 std::optional<int> segmented(const char* id, const std::vector<std::string>& labels, int chosen, const Theme& theme,
                              float width = 0.0f, int available = 1000);

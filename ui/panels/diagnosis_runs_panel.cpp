@@ -128,6 +128,7 @@ Actions mystery_part(const DiagnosisView& view, const Theme& theme) {
     for (std::size_t i = 0; i < m.guesses.size(); ++i)
       if (ImGui::Selectable(m.guesses[i].second.c_str(), chosen == int(i)))
         actions.push_back(wish(GuessMystery{m.guesses[i].first}));
+    close_on_escape();
     ImGui::EndCombo();
   }
   ImGui::SameLine();

@@ -127,6 +127,7 @@ void response_choice(const DiagnosisView& view, DiagnosisState& state, float wid
       state.response = k;
       state.response_view.fitted = true;
     }
+  close_on_escape();
   ImGui::EndCombo();
 }
 

@@ -71,6 +71,7 @@ void layer_menu(FloorViewState& state, const FloorScene& scene, bool with_exagge
       ImGui::Separator();
       exaggeration_choice(state, scene, theme);
     }
+    close_on_escape();
     ImGui::EndPopup();
   }
 }

@@ -173,6 +173,7 @@ Actions context_menu(const FloorScene& scene, FloorViewState& state) {
   }
   if (ImGui::MenuItem("Fit everything", "F")) state.fit_next = true;
   if (ImGui::MenuItem("Follow the vehicle", nullptr, state.follow)) state.follow = !state.follow;
+  close_on_escape();
   ImGui::EndPopup();
   return actions;
 }

@@ -115,6 +115,7 @@ Actions run_list(const GuideView& view, PageTask task, const GuideRound& round, 
           runs->erase(runs->begin() + long(i));
           actions.push_back(ChangeGuide{s});
         }
+        close_on_escape();
         ImGui::EndPopup();
       }
       ImGui::PopID();

@@ -84,9 +84,20 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
   static const Menu kMenus[] = {
       {"File", "file"}, {"Edit", "edit"}, {"Simulation", "simulation"}, {"View", "view"}, {"Help", "help"}};
   float x = theme.px(84);
+  // A press beside an open menu closes it and is seen by nothing else: on another menu's name it opens that one.
+  const char* open = "";
+  for (const Menu& menu : kMenus)
+    if (ImGui::IsPopupOpen(menu.popup)) open = menu.popup;
+  if (ImGui::IsMouseClicked(0)) choices.menu_at_press = open;
   for (const Menu& menu : kMenus) {
     ImGui::SetCursorPos({x, y});
-    if (ImGui::Button(menu.name)) ImGui::OpenPopup(menu.popup);
+    bool wanted = ImGui::Button(menu.name);
+    if (ImGui::IsMouseReleased(0) && !choices.menu_at_press.empty() && choices.menu_at_press != menu.popup) {
+      const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(),
+                   at = ImGui::GetIO().MouseClickedPos[0];
+      wanted = wanted || (at.x >= low.x && at.x < high.x && at.y >= low.y && at.y < high.y && ImGui::IsItemHovered());
+    }
+    if (wanted) ImGui::OpenPopup(menu.popup);
     const ImVec2 below{ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + theme.px(2)};
     x += ImGui::GetItemRectSize().x;
     ImGui::SetNextWindowPos(below);
@@ -109,6 +120,7 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
         default:
           if (ImGui::MenuItem("Keys", "F1")) choices.show_keys = true;
       }
+      close_on_escape();
       ImGui::EndPopup();
     }
     ImGui::PopStyleVar();

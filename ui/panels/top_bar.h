@@ -30,7 +30,8 @@ struct WindowChoices {
   bool show_save_scenario = false;
   bool show_save_recording = false;
   bool show_save_curves = false;
-  bool fit_view = false;  // set to fit the floor at the next chance
+  bool fit_view = false;      // set to fit the floor at the next chance
+  std::string menu_at_press;  // which was open when the mouse was pressed last
 };
 
 Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme);

@@ -50,6 +50,7 @@ void speed_choice(const Transport& t, const Theme& theme, Actions& actions) {
     for (const double s : kSpeeds)
       if (ImGui::Selectable(s == 0.0 ? "as fast as possible" : times(s).c_str(), s == t.speed))
         actions.push_back(SetSpeed{s});
+    close_on_escape();
     ImGui::EndCombo();
   }
   tooltip("Speed wanted, as a multiple of real time (+ and −)", theme);
