@@ -1,14 +1,12 @@
 #include "app/gui/screen.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <utility>
 
 #include "app/gui/diagnosis_view.h"
+#include "app/gui/dialogs.h"
+#include "app/gui/panes.h"
 #include "app/gui/views.h"
-#include "core/io/import/imported_recording.h"
 #include "ui/look/widgets.h"
 #include "ui/panels/calibration_result_panel.h"
 #include "ui/panels/compare_panel.h"
@@ -18,7 +16,6 @@
 #include "ui/panels/error_panel.h"
 #include "ui/panels/guide_notes_panel.h"
 #include "ui/panels/guide_panel.h"
-#include "ui/panels/keys_panel.h"
 #include "ui/panels/path_panel.h"
 #include "ui/panels/run_panel.h"
 #include "ui/panels/vehicle_panel.h"
@@ -30,97 +27,6 @@ namespace {
 using ui::Actions;
 using ui::append;
 using ui::Theme;
-
-constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                   ImGuiWindowFlags_NoNavFocus;
-
-// Of the width, for both panes beside the middle, a floor or a guide's page.
-constexpr float kMostAside = 0.68f, kMostBesidePage = 0.58f;
-constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;  // heights at scale 1
-
-// Where the panes are, in pixels.
-struct Layout {
-  ImVec2 top_size, left_low, left_size, centre_low, centre_size, right_low, right_size, bottom_low, bottom_size;
-  bool has_bottom = true;
-};
-
-Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on_page, const Theme& theme) {
-  Layout l;
-  l.has_bottom = has_bottom;
-  const float top = state.choices.hide_interface ? 0.0f : theme.px(40);
-  const float bottom = has_bottom && !state.choices.hide_interface
-                           ? std::min({theme.px(float(state.bottom_height)), 0.6f * screen.y,
-                                       std::max(theme.px(kLeastBottom), screen.y - top - theme.px(kLeastMiddle))})
-                           : 0.0f;
-  float left = state.choices.hide_interface ? 0.0f : theme.px(float(state.left_width));
-  float right = state.choices.hide_interface ? 0.0f : theme.px(float(state.right_width));
-  const float too_wide =
-      (left + right) / ((on_page ? kMostBesidePage : kMostAside) * screen.x);  // the middle is what people look at
-  if (too_wide > 1.0f) {
-    left = std::round(left / too_wide);
-    right = std::round(right / too_wide);
-  }
-  const float begin = top, height = std::max(40.0f, screen.y - begin - bottom);
-  l.top_size = {screen.x, top};
-  l.left_low = {0, begin};
-  l.left_size = {left, height};
-  l.centre_low = {left, begin};
-  l.centre_size = {screen.x - left - right, height};
-  l.right_low = {screen.x - right, begin};
-  l.right_size = {right, height};
-  l.bottom_low = {0, begin + height};
-  l.bottom_size = {screen.x, bottom};
-  return l;
-}
-
-// Opens a pane, `above` the others where it lies over one; end with ImGui::End().
-void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background,
-                bool above = false) {
-  ImGui::SetNextWindowPos(low);
-  ImGui::SetNextWindowSize(size);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
-  if (!padded) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGuiWindowFlags flags = kPane;
-  if (scrolls) flags &= ~ImGuiWindowFlags_NoScrollbar;
-  if (above) flags = (flags & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing;
-  ImGui::Begin(name, nullptr, flags);
-  ImGui::PopStyleVar(padded ? 1 : 2);
-  ImGui::PopStyleColor();
-}
-
-// An edge between panes that is dragged; `size` is at scale 1 and grows with `grows_with` times the mouse's way.
-void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& value, double grows_with, double least,
-              double most, const Theme& theme) {
-  const float grab = theme.px(6);
-  const ImVec2 at = vertical ? ImVec2(low.x - 0.5f * grab, low.y) : ImVec2(low.x, low.y - 0.5f * grab);
-  const ImVec2 extent = vertical ? ImVec2(grab, size.y) : ImVec2(size.x, grab);
-  ImGui::SetNextWindowPos(at);
-  ImGui::SetNextWindowSize(extent);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGui::Begin(id, nullptr,
-               (kPane & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::PopStyleVar(2);
-  ImGui::InvisibleButton("##grip", extent);
-  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
-  if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-  if (ImGui::IsItemActive()) {
-    const ImVec2 by = ImGui::GetIO().MouseDelta;
-    value = std::clamp(value + grows_with * (vertical ? by.x : by.y) / theme.scale, least, most);
-  }
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float line = lit ? theme.px(3) : 1.0f;
-  if (vertical)
-    draw.AddRectFilled({std::round(low.x - 0.5f * line), low.y},
-                       {std::round(low.x - 0.5f * line) + line, low.y + size.y}, lit ? theme.muted : theme.line);
-  else
-    draw.AddRectFilled({low.x, std::round(low.y - 0.5f * line)},
-                       {low.x + size.x, std::round(low.y - 0.5f * line) + line}, lit ? theme.muted : theme.line);
-  ImGui::End();
-}
 
 std::string diagnosis_title(const Session& session) {
   const std::size_t runs = session.diagnosis().runs().size();
@@ -266,52 +172,6 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
       return {};
   }
   return {};
-}
-
-std::vector<std::string> first_of(const std::vector<std::string>& all, std::size_t most) {
-  return {all.begin(), all.begin() + long(std::min(most, all.size()))};
-}
-
-Actions dialogs(const Session& session, ScreenState& state, const Theme& theme) {
-  Actions actions;
-  ui::WindowChoices& choices = state.choices;
-  ui::keys_panel(choices.show_keys, theme);
-  std::vector<ui::PathEntry> entries;
-  if (choices.show_open)
-    entries = state.folders.of(state.open_dialog.path);
-  else
-    state.folders.forget();
-  const std::string opened =
-      expanded(ui::path_dialog("Open a scenario, a vehicle or a recording", "Open", choices.show_open,
-                               state.open_dialog, entries, first_of(state.recent_files, 5), theme));
-  std::error_code unknown;
-  if (!opened.empty() && std::filesystem::is_directory(opened, unknown) && !is_foreign_recording(opened)) {
-    const std::string folder = opened.back() == '/' ? opened : opened + "/";
-    std::snprintf(state.open_dialog.path, sizeof state.open_dialog.path, "%s", folder.c_str());
-    choices.show_open = state.open_dialog.to_end = true;
-  } else if (!opened.empty() && !std::filesystem::exists(opened, unknown)) {
-    state.open_dialog.problem = "There is no such file.";
-    choices.show_open = true;
-  } else if (!opened.empty()) {
-    actions.push_back(ui::OpenFile{opened});
-  }
-  const std::string scenario = expanded(ui::path_dialog("Save the scenario", "Save", choices.show_save_scenario,
-                                                        state.save_scenario_dialog, {}, {"scenario.toml"}, theme));
-  if (!scenario.empty()) actions.push_back(ui::SaveScenario{scenario});
-  const bool compare = session.mode() == ui::Mode::compare;
-  const std::string recording = expanded(
-      ui::path_dialog(compare ? "Save the recording as CSV" : "Save what the run has recorded so far as CSV", "Save",
-                      choices.show_save_recording, state.save_recording_dialog, {}, {"recording.csv"}, theme));
-  if (!recording.empty()) actions.push_back(ui::SaveRecording{recording});
-  const std::string curves =
-      expanded(ui::path_dialog("Save the curves over time as CSV, as far as they are shown", "Save",
-                               choices.show_save_curves, state.save_curves_dialog, {}, {"curves.csv"}, theme));
-  if (!curves.empty())
-    actions.push_back(ui::SaveCurves{
-        curves,
-        compare ? ui::shown_curves(compare_transport(session, theme), state.compare_transport)
-                : ui::shown_curves(drive_transport(session, theme, state.estimators.shown), state.drive_transport)});
-  return actions;
 }
 
 }  // namespace
