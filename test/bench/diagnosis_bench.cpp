@@ -22,7 +22,7 @@ std::vector<Recording> eight_minutes(int missing) {
     scenario.effects = {{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 1.0}, {"y_m", 0.0}, {"radius_m", 0.4}}}};
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     if (seed % 2 == 0)
-      scenario.path = SquarePath{2.0, seed % 4 == 0};
+      scenario.path = SquarePath{6.0, seed % 4 == 0};
     else
       scenario.path = FigureEightPath{1.2, 3};
     Simulation simulation(scenario, seed);
