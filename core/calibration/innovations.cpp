@@ -53,6 +53,7 @@ UnknownHeading heading_from_shape(const InnovationRun& run, const SummedRun& sum
 
 // How many columns of derivatives are carried along: none, those of a run without extra ones and one that stays empty,
 // or as many as there are.
+constexpr char kRestartHere = 2;  // of what is set aside
 constexpr int kNoColumns = 0, kUsualColumns = column::first_extra + 1, kAnyColumns = Eigen::Dynamic;
 
 template <int columns>
@@ -113,7 +114,7 @@ class PoseFilter {
       }
       if (update(k)) {
         refused = 0;
-      } else if (++refused >= 20) {
+      } else if (++refused >= kContradiction) {
         begin_at(k);
         sums_.set_aside[k] = kRestartHere;
         ++sums_.restarts;
@@ -128,8 +129,6 @@ class PoseFilter {
   }
 
  private:
-  static constexpr char kRestartHere = 2;
-
   // README, Eq. 7: the start is the truth sample itself, with its error.
   void begin_at(int k) {
     place_at(k);
@@ -407,6 +406,22 @@ InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const
   if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
   if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
   return PoseFilter<kAnyColumns>(run, summed, model, options).run();
+}
+
+std::vector<std::pair<int, int>> contradictions(const InnovationRun& run, const SummedRun& summed,
+                                                const InnovationModel& model) {
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  const std::vector<char> aside = filtered(run, summed, model, options).set_aside;
+  std::vector<std::pair<int, int>> found;
+  for (int k = 0; k < static_cast<int>(aside.size()); ++k) {
+    if (aside[k] != kRestartHere) continue;
+    int first = k;
+    while (first > 0 && aside[first - 1] == 1) --first;
+    found.emplace_back(first, k);
+  }
+  return found;
 }
 
 NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model, int first,

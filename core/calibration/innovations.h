@@ -181,6 +181,16 @@ struct InnovationSums {
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options = {});
 
+// The squared size of an innovation from which on a sample is set aside: 1.4e-6 of normal ones of three numbers are
+// larger.
+constexpr double kGate = 30.0;
+constexpr int kContradiction =
+    20;  // so many such samples in a row are none that err: the filter starts anew behind them
+
+// First and last sample of where so many contradict the model in a row.
+std::vector<std::pair<int, int>> contradictions(const InnovationRun& run, const SummedRun& summed,
+                                                const InnovationModel& model);
+
 // One encoder count as it shows in the run, in radians of the wheel; 0 where the rotations are not on a grid.
 inline double count_rad(const InnovationRun& run, const DifferentialDrive& drive) {
   return run.counts_show ? 2.0 * kPi / drive.counts_per_wheel_turn() : 0.0;

@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kColumns = column::first_extra;
-constexpr double kGate = 30.0;  // squared size of an innovation; 1.4e-6 of normal ones of three channels are larger
 constexpr int kNoiseSamples = 6000;  // truth samples that the noise is fitted to
 constexpr int kNoiseStretch = 500;   // in stretches of this many
 

@@ -47,12 +47,13 @@ FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&
   const auto valued = [&](std::vector<double>& logs) {
     const FittedNoise noise = bounded(logs);
     NoiseSlopes sums = likelihood(noise);
-    // Priors; nobody is usually truer sideways than he may be.
+    // Priors.
     std::array<double, noise_size::count> slope = sums.slope;
     std::array<double, noise_size::count> own{};
     for (int size : fit.free) {
       double at_rest = size_of(usual, size);
-      if (size == noise_size::sideways) at_rest = std::max(at_rest, fit.least_sideways * noise.wheel_m_per_sqrt_m);
+      if (size == noise_size::sideways && fit.usual_sideways > 0.0)
+        at_rest = fit.usual_sideways * noise.wheel_m_per_sqrt_m;
       FittedNoise copy = noise;
       const double off = std::log(size_of(copy, size) / at_rest) / fit.within;
       const std::size_t k = static_cast<std::size_t>(size);

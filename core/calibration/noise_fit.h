@@ -9,10 +9,11 @@
 namespace odolab {
 
 struct NoiseFit {
-  std::vector<int> free;        // of noise_size; the others stay
-  FittedNoise usual;            // mild priors keep a size finite that the recordings say nothing about:
-  double within = 2.3;          // so far from usual, in logarithms; a factor of ten
-  double least_sideways = 0.0;  // a share of the wheels' noise: nobody is truer sideways
+  std::vector<int> free;  // of noise_size; the others stay
+  FittedNoise usual;      // mild priors keep a size finite that the recordings say nothing about:
+  double within = 2.3;    // so far from usual, in logarithms; a factor of ten
+  // Shares of the wheels' noise: what is usual sideways, where nothing rolls, and what nobody is truer than.
+  double usual_sideways = 0.0, least_sideways = 0.0;
 };
 
 // Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.

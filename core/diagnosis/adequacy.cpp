@@ -1,231 +1,178 @@
 #include "core/diagnosis/adequacy.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <optional>
 
-#include "core/base/parallel.h"
 #include "core/diagnosis/chi_square.h"
-#include "core/diagnosis/waves.h"
+#include "core/diagnosis/material.h"
 
 namespace odolab {
 
 namespace {
 
-// Functions of one variable: hats on its quantiles, the last of which are left out where they add up to a constant that
-// calibration has already.
-struct Group {
-  std::string variable;
-  std::vector<double> at;
-  std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
-  std::vector<GenericWave> waves;
-};
+constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
+constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
+constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
+constexpr std::size_t kMostTried = 4;
 
-Group hats_of(const std::string& name, const std::vector<DriveView>& views,
-              const std::function<double(const EffectStep&)>& variable, int count, double least) {
-  std::vector<double> seen;
-  for (const DriveView& v : views)
-    for (std::size_t i = 0; i < v.steps.size(); i += 7)
-      if (std::abs(v.steps[i].speed_mps) + 0.1 * std::abs(v.steps[i].yaw_rate_radps) > 0.005)
-        seen.push_back(variable(v.steps[i]));
-  Group g;
-  g.variable = name;
-  if (seen.size() < 50) return g;
-  std::sort(seen.begin(), seen.end());
-  const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
-  if (high - low < 1e-6 || high - low < 2.0 * least) return g;
-  // Half by quantile, half even: rare regimes are heard too.
-  for (int k = 0; k < count; ++k) {
-    const double share = static_cast<double>(k) / (count - 1);
-    const double q = seen[static_cast<std::size_t>(share * static_cast<double>(seen.size() - 1))];
-    const double x = 0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low));
-    if (g.at.empty() || x > g.at.back() + std::max(0.02 * (high - low), least)) g.at.push_back(x);
+// Lets a group of generic terms in; twice what the log-likelihood gains by it.
+double let_in(JointModel& joint, const GenericTest& group) {
+  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
+  return joint.fit(2);
+}
+
+std::vector<const GenericTest*> strongest_first(const std::vector<GenericTest>& generic, double error) {
+  std::vector<const GenericTest*> strong;
+  for (const GenericTest& g : generic)
+    if (g.p_value < error && g.test.cross_validated > 0.0) strong.push_back(&g);
+  std::stable_sort(strong.begin(), strong.end(),
+                   [](const GenericTest* a, const GenericTest* b) { return a->test.judged() > b->test.judged(); });
+  if (strong.size() > kMostTried) strong.resize(kMostTried);
+  return strong;
+}
+
+// The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
+// does anyway a score can promise without end.
+const GenericTest* what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
+  for (const GenericTest* g : strongest_first(generic, error)) {
+    JointModel with = joint;
+    const double kept = let_in(with, *g);
+    const double p = scaled_chi_square_tail(kept / g->test.inflation, g->test.freedom, g->test.batches) * g->tests;
+    if (p < error) return g;
   }
-  const std::vector<double> at = g.at;
-  g.values = [at, variable](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(at.size(), std::vector<double>(view.steps.size(), 0.0));
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const double x = std::clamp(variable(view.steps[i]), at.front(), at.back());
-      std::size_t k = 0;
-      while (k + 2 < at.size() && at[k + 1] < x) ++k;
-      if (at.size() == 1) {
-        out[0][i] = 1.0;
-        continue;
-      }
-      const double share = (x - at[k]) / (at[k + 1] - at[k]);
-      out[k][i] = 1.0 - share;
-      out[k + 1][i] = share;
-    }
+  return nullptr;
+}
+
+// Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and nowhere
+// may it be so good already that no floor or camera could tell.
+bool is_worth_saying(const JointModel& joint, const JointModel& calibrated, const GenericTest& left) {
+  const double distrust = joint.distrust();
+  if (distrust == 0.0) return !is_nothing(joint.gathered_error());
+  JointModel with = joint;
+  let_in(with, left);
+  const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
+                                  with_more = with.gathered_error();
+  if (!is_material(joint, named_only, with_more)) return false;
+  // And it counts against the names only by its share of what dead reckoning gains.
+  if (at_first.windows == 0 || at_first.position_m2 <= 0.0 || at_first.heading_rad2 <= 0.0) return true;
+  const auto share = [&](const JointModel::GatheredError& e) {
+    return 0.5 * (e.position_m2 / at_first.position_m2 + e.heading_rad2 / at_first.heading_rad2);
   };
-  return g;
+  const double more = share(named_only) - share(with_more), in_all = 1.0 - share(with_more);
+  return in_all <= 0.0 || more >= distrust * kMostLeftOfError * in_all;
+}
+
+// Several causes that explain it only together are more likely one that has no name here.
+bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
+  std::vector<double> share;
+  double all = 0.0;
+  for (const ScoredCandidate& e : evidence) share.push_back(e.test.statistic), all += e.test.statistic;
+  std::sort(share.rbegin(), share.rend());
+  return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
+}
+
+Unnamed unnamed_by(const GenericTest& group, double gain, double share) {
+  Unnamed u;
+  u.where.regime = group.channel + " that depends on " + group.variable;
+  u.gain = gain;
+  u.share = share;
+  u.p_value = group.p_value;
+  return u;
+}
+
+// A group without a name that says more in the place of all names than they do, chance and a name's imperfect form
+// allowed for.
+std::optional<Unnamed> what_says_more(const JointModel& joint, double error) {
+  JointModel bare = joint;
+  std::erase_if(bare.accepted, [](const AcceptedEffect& a) { return !a.effect->clock_rate; });
+  bare.fit(3);
+  JointModel named = bare;
+  for (const AcceptedEffect& a : joint.accepted)
+    if (!a.effect->clock_rate)
+      named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0), {}});
+  const double by_names = named.fit(3);
+  const std::vector<GenericTest> generic = generic_tests(bare);
+  const auto beyond = [&](double gain) { return gain - (1.0 + kMostLeft) * by_names; };
+  const auto significant = [&](const GenericTest& g, double gain) {
+    return scaled_chi_square_tail(beyond(gain) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests < error;
+  };
+  const bool correlated = bare.distrust() > 0.0;
+  std::optional<Unnamed> best;
+  for (const GenericTest* g : strongest_first(generic, error)) {
+    if (!significant(*g, g->test.statistic)) continue;
+    JointModel with = bare;
+    const double kept = let_in(with, *g);
+    if (!significant(*g, kept) || (best && beyond(kept) < best->gain)) continue;
+    if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
+    best = unnamed_by(*g, beyond(kept), 1.0);
+  }
+  return best;
+}
+
+// Where the truth contradicts the wheels for so long that it is no outlier, with the noise of what does not: of each
+// recording the stretches of time.
+using Contradicted = std::vector<std::vector<std::pair<double, double>>>;
+
+Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
+  Contradicted of_run;
+  for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r) {
+    InnovationModel model = joint.model_of(r);
+    model.noise = noise;
+    const InnovationRun run = joint.prepared(r);
+    of_run.emplace_back();
+    for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
+      of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
+  }
+  return of_run;
+}
+
+int count(const Contradicted& of_run) {
+  int places = 0;
+  for (const auto& stretches : of_run) places += static_cast<int>(stretches.size());
+  return places;
+}
+
+// What names mend less than three quarters of has another cause. Once may be a truth that found itself
+// elsewhere.
+std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
+                                        const FittedNoise& noise) {
+  constexpr int kFewest = 2;
+  const Contradicted now = contradicted(joint, noise);
+  if (count(now) < kFewest) return std::nullopt;
+  if (!joint.accepted.empty() && 4 * count(now) < count(contradicted(calibrated, noise))) return std::nullopt;
+  Unnamed u;
+  const auto most =
+      std::max_element(now.begin(), now.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  u.where.recording = joint.runs()[static_cast<std::size_t>(most - now.begin())].name;
+  u.where.time_s = *most;
+  u.where.regime = "what the truth says contradicts the wheels, time and again, at " + std::to_string(count(now)) +
+                   " places in all recordings";
+  return u;
+}
+
+bool names_physics(const JointModel& joint) {
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                     [](const AcceptedEffect& a) { return !a.effect->clock_rate; });
 }
 
 }  // namespace
 
-const char* name_of_channel(int channel) {
-  static const char* const kNames[kGenericChannels] = {"forward per metre [1]", "sideways per metre [1]",
-                                                       "turn per metre [rad/m]"};
-  return kNames[channel];
-}
-
-BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
-  // Turning on the spot counts as way too, by the way of the wheels.
-  const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
-  BodyMotion m;
-  (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = way;
-  return m;
-}
-
-std::vector<GenericTest> generic_tests(const JointModel& joint) {
-  const std::vector<DriveView>& views = joint.views();
-  std::vector<Group> groups;
-  // Counts and uneven wheels shake these variables as they shake the way itself, because a wheel that is held up turns
-  // the slower: where hats are no wider than that, noise looks like a response to its own trace. So far apart they
-  // stand at least: what one count is over a short time, and what unevenness of a percent makes at walking pace.
-  double count_m = 0.0, base_m = 1e300;
-  for (const DriveView& v : views) {
-    const double radius_m = std::max(v.drive.wheel_radius_left_m, v.drive.wheel_radius_right_m);
-    count_m = std::max(count_m, v.from_commands ? 0.0 : 2.0 * kPi * radius_m / v.drive.counts_per_wheel_turn());
-    base_m = std::min(base_m, v.drive.wheelbase_m);
+Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, const LeastSquaresCalibration& calibration,
+                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error) {
+  Adequacy out;
+  out.generic = generic_tests(joint);
+  double explained = of_mounting;
+  for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
+  if (const GenericTest* left = what_is_left(joint, out.generic, error)) {
+    const double gain = std::max(0.0, left->test.statistic - left->test.freedom * left->test.inflation);
+    if (!is_worth_saying(joint, calibrated, *left))
+      out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
+    else if (gain > kMostLeft * explained || is_in_pieces(evidence))
+      out.unnamed = unnamed_by(*left, gain, gain / std::max(1e-9, gain + explained - of_mounting));
   }
-  const double speed_mps = std::max(0.01, count_m / 0.06);
-  groups.push_back(hats_of(
-      "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, speed_mps));
-  // Of what a driver steers with on a straight the same is true: what shakes the wheels is what it answers to.
-  const double straight_radps = 2.0 * speed_mps / base_m;
-  groups.push_back(hats_of(
-      "yaw rate [rad/s]", views,
-      [straight_radps](const EffectStep& s) {
-        return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
-      },
-      7, straight_radps));
-  groups.push_back(hats_of(
-      "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6,
-      speed_mps / base_m));
-  groups.push_back(hats_of(
-      "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6, speed_mps / 0.1));
-  groups.push_back(hats_of(
-      "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8, 0.0));
-  Group heading;
-  heading.variable = "heading [rad]";
-  heading.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(4, std::vector<double>(view.steps.size()));
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const double h = view.steps[i].heading_rad;
-      out[0][i] = std::cos(h), out[1][i] = std::sin(h), out[2][i] = std::cos(2 * h), out[3][i] = std::sin(2 * h);
-    }
-  };
-  heading.waves = {{"heading [rad]", {0, 2}, {1, 3}}};
-  groups.push_back(heading);
-  // Place: low polynomials of where it is, and of where it is against where it looks.
-  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-  for (const DriveView& v : views)
-    for (const EffectStep& s : v.steps) {
-      x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
-      y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
-    }
-  const auto unit = [](double v, double low, double high) {
-    return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0;
-  };
-  Group place;
-  place.variable = "place on the floor [m]";
-  place.values = [=](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(9, std::vector<double>(view.steps.size()));
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const EffectStep& s = view.steps[i];
-      const double x = unit(s.position.x_m, x0, x1), y = unit(s.position.y_m, y0, y1);
-      const double c = std::cos(s.heading_rad), sn = std::sin(s.heading_rad);
-      const double f[9] = {x, y, x * x, x * y, y * y, x * c, x * sn, y * c, y * sn};
-      for (int k = 0; k < 9; ++k) out[k][i] = f[k];
-    }
-  };
-  groups.push_back(place);
-  if (views.size() > 1) {
-    Group recording;
-    recording.variable = "recording";
-    const std::size_t count = views.size();
-    recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
-      // A run that was not fitted is like the first.
-      const std::size_t number =
-          static_cast<std::size_t>(view.number) < count ? static_cast<std::size_t>(view.number) : 0;
-      out.assign(count, std::vector<double>(view.steps.size(), 0.0));
-      std::fill(out[number].begin(), out[number].end(), 1.0);
-    };
-    groups.push_back(recording);
-  }
-  Group memory;
-  memory.variable = "turn before, forgotten over metres";
-  memory.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(2, std::vector<double>(view.steps.size()));
-    for (int k = 0; k < 2; ++k) {
-      const double length_m = k == 0 ? 0.1 : 0.5;
-      double m = 0.0;
-      for (std::size_t i = 0; i < view.steps.size(); ++i) {
-        m = m * std::exp(-std::abs(view.steps[i].forward_m()) / length_m) + view.steps[i].turn_rad;
-        m = std::clamp(m, -2.0, 2.0);
-        out[k][i] = m;
-      }
-    }
-  };
-  groups.push_back(memory);
-  Group phases;
-  phases.variable = "wheel rotation [rad]";
-  phases.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(4, std::vector<double>(view.steps.size()));
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const EffectStep& s = view.steps[i];
-      out[0][i] = std::cos(s.left_rad), out[1][i] = std::sin(s.left_rad), out[2][i] = std::cos(s.right_rad),
-      out[3][i] = std::sin(s.right_rad);
-    }
-  };
-  phases.waves = {{"left wheel angle [rad]", {0}, {1}}, {"right wheel angle [rad]", {2}, {3}}};
-  groups.push_back(phases);
-  groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
-
-  const int n = static_cast<int>(groups.size()) * kGenericChannels;
-  std::vector<GenericTest> tests(n);
-  parallel_for(n, [&](int i) {
-    const Group& g = groups[i / kGenericChannels];
-    const int channel = i % kGenericChannels;
-    auto term = std::make_shared<Effect>();
-    term->name = g.variable;
-    term->component = name_of_channel(channel);
-    const auto values_of = g.values;
-    term->motions = [values_of, channel](const DriveView& view, const std::vector<double>&) {
-      std::vector<std::vector<double>> values;
-      values_of(view, values);
-      std::vector<Motions> out(values.size());
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        out[k] = Motions(view.steps.size());
-        for (std::size_t j = 0; j < values[k].size(); ++j) {
-          const BodyMotion m = unit_of_channel(view.steps[j], view.drive.wheelbase_m, channel);
-          const double value = values[k][j];
-          out[k][j] = {value * m.forward_m, value * m.sideways_m, value * m.turn_rad};
-        }
-      }
-      return out;
-    };
-    std::vector<std::vector<double>> one;
-    g.values(DriveView{}, one);
-    term->amplitudes.resize(one.size());
-    tests[i].as_effect = term;
-    tests[i].variable = g.variable;
-    tests[i].channel = name_of_channel(channel);
-    tests[i].at = g.at;
-    tests[i].waves = g.waves;
-    CandidateColumns columns = joint.columns_of(*term, {});
-    columns.least_surviving = kLeastSurvivingOfGeneric;
-    tests[i].test = joint.test(columns, -1, true);
-    tests[i].tests = n;
-    tests[i].p_value =
-        std::min(1.0, n * scaled_chi_square_tail(tests[i].test.judged(), tests[i].test.freedom, tests[i].test.batches));
-  });
-  const std::vector<GenericTest> waves = wave_tests(joint, n);
-  tests.insert(tests.end(), waves.begin(), waves.end());
-  std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
-    return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
-  });
-  return tests;
+  if (!out.unnamed && names_physics(joint)) out.unnamed = what_says_more(joint, error);
+  if (!out.unnamed) out.unnamed = what_contradicts(joint, calibrated, calibration.noise);
+  return out;
 }
 
 }  // namespace odolab

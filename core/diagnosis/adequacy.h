@@ -1,42 +1,31 @@
-// Whether anything is left that the model does not describe, whatever its name: a generic basis in each channel.
+// Whether the names given are enough: what they leave, and whether something that has no name would say more than they.
 #pragma once
 
-#include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/generic_tests.h"
+#include "core/diagnosis/select.h"
 
 namespace odolab {
 
-// Values of a group that are cosines and sines of an angle, of once, twice, ... that angle.
-struct GenericWave {
-  std::string variable;  // "left wheel angle [rad]"
-  std::vector<std::size_t> cosine, sine;
+// What no name describes.
+struct Unnamed {
+  WhereFound where;
+  double gain = 0.0;   // twice the log-likelihood that it explains beyond the names and beyond chance
+  double share = 1.0;  // of all that calibration leaves
+  double p_value = 0.0;
 };
 
-struct GenericTest {
-  std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
-  CandidateTest test;
-  double tests = 1.0;              // that it was chosen from
-  double p_value = 1.0;            // over all of them
-  std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
-  std::vector<GenericWave> waves;  // where it is periodic instead
-  std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
+struct Adequacy {
+  std::vector<GenericTest> generic;  // of what the names leave, best first
+  std::optional<Unnamed> unnamed;    // where the names are not enough
+  bool something_small_is_left = false;
 };
 
-// Of three channels: forward, sideways and turn, each for each metre of way. Their names, and the motion of one unit of
-// a channel in one step.
-constexpr int kGenericChannels = 3;
-const char* name_of_channel(int channel);
-BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
-
-// Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known
-// better than to a fifth where the vehicle speeds up: directions of which less than the square of that is left may be
-// its error, and are not tested.
-constexpr double kLeastSurvivingOfGeneric = 0.04;
-
-// Hats, harmonics and polynomials of what the vehicle does and where it is, and waves (`waves.h`). Best first.
-std::vector<GenericTest> generic_tests(const JointModel& joint);
+// `calibrated`: without any name; `calibration`: its noise, that of samples which do not contradict it. `of_mounting`:
+// twice the log-likelihood that a turned mounting or a toe explains, which slips in turns besides.
+Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, const LeastSquaresCalibration& calibration,
+                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error);
 
 }  // namespace odolab

@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/aligned_clock.h"
+#include "core/diagnosis/material.h"
 #include "core/diagnosis/select.h"
 
 namespace odolab {
@@ -117,7 +118,7 @@ void let_clocks_in(JointModel& joint) {
     if (moments[r]) own[r] = moments[r]->rate;
   const Effect* each = n == 1 ? shared : &effects::clock_rate_of_each_run(static_cast<int>(n)).front();
   JointModel best = held(joint, each, own, moments);
-  if (!is_likelier(best, joint) || !is_material(joint.gathered_error(), best.gathered_error(), most_left(joint)))
+  if (!is_likelier(best, joint) || !is_material(joint, joint.gathered_error(), best.gathered_error()))
     return;
   const auto simplify = [&](const Effect* rates, const std::vector<double>& value) {
     JointModel simpler = held(joint, rates, value, moments);

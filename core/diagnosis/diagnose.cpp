@@ -22,11 +22,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
-constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
-constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
-constexpr double kWorthShowing = 0.01;    // p value of a wave in what is left
-constexpr int kFewestInnovations = 40;    // beyond the parameters: fewer cannot judge a model
+constexpr double kWorthShowing = 0.01;  // p value of a wave in what is left
+constexpr int kFewestInnovations = 40;  // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
   char buffer[300];
@@ -168,31 +165,6 @@ Finding finding_of(const MovedMounting& m) {
   return f;
 }
 
-// Lets a group of generic terms in; twice what the log-likelihood gains by it.
-double let_in(JointModel& joint, const GenericTest& group) {
-  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
-  return joint.fit(2);
-}
-
-// The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
-// does anyway a score can promise without end.
-const GenericTest* what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
-  constexpr int kMostTried = 4;
-  std::vector<const GenericTest*> strong;
-  for (const GenericTest& g : generic)
-    if (g.p_value < error && g.test.cross_validated > 0.0) strong.push_back(&g);
-  std::stable_sort(strong.begin(), strong.end(),
-                   [](const GenericTest* a, const GenericTest* b) { return a->test.judged() > b->test.judged(); });
-  for (std::size_t k = 0; k < std::min<std::size_t>(strong.size(), kMostTried); ++k) {
-    const CandidateTest& t = strong[k]->test;
-    JointModel with = joint;
-    const double kept = let_in(with, *strong[k]);
-    const double p = scaled_chi_square_tail(kept / t.inflation, t.freedom, t.batches) * strong[k]->tests;
-    if (p < error) return strong[k];
-  }
-  return nullptr;
-}
-
 // `left`: the same group with the findings let in; null where there are none.
 Response response_of(const GenericTest& g, const GenericTest* left) {
   Response r;
@@ -237,6 +209,12 @@ Response response_of(const GenericTest& g, const GenericWave& wave, const Generi
     if (left) r.after.push_back(after);
   }
   return r;
+}
+
+std::string of_refuted(const Effect& effect) {
+  std::string name = effect.name + " of the " + effect.component;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + " would describe the recordings that were fitted, but what was not fitted is predicted worse with it";
 }
 
 // Of what calibration leaves to each variable that has an axis.
@@ -374,10 +352,17 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
   if (joint.accepted.empty()) joint = calibrated;
   Intervals intervals = refined(joint, inflation);
-  // What is not well away from nothing once its place and time are uncertain too is no finding.
-  for (std::size_t k = joint.accepted.size(); k-- > 0;) {
-    if (stands_out(joint.accepted[k])) continue;
-    const auto at = static_cast<std::ptrdiff_t>(k);
+  // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
+  // it was not fitted to refute.
+  const auto untenable = [&]() -> std::optional<std::size_t> {
+    for (std::size_t k = joint.accepted.size(); k-- > 0;)
+      if (!stands_out(joint.accepted[k])) return k;
+    const std::optional<std::size_t> k = refuted(joint, calibrated, d, ready_held_out, nominal);
+    if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
+    return k;
+  };
+  while (const std::optional<std::size_t> k = untenable()) {
+    const auto at = static_cast<std::ptrdiff_t>(*k);
     joint.accepted.erase(joint.accepted.begin() + at);
     selected.evidence.erase(selected.evidence.begin() + at);
     selected.alternatives.erase(selected.alternatives.begin() + at);
@@ -390,7 +375,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       joint.fit(2);
     }
     intervals = refined(joint, inflation);
-    k = joint.accepted.size();
   }
 
   std::vector<Finding> named;
@@ -403,45 +387,18 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   add_mounting(named, joint, intervals, d.calibration_alone, nominal);
   add_clock(named, joint, d.calibration_alone, nominal, from_commands);
 
-  // Adequacy.
-  const std::vector<GenericTest> generic = generic_tests(joint);
-  const GenericTest* left = what_is_left(joint, generic, 0.25 * options.family_wise_error);
-  double remaining = left ? left->test.statistic - left->test.freedom * left->test.inflation : 0.0;
-  // Several causes that explain it only together are more likely one that has no name here.
-  std::vector<double> shares;
-  for (const ScoredCandidate& e : selected.evidence) shares.push_back(e.test.statistic);
-  std::sort(shares.rbegin(), shares.rend());
-  const bool in_pieces = shares.size() > 2 && shares[0] + shares[1] < kTwoExplain * explained;
-  // Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and
-  // nowhere may it be so good already that no floor or camera could tell.
-  if (left && !joint.innovations_correlated() && is_nothing(joint.gathered_error())) left = nullptr;
-  if (left && joint.innovations_correlated()) {
-    JointModel with = joint;
-    let_in(with, *left);
-    const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
-                                    with_more = with.gathered_error();
-    if (!is_material(named_only, with_more, most_left(joint))) left = nullptr;
-    // And it counts against the names only by its share of what dead reckoning gains.
-    if (left && at_first.windows > 0 && at_first.position_m2 > 0.0 && at_first.heading_rad2 > 0.0) {
-      const auto share = [&](const JointModel::GatheredError& e) {
-        return 0.5 * (e.position_m2 / at_first.position_m2 + e.heading_rad2 / at_first.heading_rad2);
-      };
-      const double more = share(named_only) - share(with_more), in_all = 1.0 - share(with_more);
-      if (in_all > 0.0 && more < kMostLeftOfError * in_all) left = nullptr;
-    }
-    if (!left && !joint.accepted.empty())
-      d.warnings.push_back(
-          "beside the names given something small is left that no name describes, or the truth's noise is not white");
-  }
   // Wheels that do not stand square to the axle also slip in turns: that much belongs to them.
   double of_toe = 0.0;
   for (const Finding& f : named)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  const bool inadequate = left && (remaining > kMostLeft * (explained + of_toe) || in_pieces);
-  d.responses = responses_of(calibrated, generic, !joint.accepted.empty());
+  const Adequacy adequacy =
+      adequacy_of(joint, calibrated, d.calibration_alone, selected.evidence, of_toe, 0.25 * options.family_wise_error);
+  if (adequacy.something_small_is_left)
+    d.warnings.push_back(
+        "beside the names given something small is left that no name describes, or the truth's noise is not white");
+  d.responses = responses_of(calibrated, adequacy.generic, !joint.accepted.empty());
 
-  if (!left) remaining = 0.0;
-  const double all = std::max(1e-9, explained + (inadequate ? remaining : 0.0));
+  const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
     named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
   std::sort(named.begin(), named.end(),
@@ -449,14 +406,14 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   bool ambiguous = false;
   for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
 
-  if (inadequate) {
+  if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     Finding unknown;
     unknown.effect = "unknown";
     unknown.component = "vehicle";
-    unknown.where.regime = left->channel + " that depends on " + left->variable;
-    unknown.log_likelihood_gain = 0.5 * (explained + std::max(remaining, 0.0));
-    unknown.p_value = left->p_value;
-    unknown.share_of_mismatch = std::clamp(remaining / all, 0.0, 1.0);
+    unknown.where = more->where;
+    unknown.log_likelihood_gain = 0.5 * (explained + more->gain);
+    unknown.p_value = more->p_value;
+    unknown.share_of_mismatch = more->share;
     unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
     // Names that did not suffice are said as what it resembles, not as what it is.
     for (std::size_t k = 0; k < joint.accepted.size(); ++k)
@@ -514,7 +471,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
-  prove(d, joint, calibrated, generic.front().as_effect, train, ready_held_out, nominal);
+  prove(d, joint, calibrated, adequacy.generic.front().as_effect, train, ready_held_out, nominal);
   if (named.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;

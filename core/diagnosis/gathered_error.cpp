@@ -68,32 +68,38 @@ JointModel::GatheredError JointModel::gathered_error() const {
       cut = false;
     }
     if (const std::optional<TrackError> e = track_error(guess, truth, anew); e && e->windows > 0) {
-      of[r].position_m2 = e->windows * e->position_rms_m * e->position_rms_m;
-      of[r].heading_rad2 = e->windows * e->heading_rms_rad * e->heading_rms_rad;
+      of[r].position_m2 = e->position_rms_m * e->position_rms_m;
+      of[r].heading_rad2 = e->heading_rms_rad * e->heading_rms_rad;
       of[r].windows = e->windows;
+      of[r].of_window = e->window_error;
       for (const auto& [from_s, to_s] : e->window_s)
         add_noise(of[r], model.noise, model.drive.wheelbase_m, guess, from_s, to_s);
+      of[r].noise_position_m2 /= e->windows;
+      of[r].noise_heading_rad2 /= e->windows;
     }
   });
   GatheredError sum;
-  for (const GatheredError& e : of) {
-    sum.position_m2 += e.position_m2;
-    sum.heading_rad2 += e.heading_rad2;
-    sum.noise_position_m2 += e.noise_position_m2;
-    sum.noise_heading_rad2 += e.noise_heading_rad2;
-    sum.windows += e.windows;
-  }
-  if (sum.windows > 0)
-    for (double* mean : {&sum.position_m2, &sum.heading_rad2, &sum.noise_position_m2, &sum.noise_heading_rad2})
-      *mean /= sum.windows;
+  for (const GatheredError& e : of) sum.add(e);
   return sum;
+}
+
+void JointModel::GatheredError::add(const GatheredError& other) {
+  const int all = windows + other.windows;
+  if (all == 0) return;
+  const double mine = static_cast<double>(windows) / all, others = static_cast<double>(other.windows) / all;
+  for (auto mean : {&GatheredError::position_m2, &GatheredError::heading_rad2, &GatheredError::noise_position_m2,
+                    &GatheredError::noise_heading_rad2})
+    this->*mean = mine * this->*mean + others * other.*mean;
+  windows = all;
+  of_window.insert(of_window.end(), other.of_window.begin(), other.of_window.end());
 }
 
 // Correlation of each whitened innovation with that before, the largest of the three channels. That of a floor whose
 // unevenness has a length is negative, since the noise was fitted to what adds up. Samples between the same two
 // readings of the encoders share their rounding and say nothing of the model: "before" is a reading and a half ago.
-bool JointModel::innovations_correlated() const {
-  if (truth_noise_lasts) return true;
+double JointModel::distrust() const {
+  if (truth_noise_lasts) return 1.0;
+  constexpr double kWhite = 0.04, kCorrelated = 0.12;  // of one channel: what chance and a rough floor make; not white
   constexpr double kReadings = 1.5;
   double product[3] = {}, square[3] = {};
   for (std::size_t run = 0; run < now_->runs.size(); ++run) {
@@ -108,8 +114,9 @@ bool JointModel::innovations_correlated() const {
       square[i % 3] += r[i] * r[i];
     }
   }
+  double most = 0.0;
   for (int k = 0; k < 3; ++k)
-    if (product[k] > 0.12 * square[k]) return true;
-  return false;
+    if (square[k] > 0.0) most = std::max(most, product[k] / square[k]);
+  return std::clamp((most - kWhite) / (kCorrelated - kWhite), 0.0, 1.0);
 }
 }  // namespace odolab

@@ -95,10 +95,14 @@ class JointModel {
     double position_m2 = 0.0, heading_rad2 = 0.0;
     double noise_position_m2 = 0.0, noise_heading_rad2 = 0.0;  // what the model's noise alone would leave
     int windows = 0;
+    std::vector<Pose> of_window;  // in the order of the runs
+    void add(const GatheredError& of_other_runs);
   };
   GatheredError gathered_error() const;
-  bool innovations_correlated() const;  // of one channel at least, from one sample to the next; or as is known before
-  Track poses(int run) const;           // corrected, at the wheels' times
+  // How little the likelihood is to be believed, since innovations are correlated from one sample to the next or that is
+  // known before: from 0, white, to 1.
+  double distrust() const;
+  Track poses(int run) const;  // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.

@@ -19,7 +19,7 @@ void JointModel::fit_noise() {
   cut();
   constexpr FittedNoise kUsual = {0.003, 0.002, 0.005, 0.0005, 0.0005};
   // A model is not trusted to be truer sideways than this share of the wheels' noise.
-  constexpr double kLeastSideways = 0.05;
+  constexpr double kUsualSideways = 0.1, kLeastSideways = 0.02;
   constexpr double kWay_m = 0.1;
   constexpr double kSampledWithin = 0.5;  // of logarithms: a factor of 1.6
   struct Part {
@@ -68,6 +68,7 @@ void JointModel::fit_noise() {
     any_heading = any_heading || l.run().truth_has_heading;
   }
   NoiseFit of_samples{{noise_size::wheel, noise_size::position, noise_size::body, noise_size::sideways}, kUsual};
+  of_samples.usual_sideways = kUsualSideways;
   of_samples.least_sideways = kLeastSideways;
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples);
@@ -91,7 +92,7 @@ void JointModel::fit_noise() {
 void JointModel::gate() {
   FilterOptions options;
   options.derivatives = false;
-  options.gate = 30.0;
+  options.gate = kGate;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const InnovationModel m = model_of(static_cast<int>(r));
     const InnovationRun run = prepared(static_cast<int>(r));

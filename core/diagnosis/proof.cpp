@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/clocks_first.h"
+#include "core/diagnosis/material.h"
 #include "core/diagnosis/ready_run.h"
 #include "core/odometry/prediction.h"
 
@@ -24,7 +25,7 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal, int run) {
   return v;
 }
 
-// Chi-square per innovation of other runs under a model that is frozen but for their clocks.
+// Other runs under a model that is frozen but for their clocks.
 JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
                   const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
   LeastSquaresCalibration start = d.calibration_alone;
@@ -44,6 +45,14 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   j.gate();
   align_clocks(j);
   j.linearise(false);
+  // Whether what came in one recording and stayed is there in these is not known either.
+  for (std::size_t k = 0; k < j.accepted.size(); ++k) {
+    if (!j.accepted[k].effect->and_later_recordings) continue;
+    JointModel there = j;
+    there.accepted[k].shape[0] = -1.0;
+    there.linearise(false);
+    if (there.minus_two_log_likelihood() < j.minus_two_log_likelihood()) j = std::move(there);
+  }
   return j;
 }
 
@@ -75,6 +84,43 @@ FitFigures noise_floor(const std::vector<JointModel>& models, const FitFigures& 
   if (windows > 0.0) position_m2 /= windows, heading_rad2 /= windows;
   return {std::min(std::sqrt(position_m2), reached.position_rms_m),
           std::min(std::sqrt(heading_rad2), reached.heading_rms_rad), std::min(1.0, reached.normalised_chi2)};
+}
+
+struct ReadyRuns {
+  std::vector<InnovationRun> runs;
+  std::vector<char> commands;
+};
+
+ReadyRuns ready_runs(const std::vector<CheckedRecording>& checked, const Vehicle& nominal) {
+  ReadyRuns ready;
+  for (const CheckedRecording& c : checked) {
+    Result<InnovationRun> run = ready_run(c, nominal);
+    if (!run) continue;
+    ready.runs.push_back(std::move(*run));
+    ready.commands.push_back(c.from_commands);
+  }
+  return ready;
+}
+
+// Each run by a fit to the others.
+std::vector<JointModel> left_out_in_turn(const JointModel& all) {
+  std::vector<std::optional<JointModel>> of_run(all.runs().size());
+  parallel_for(static_cast<int>(of_run.size()), [&](int r) { of_run[static_cast<std::size_t>(r)] = all.left_out(r); });
+  std::vector<JointModel> models;
+  for (std::optional<JointModel>& one : of_run) models.push_back(std::move(*one));
+  return models;
+}
+
+JointModel with_noise(JointModel m, const FittedNoise& noise, bool with_columns) {
+  m.model.noise = noise;
+  m.linearise(with_columns);
+  return m;
+}
+
+JointModel::GatheredError summed_up(const std::vector<JointModel>& models) {
+  JointModel::GatheredError sum;
+  for (const JointModel& m : models) sum.add(m.gathered_error());
+  return sum;
 }
 
 // The same term half a run later: as free as the finding, and without meaning.
@@ -137,36 +183,40 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     return t;
   };
   using Models = std::vector<JointModel>;
-  const auto with_one_noise = [&](JointModel m, bool with_columns) {
-    m.model.noise = noise;
-    m.linearise(with_columns);
-    return m;
-  };
-  d.train = table([&](const JointModel& m, bool) { return Models{with_one_noise(m, false)}; });
-  if (!ready_held_out.empty()) {
-    std::vector<InnovationRun> runs;
-    std::vector<char> commands;
-    for (const CheckedRecording& c : ready_held_out) {
-      Result<InnovationRun> run = ready_run(c, nominal);
-      if (!run) continue;
-      runs.push_back(std::move(*run));
-      commands.push_back(c.from_commands);
-    }
-    if (!runs.empty())
-      d.held_out =
-          table([&](const JointModel& m, bool) { return Models{frozen(m, runs, commands, d, nominal, noise)}; });
-  } else if (train.size() > 1) {
+  d.train = table([&](const JointModel& m, bool) { return Models{with_noise(m, noise, false)}; });
+  if (const ReadyRuns unseen = ready_runs(ready_held_out, nominal); !unseen.runs.empty()) {
+    d.held_out = table(
+        [&](const JointModel& m, bool) { return Models{frozen(m, unseen.runs, unseen.commands, d, nominal, noise)}; });
+  } else if (ready_held_out.empty() && train.size() > 1) {
     d.left_out_in_turn = true;
     d.held_out = table([&](const JointModel& m, bool as_it_is) {
-      const JointModel all = with_one_noise(m, !as_it_is);
-      if (as_it_is) return Models{all};
-      std::vector<std::optional<JointModel>> of_run(train.size());
-      parallel_for(static_cast<int>(train.size()), [&](int r) { of_run[r] = all.left_out(r); });
-      Models left_out;
-      for (std::optional<JointModel>& one : of_run) left_out.push_back(std::move(*one));
-      return left_out;
+      const JointModel all = with_noise(m, noise, !as_it_is);
+      return as_it_is ? Models{all} : left_out_in_turn(all);
     });
   }
+}
+
+std::optional<std::size_t> refuted(const JointModel& joint, const JointModel& calibrated, const Diagnosis& d,
+                                   const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal) {
+  const FittedNoise noise = joint.model.noise;
+  const ReadyRuns unseen = ready_runs(ready_held_out, nominal);
+  if (joint.accepted.empty() || (unseen.runs.empty() && joint.runs().size() < 2)) return std::nullopt;
+  const auto error_of = [&](const JointModel& m) {
+    return unseen.runs.empty() ? summed_up(left_out_in_turn(with_noise(m, noise, true)))
+                               : frozen(m, unseen.runs, unseen.commands, d, nominal, noise).gathered_error();
+  };
+  const JointModel::GatheredError with_all = error_of(joint);
+  if (worse_than_chance(error_of(calibrated), with_all) <= 0.0) return std::nullopt;
+  std::optional<std::size_t> worst;
+  double most = 0.0;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    JointModel without = joint;
+    without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+    without.fit(3);
+    const double worse = worse_than_chance(error_of(without), with_all);
+    if (worse > most) most = worse, worst = k;
+  }
+  return worst;
 }
 
 }  // namespace odolab

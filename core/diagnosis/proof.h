@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -17,5 +18,10 @@ namespace odolab {
 void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
            const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
            const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal);
+
+// Of the accepted effects the one by which runs that were not fitted are predicted worse than chance could make it, if
+// any; the worst of them. Runs as in `prove`.
+std::optional<std::size_t> refuted(const JointModel& joint, const JointModel& calibrated, const Diagnosis& d,
+                                   const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal);
 
 }  // namespace odolab

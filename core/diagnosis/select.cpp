@@ -7,6 +7,7 @@
 #include "core/diagnosis/candidate_scan.h"
 #include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/clocks_first.h"
+#include "core/diagnosis/material.h"
 
 namespace odolab {
 
@@ -19,14 +20,9 @@ constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
 // Share of the evidence that a right name may lose since its form is not quite the world's.
 constexpr double kFormError = 0.1;
 
-// Of dead reckoning's squared error. What happens in one place or moment is all there, or it is not.
-constexpr double kNoWorse = 1.05, kNoWorseByAnEvent = 1.01, kMaterialWhereSmoothed = 0.9;
-
-constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
-
 // Where innovations are correlated a small share is believed as little as an event's.
-double least_share(const Effect& effect, bool correlated) {
-  return effect.local || correlated ? kLeastShareOfEvents : kLeastShare;
+double least_share(const Effect& effect, double distrust) {
+  return effect.local ? kLeastShareOfEvents : std::lerp(kLeastShare, kLeastShareOfEvents, distrust);
 }
 
 double quantile(std::vector<double> v, double share) {
@@ -109,7 +105,7 @@ double furthest_m(const std::vector<Motions>& motions, const std::vector<double>
 // A wheel's count is off by what is hidden between two of them: that averages out on the way, but not at an even speed
 // that is nearly a whole number of counts from one reading to the next; and it stays where the wheel stops.
 bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest& test) {
-  constexpr double kCounts = 1.0, kCountsAtRest = 2.0;
+  constexpr double kCounts = 1.5, kCountsAtRest = 2.0;
   const DifferentialDrive& drive = joint.model.drive;
   const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
   double furthest = 0.0, least = 0.0;
@@ -334,25 +330,6 @@ void fit_noise_too(JointModel& joint) {
 
 }  // namespace
 
-bool is_nothing(const JointModel::GatheredError& error) {
-  return error.windows > 0 && error.position_m2 < kNothing && error.heading_rad2 < kNothing;
-}
-
-double most_left(const JointModel& joint, bool local, std::size_t numbers) {
-  const double of_correlated = std::max(0.5, 1.0 - (1.0 - kMaterial) * static_cast<double>(numbers));
-  if (joint.truth_noise_lasts) return std::min(kMaterialWhereSmoothed, of_correlated);
-  if (joint.innovations_correlated()) return of_correlated;
-  return local ? kNoWorseByAnEvent : kNoWorse;
-}
-
-bool is_material(const JointModel::GatheredError& before, const JointModel::GatheredError& after, double most_left) {
-  if (is_nothing(before)) return false;
-  if (before.windows == 0 || after.windows == 0) return true;
-  const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
-                             (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));
-  return left < most_left;
-}
-
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without) {
   (void)family_wise_error;
   std::vector<const Effect*> all;
@@ -403,11 +380,11 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
                        .statistic;
     std::vector<ScoredCandidate> scored = scored_candidates(joint, family_wise_error);
     if (step == 0) out.first_look = scored;
-    const bool correlated = joint.innovations_correlated();
+    const double distrust = joint.distrust();
     std::vector<const ScoredCandidate*> standing;
     for (const ScoredCandidate& c : scored)
       if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
-          c.test.statistic > explained * least_share(*c.effect, correlated))
+          c.test.statistic > explained * least_share(*c.effect, distrust))
         standing.push_back(&c);
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
@@ -449,9 +426,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
       fit_noise_too(joint);
-      accepted = kept > 8.0 &&
-                 is_material(before.gathered_error(), joint.gathered_error(),
-                             most_left(before, standing[tried]->effect->local, standing[tried]->test.value.size()));
+      accepted = kept > 8.0 && is_material(before, before.gathered_error(), joint.gathered_error(),
+                                           standing[tried]->test.value.size());
       if (!accepted) joint = before;
     }
     if (!accepted) {
@@ -519,7 +495,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
-    const double least = least_share(*joint.accepted[k].effect, joint.innovations_correlated());
+    const double least = least_share(*joint.accepted[k].effect, joint.distrust());
     if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
       // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
       JointModel without = joint;
@@ -528,8 +504,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
       without.fit_noise();
       without.fit(2);
-      const bool needed = lost > 100.0 && share_of(k) > least &&
-                          is_material(without.gathered_error(), joint.gathered_error(), kMaterial);
+      const bool needed =
+          lost > 100.0 && share_of(k) > least && lowers(without.gathered_error(), joint.gathered_error(), kMaterial);
       if (!needed) {
         joint = without;
         with_all.clear();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/chi_square.h"
@@ -18,9 +19,20 @@ constexpr double kTurnsApart = 0.4;
 constexpr std::size_t kMostWaves = 500;
 constexpr int kBands = 3;
 
-// What a wave modulates: the generic channels, and what carries the vehicle across the floor, for each metre of way or,
-// in time, for each second that it moves.
-constexpr int kAcross = kGenericChannels, kChannels = kGenericChannels + 1;
+// What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
+// time, for each second that it moves; and, in time, the pace of the clock, which all motion has in common.
+constexpr int kAcross = kGenericChannels, kPace = kGenericChannels + 1, kChannels = kGenericChannels + 2;
+
+// What is summed up: the generic channels; what carries it across the floor, along x and along y, for each metre and
+// for each second; the pace.
+enum Slot { across_m = kAcross, across_s = across_m + 2, of_pace = across_s + 2, kSlots };
+// Those that a wave in time modulates and that one on the floor does, and the channels that they belong to.
+struct Modulated {
+  int slot, channel;
+};
+constexpr Modulated kInTime[] = {{0, 0},          {1, 1}, {2, 2}, {across_s, kAcross}, {across_s + 1, kAcross},
+                                 {of_pace, kPace}};
+constexpr Modulated kOnTheFloor[] = {{0, 0}, {1, 1}, {2, 2}, {across_m, kAcross}, {across_m + 1, kAcross}};
 
 // A wave: turns per second, or the wave vector in turns per metre.
 struct Wave {
@@ -42,6 +54,10 @@ Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, bool in_time)
     u.of[0] = unit_of_channel(s, wheelbase_m, channel);
     return u;
   }
+  if (channel == kPace) {
+    u.of[0] = {s.forward_m(), 0.0, s.turn_rad};
+    return u;
+  }
   const bool moves = s.forward_m() != 0.0 || s.turn_rad != 0.0;
   const double much = !in_time ? std::abs(s.forward_m()) : moves ? s.duration_s : 0.0;
   u.of[0] = {much * s.cos_heading, -much * s.sin_heading, 0.0};
@@ -57,7 +73,7 @@ double product(const BodyMotion& a, const BodyMotion& b) {
 struct Bin {
   double since_start_s = 0.0;
   Vec2 at;
-  double score[kChannels + 3] = {};  // channels for each metre, the last one in x and y; then that for each second
+  double score[kSlots] = {};
 };
 
 std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
@@ -71,14 +87,13 @@ std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& s
       bins.back().at = s.position;
     }
     double* sum = bins.back().score;
-    for (int channel = 0; channel < kChannels; ++channel) {
-      const Unit u = unit_of(s, b, channel, false);
-      sum[channel] += product(u.of[0], score[i]);
-      if (channel == kAcross) sum[4] += product(u.of[1], score[i]);
+    for (int channel = 0; channel < kGenericChannels; ++channel)
+      sum[channel] += product(unit_of(s, b, channel, false).of[0], score[i]);
+    for (const bool in_time : {false, true}) {
+      const Unit u = unit_of(s, b, kAcross, in_time);
+      for (int axis = 0; axis < 2; ++axis) sum[(in_time ? across_s : across_m) + axis] += product(u.of[axis], score[i]);
     }
-    const Unit u = unit_of(s, b, kAcross, true);
-    sum[5] += product(u.of[0], score[i]);
-    sum[6] += product(u.of[1], score[i]);
+    sum[of_pace] += product(unit_of(s, b, kPace, true).of[0], score[i]);
   }
   return bins;
 }
@@ -153,7 +168,7 @@ std::string name_of(const Wave& wave) {
 
 }  // namespace
 
-std::vector<GenericTest> wave_tests(const JointModel& joint, int other_tests) {
+std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests) {
   const std::vector<DriveView>& views = joint.views();
   const std::size_t runs = views.size();
   std::vector<std::vector<Bin>> bins(runs);
@@ -177,20 +192,22 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, int other_tests) {
   parallel_for(static_cast<int>(waves.size()), [&](int k) {
     const Wave& wave = waves[static_cast<std::size_t>(k)];
     std::array<double, kChannels> sum{};
-    double part[5][2] = {};
+    const std::span<const Modulated> modulated =
+        wave.in_time ? std::span<const Modulated>(kInTime) : std::span<const Modulated>(kOnTheFloor);
+    double part[kSlots][2] = {};
     const auto close = [&] {
-      for (int c = 0; c < 5; ++c) {
-        sum[static_cast<std::size_t>(std::min(c, 3))] += part[c][0] * part[c][0] + part[c][1] * part[c][1];
-        part[c][0] = part[c][1] = 0.0;
+      for (const Modulated& m : modulated) {
+        double* p = part[m.slot];
+        sum[static_cast<std::size_t>(m.channel)] += p[0] * p[0] + p[1] * p[1];
+        p[0] = p[1] = 0.0;
       }
     };
     for (const std::vector<Bin>& of_run : bins) {
       for (const Bin& b : of_run) {
         const double angle = 2.0 * kPi * wave.turns(b.since_start_s, b.at), c = std::cos(angle), s = std::sin(angle);
-        for (int j = 0; j < 5; ++j) {
-          const double score = b.score[wave.in_time && j >= 3 ? j + 2 : j];
-          part[j][0] += c * score;
-          part[j][1] += s * score;
+        for (const Modulated& m : modulated) {
+          part[m.slot][0] += c * b.score[m.slot];
+          part[m.slot][1] += s * b.score[m.slot];
         }
       }
       if (wave.in_time) close();
@@ -224,7 +241,8 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, int other_tests) {
     const Wave& wave = waves[chosen[static_cast<std::size_t>(i)].wave];
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     t.variable = name_of(wave);
-    t.channel = channel == kAcross
+    t.channel = channel == kPace ? "pace of its clock [1]"
+                : channel == kAcross
                     ? wave.in_time ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);

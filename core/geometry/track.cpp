@@ -72,10 +72,12 @@ std::optional<TrackError> track_error(const Track& estimate, const Track& refere
       counted = truth[i].pose;
     }
     if (travel_m >= 1.0 || turn_rad >= 1.0 || (i + 1 == truth.size() && error.windows == 0)) {
-      const Pose e = error_since(start, i);
+      Pose e = error_since(start, i);
+      e.heading_rad = wrapped(e.heading_rad);
       position_sum += dot(e.position(), e.position());
-      heading_sum += wrapped(e.heading_rad) * wrapped(e.heading_rad);
+      heading_sum += e.heading_rad * e.heading_rad;
       ++error.windows;
+      error.window_error.push_back(e);
       error.window_s.emplace_back(truth[start].time_s, truth[i].time_s);
       start = i;
       travel_m = turn_rad = 0.0;

@@ -34,6 +34,7 @@ struct TrackError {
   double heading_rms_rad = 0.0;
   int windows = 0;
   std::vector<std::pair<double, double>> window_s;  // when they are
+  std::vector<Pose> window_error;                   // and the error of each
   // Error at the end of the run and the largest on the way, from a true start.
   double end_position_m = 0.0;
   double end_heading_rad = 0.0;

@@ -66,6 +66,16 @@ std::vector<Effect> castor_reversal_kick() {
   e.regime = "where the direction of travel reverses";
   e.looks_like = {"drivetrain_backlash", "one_sided_drag"};
   e.told_apart_by = "a turn on the spot and then a straight, without reversing a wheel";
+  // A driver that stops by its counts always stops just behind one: half a count of each wheel is there at each
+  // reversal.
+  e.beyond_counts = [](const std::vector<double>& value, const std::vector<double>&, double count_rad,
+                       const std::vector<DriveView>& views) {
+    return std::all_of(views.begin(), views.end(), [&](const DriveView& view) {
+      const DifferentialDrive& d = view.drive;
+      const double count_m = count_rad * 0.5 * (d.wheel_radius_left_m + d.wheel_radius_right_m);
+      return std::abs(value[0]) * d.wheelbase_m > count_m;
+    });
+  };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kSwing_m[3] = {0.05, 0.2, 0.001};
     const int form = static_cast<int>(shape.back());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/select.h"
+#include "core/diagnosis/material.h"
 
 namespace odolab {
 

@@ -1,0 +1,97 @@
+#include "core/diagnosis/bent_truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/diagnosis/chi_square.h"
+
+namespace odolab {
+
+namespace {
+
+// Squares as far apart as the floor reaches, so that all polynomials are of one size.
+struct Floor {
+  Vec2 middle;
+  double half_m = 0.0;
+};
+
+Floor floor_of(const std::vector<DriveView>& views) {
+  double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
+      y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
+    }
+  return {{0.5 * (x0 + x1), 0.5 * (y0 + y1)}, 0.5 * std::max(x1 - x0, y1 - y0)};
+}
+
+// Gradient of a field of displacements: of its x by x and y, of its y by x and y.
+struct Gradient {
+  double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
+};
+
+// Two that are linear (one axis longer than the other; a skew), then u^i v^j along x and along y, i + j = 2 and 3.
+constexpr std::size_t kFields = 16;
+
+void gradients_at(const Vec2& at, const Floor& floor, Gradient* out) {
+  const double u = (at.x_m - floor.middle.x_m) / floor.half_m, v = (at.y_m - floor.middle.y_m) / floor.half_m;
+  out[0] = {1.0, 0.0, 0.0, -1.0};
+  out[1] = {0.0, 1.0, 1.0, 0.0};
+  std::size_t k = 2;
+  for (int degree = 2; degree <= 3; ++degree)
+    for (int i = degree; i >= 0; --i) {
+      const int j = degree - i;
+      const double by_u = i > 0 ? i * std::pow(u, i - 1) * std::pow(v, j) : 0.0;
+      const double by_v = j > 0 ? j * std::pow(u, i) * std::pow(v, j - 1) : 0.0;
+      out[k++] = {by_u, by_v, 0.0, 0.0};
+      out[k++] = {0.0, 0.0, by_u, by_v};
+    }
+}
+
+std::vector<Motions> motions_of(const DriveView& view, const Floor& floor, bool headings_too) {
+  std::vector<Motions> out(kFields, Motions(view.steps.size()));
+  Gradient of[kFields];
+  double turned[kFields] = {}, before[kFields] = {};
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    gradients_at(s.position, floor, of);
+    const double c = s.cos_heading, sn = s.sin_heading, way = s.forward_m();
+    for (std::size_t k = 0; k < kFields; ++k) {
+      const double dx = of[k].xx * c + of[k].xy * sn, dy = of[k].yx * c + of[k].yy * sn;
+      turned[k] = -sn * dx + c * dy;  // of an arrow along the heading
+      const double turn = headings_too && i > 0 ? turned[k] - before[k] : 0.0;
+      out[k][i] = {way * (c * dx + sn * dy), way * turned[k], turn};
+      before[k] = turned[k];
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked_at) {
+  const Floor floor = floor_of(joint.views());
+  if (floor.half_m < 1e-3) return {};
+  std::vector<GenericTest> tests(2);
+  parallel_for(2, [&](int i) {
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    const bool headings_too = i == 1;
+    auto term = std::make_shared<Effect>();
+    term->name = t.variable = "place on the floor";
+    term->component = t.channel = headings_too ? "truth's position and heading" : "truth's position";
+    term->amplitudes.resize(kFields);
+    term->motions = [floor, headings_too](const DriveView& view, const std::vector<double>&) {
+      return motions_of(view, floor, headings_too);
+    };
+    CandidateColumns columns = joint.columns_of(*term, {});
+    columns.least_surviving = kLeastSurvivingOfGeneric;
+    t.test = joint.test(columns, -1, true);
+    t.tests = looked_at;
+    t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
+    t.as_effect = term;
+  });
+  return tests;
+}
+
+}  // namespace odolab

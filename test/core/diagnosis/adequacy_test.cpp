@@ -1,0 +1,111 @@
+#include "core/diagnosis/adequacy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/support/missing_physics.h"
+
+namespace odolab {
+namespace {
+
+test::Case case_of(const std::string& effect, double size, int runs, std::uint64_t seed) {
+  test::CaseSettings settings;
+  settings.effect = effect;
+  settings.size = size;
+  settings.runs = runs;
+  settings.duration_s = 50.0;
+  return test::generated_case(settings, seed);
+}
+
+// Seen through a lens that draws positions outward, by so much of their distance at one metre from its axis.
+void bend(Recording& recording, double per_m2) {
+  std::vector<double>& x = recording.add_channel("bent_x").values;
+  std::vector<double>& y = recording.add_channel("bent_y").values;
+  for (Channel& c : recording.channels) {
+    if (c.name == "truth_x_m") x = c.values;
+    if (c.name == "truth_y_m") y = c.values;
+  }
+  for (Channel& c : recording.channels)
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+      const double by = 1.0 + per_m2 * (x[i] * x[i] + y[i] * y[i]);
+      if (c.name == "truth_x_m" || c.name == "truth_y_m") c.values[i] *= by;
+    }
+}
+
+TEST(Adequacy, CallsATruthSeenThroughALensUnknownAndSaysThatItsPositionsAreBent) {
+  test::Case c = case_of("", 1.0, 3, 4);
+  for (Recording& r : c.recordings) bend(r, 0.002);
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("truth's position"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
+TEST(Adequacy, CallsAClockThatWandersUnknownAndSaysItsPace) {
+  test::Case c = case_of("", 1.0, 3, 5);
+  // 60 ms to and fro in 16 s: a pace of 2.4 %
+  for (Recording& r : c.recordings) {
+    Recording wheels = r, truth = r;
+    for (Channel& channel : wheels.channels)
+      if (channel.name.rfind("truth_", 0) == 0) channel.values.assign(channel.values.size(), std::nan(""));
+    for (Channel& channel : truth.channels)
+      if (channel.name.rfind("truth_", 0) != 0) channel.values.assign(channel.values.size(), std::nan(""));
+    for (double& t : truth.time_s) t += 0.06 * std::sin(2.0 * kPi * t / 16.0);
+    Recording both = wheels;
+    std::vector<std::pair<double, std::pair<const Recording*, std::size_t>>> rows;
+    for (const Recording* of : {&wheels, &truth})
+      for (std::size_t i = 0; i < of->time_s.size(); ++i) rows.push_back({of->time_s[i], {of, i}});
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    both.time_s.clear();
+    for (Channel& channel : both.channels) channel.values.clear();
+    for (const auto& [time_s, row] : rows) {
+      both.time_s.push_back(time_s);
+      for (std::size_t k = 0; k < both.channels.size(); ++k)
+        both.channels[k].values.push_back(row.first->channels[k].values[row.second]);
+    }
+    r = both;
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("pace of its clock"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
+TEST(Adequacy, CallsItUnknownWhereTheTruthContradictsTheWheelsTimeAndAgain) {
+  // Wheels that spin for a quarter of a second, now on one side and now on the other, at no place and no speed of their
+  // own.
+  test::Case c = case_of("", 1.0, 3, 6);
+  Random random(9);
+  for (Recording& r : c.recordings)
+    for (int slips = 0; slips < 6; ++slips) {
+      const double at_s = random.uniform(5.0, 45.0);
+      const char* const wheel = random.uniform() < 0.5 ? "left_wheel_rad" : "right_wheel_rad";
+      const double by_rad = random.uniform(2.0, 4.0);
+      for (Channel& channel : r.channels)
+        for (std::size_t i = 0; channel.name == wheel && i < channel.values.size(); ++i)
+          channel.values[i] += by_rad * std::clamp((r.time_s[i] - at_s) / 0.25, 0.0, 1.0);
+    }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+}
+
+TEST(Refuted, NameIsWithdrawnAndSaidWhereARunThatWasNotFittedContradictsIt) {
+  test::Case slippery = case_of("slip_zone", 3.0, 4, 7), sound = case_of("", 1.0, 4, 7);
+  const std::vector<Recording> fitted(slippery.recordings.begin(), slippery.recordings.begin() + 3);
+  const Result<Diagnosis> borne_out = diagnose(fitted, {slippery.recordings[3]}, slippery.nominal);
+  ASSERT_TRUE(borne_out);
+  ASSERT_EQ(borne_out->findings.front().effect, "slip_zone");
+  const Result<Diagnosis> d = diagnose(fitted, {sound.recordings[3]}, slippery.nominal);
+  ASSERT_TRUE(d);
+  for (const Finding& f : d->findings) EXPECT_NE(f.effect, "slip_zone");
+  EXPECT_TRUE(std::any_of(d->warnings.begin(), d->warnings.end(), [](const std::string& w) {
+    return w.find("slip zone") != std::string::npos && w.find("not fitted") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace odolab
