@@ -1,6 +1,8 @@
 #include "core/diagnosis/adequacy.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/diagnosis/chi_square.h"
@@ -31,16 +33,47 @@ std::vector<const GenericTest*> strongest_first(const std::vector<GenericTest>& 
   return strong;
 }
 
+struct Left {
+  const GenericTest* group = nullptr;
+  std::vector<Response> shape;
+};
+
+// Of a model into which that group was let in last.
+std::vector<Response> shape_of(const GenericTest& group, const JointModel& with) {
+  std::vector<Response> shape;
+  if (group.curves.empty()) return shape;
+  const std::vector<double>& fitted = with.accepted.back().value;
+  const auto n = static_cast<Eigen::Index>(fitted.size());
+  const Eigen::Index first = with.first_column(static_cast<int>(with.accepted.size()) - 1);
+  const Eigen::MatrixXd covariance = group.test.inflation * with.covariance().block(first, first, n, n);
+  const Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(fitted.data(), n);
+  for (const GenericCurve& curve : group.curves) {
+    Response r;
+    r.variable = curve.variable;
+    r.channel = curve.channel;
+    r.at = curve.at;
+    for (const std::vector<double>& of_point : curve.basis) {
+      const Eigen::VectorXd basis = Eigen::Map<const Eigen::VectorXd>(of_point.data(), n);
+      const double at = basis.dot(value), band = 2.0 * std::sqrt(basis.dot(covariance * basis));
+      r.value.push_back(at);
+      r.low.push_back(at - band);
+      r.high.push_back(at + band);
+    }
+    shape.push_back(std::move(r));
+  }
+  return shape;
+}
+
 // The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
 // does anyway a score can promise without end.
-const GenericTest* what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
+Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
   for (const GenericTest* g : strongest_first(generic, error)) {
     JointModel with = joint;
     const double kept = let_in(with, *g);
     const double p = scaled_chi_square_tail(kept / g->test.inflation, g->test.freedom, g->test.batches) * g->tests;
-    if (p < error) return g;
+    if (p < error) return {g, shape_of(*g, with)};
   }
-  return nullptr;
+  return {};
 }
 
 // Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and nowhere
@@ -71,12 +104,13 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
   return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
 }
 
-Unnamed unnamed_by(const GenericTest& group, double gain, double share) {
+Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain, double share) {
   Unnamed u;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.gain = gain;
   u.share = share;
   u.p_value = group.p_value;
+  u.shape = std::move(shape);
   return u;
 }
 
@@ -104,7 +138,7 @@ std::optional<Unnamed> what_says_more(const JointModel& joint, double error) {
     const double kept = let_in(with, *g);
     if (!significant(*g, kept) || (best && beyond(kept) < best->gain)) continue;
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
-    best = unnamed_by(*g, beyond(kept), 1.0);
+    best = unnamed_by(*g, shape_of(*g, with), beyond(kept), 1.0);
   }
   return best;
 }
@@ -163,12 +197,13 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, cons
   out.generic = generic_tests(joint);
   double explained = of_mounting;
   for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
-  if (const GenericTest* left = what_is_left(joint, out.generic, error)) {
-    const double gain = std::max(0.0, left->test.statistic - left->test.freedom * left->test.inflation);
-    if (!is_worth_saying(joint, calibrated, *left))
+  if (const Left left = what_is_left(joint, out.generic, error); left.group) {
+    const CandidateTest& test = left.group->test;
+    const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
+    if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > kMostLeft * explained || is_in_pieces(evidence))
-      out.unnamed = unnamed_by(*left, gain, gain / std::max(1e-9, gain + explained - of_mounting));
+      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
   }
   if (!out.unnamed && names_physics(joint)) out.unnamed = what_says_more(joint, error);
   if (!out.unnamed) out.unnamed = what_contradicts(joint, calibrated, calibration.noise);

@@ -68,6 +68,25 @@ std::vector<Motions> motions_of(const DriveView& view, const Floor& floor, bool 
   return out;
 }
 
+// How far off the truth is along the middle of the floor, from one end to the other.
+GenericCurve curve_along(bool x, const Floor& floor) {
+  constexpr int kPoints = 25;
+  GenericCurve curve;
+  curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
+  curve.channel = x ? "truth off along x [m]" : "truth off along y [m]";
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = 2.0 * i / (kPoints - 1) - 1.0;
+    curve.at.push_back((x ? floor.middle.x_m : floor.middle.y_m) + u * floor.half_m);
+    std::vector<double> by(kFields, 0.0);
+    by[0] = (x ? 1.0 : -1.0) * u * floor.half_m;
+    // of degrees 2 and 3, along x with u alone; along y with v alone
+    by[x ? 2 : 7] = u * u * floor.half_m;
+    by[x ? 8 : 15] = u * u * u * floor.half_m;
+    curve.basis.push_back(std::move(by));
+  }
+  return curve;
+}
+
 }  // namespace
 
 std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked_at) {
@@ -90,6 +109,7 @@ std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked
     t.tests = looked_at;
     t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
     t.as_effect = term;
+    t.curves = {curve_along(true, floor), curve_along(false, floor)};
   });
   return tests;
 }

@@ -407,6 +407,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
 
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
+    d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
     Finding unknown;
     unknown.effect = "unknown";
     unknown.component = "vehicle";

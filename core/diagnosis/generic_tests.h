@@ -15,6 +15,13 @@ struct GenericWave {
   std::vector<std::size_t> cosine, sine;
 };
 
+// What a group comes to along an axis of its own.
+struct GenericCurve {
+  std::string variable, channel;
+  std::vector<double> at;
+  std::vector<std::vector<double>> basis;  // of each point by each value of the group
+};
+
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;
@@ -22,6 +29,7 @@ struct GenericTest {
   double p_value = 1.0;            // over all of them
   std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
   std::vector<GenericWave> waves;  // where it is periodic instead
+  std::vector<GenericCurve> curves;
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 

@@ -128,7 +128,8 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   Effect placebo = of;
   placebo.scan = {};
   placebo.shapes.clear();
-  placebo.shape_follows_amplitude = placebo.of_one_recording = placebo.clock_rate = false;
+  placebo.shape_follows_amplitude = placebo.of_one_recording = placebo.and_later_recordings = placebo.clock_rate =
+      false;
   for (Effect::Amplitude& a : placebo.amplitudes) a.low = -1e9, a.high = 1e9;
   const auto motions = of.motions;
   placebo.motions = [motions, shape](const DriveView& view, const std::vector<double>&) {
