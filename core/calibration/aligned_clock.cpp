@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/calibration/wheels_at.h"
+
 namespace odolab {
 
 namespace {
@@ -26,14 +28,9 @@ SummedWay way_of(const InnovationRun& run, const DifferentialDrive& drive) {
   SummedWay way;
   way.start_s = run.wheels.front().time_s;
   const auto n = static_cast<std::size_t>((run.wheels.back().time_s - way.start_s) / kStep_s) + 1;
-  std::size_t i = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const double t = way.start_s + static_cast<double>(k) * kStep_s;
-    while (i + 2 < run.wheels.size() && run.wheels[i + 1].time_s < t) ++i;
-    const WheelSample &a = run.wheels[i], &b = run.wheels[i + 1];
-    const double share = std::clamp((t - a.time_s) / (b.time_s - a.time_s), 0.0, 1.0);
-    const double left = drive.wheel_radius_left_m * (a.left_rad + share * (b.left_rad - a.left_rad));
-    const double right = drive.wheel_radius_right_m * (a.right_rad + share * (b.right_rad - a.right_rad));
+    const WheelSample now = wheels_at(run.wheels, way.start_s + static_cast<double>(k) * kStep_s);
+    const double left = drive.wheel_radius_left_m * now.left_rad, right = drive.wheel_radius_right_m * now.right_rad;
     way.forward_m.push_back(0.5 * (left + right));
     way.turn_rad.push_back((right - left) / drive.wheelbase_m);
   }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/calibration/late_truth.h"
+#include "core/calibration/wheels_at.h"
 
 namespace odolab {
 
@@ -15,16 +16,6 @@ struct Stretch {
   double left_rad = 0.0, right_rad = 0.0;
   double turn_rad = 0.0, way_m = 0.0;
 };
-
-WheelSample wheels_at(const std::vector<WheelSample>& wheels, double time_s) {
-  const auto after = std::lower_bound(wheels.begin(), wheels.end(), time_s,
-                                      [](const WheelSample& w, double t) { return w.time_s < t; });
-  if (after == wheels.begin()) return wheels.front();
-  if (after == wheels.end()) return wheels.back();
-  const WheelSample &a = *(after - 1), &b = *after;
-  const double u = (time_s - a.time_s) / (b.time_s - a.time_s);
-  return {time_s, a.left_rad + u * (b.left_rad - a.left_rad), a.right_rad + u * (b.right_rad - a.right_rad)};
-}
 
 // Long enough that clocks apart by a tenth of a second matter little, short enough that a turn is not taken for
 // another.

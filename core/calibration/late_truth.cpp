@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/wheels_at.h"
+
 namespace odolab {
 
 namespace {
@@ -14,12 +16,10 @@ constexpr double kPlainly = 0.8, kNotAtAll = 0.6;  // correlations
 template <typename Sample, typename Value>
 std::vector<double> growth(const std::vector<Sample>& samples, double start_s, double end_s, Value&& value) {
   std::vector<double> out;
-  std::size_t i = 0;
   double before = 0.0;
   for (double t = start_s; t < end_s; t += kBin_s) {
-    while (i + 2 < samples.size() && samples[i + 1].time_s < t) ++i;
-    const double share = std::clamp((t - samples[i].time_s) / (samples[i + 1].time_s - samples[i].time_s), 0.0, 1.0);
-    const double now = value(i) + share * (value(i + 1) - value(i));
+    const auto [after, share] = place_between(samples, t);
+    const double from = value(after - 1), now = from + share * (value(after) - from);
     if (t > start_s) out.push_back(now - before);
     before = now;
   }

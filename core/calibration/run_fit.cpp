@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/calibration/wheels_at.h"
+
 namespace odolab {
 
 namespace {
@@ -34,32 +36,19 @@ struct Stretch {
   double chord_m = 0.0;  // of the tracked point
 };
 
-struct Wheels {
-  std::vector<WheelSample> samples;
-  std::size_t at = 0;
-
-  WheelSample read(double time_s) {
-    while (at + 2 < samples.size() && samples[at + 1].time_s < time_s) ++at;
-    const WheelSample &a = samples[at], &b = samples[at + 1];
-    const double span_s = b.time_s - a.time_s;
-    const double u = span_s > 0.0 ? std::clamp((time_s - a.time_s) / span_s, 0.0, 1.0) : 0.0;
-    return {time_s, a.left_rad + u * (b.left_rad - a.left_rad), a.right_rad + u * (b.right_rad - a.right_rad)};
-  }
-};
-
 std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nominal, bool headings) {
   const DifferentialDrive& drive = std::get<DifferentialDrive>(nominal.kind);
-  Wheels wheels{wheel_samples(recording, drive)};
+  const std::vector<WheelSample> wheels = wheel_samples(recording, drive);
   std::vector<Stretch> stretches;
-  if (wheels.samples.size() < 2) return stretches;
-  const double first_s = wheels.samples.front().time_s, last_s = wheels.samples.back().time_s;
+  if (wheels.size() < 2) return stretches;
+  const double first_s = wheels.front().time_s, last_s = wheels.back().time_s;
   std::optional<TruthSample> from;
   WheelSample from_wheels;
   for (const TruthSample& to : truth_samples(recording)) {
     const double time_s = to.time_s - nominal.truth.time_offset_s;
     if (time_s < first_s || time_s > last_s || (headings && !to.heading_rad)) continue;
     if (from && to.time_s - from->time_s < kShortest_s) continue;
-    const WheelSample now = wheels.read(time_s);
+    const WheelSample now = wheels_at(wheels, time_s);
     if (from) {
       Stretch s;
       const double left_m = drive.wheel_radius_left_m * (now.left_rad - from_wheels.left_rad),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/calibration/minimise.h"
+#include "core/calibration/wheels_at.h"
 
 namespace odolab {
 
@@ -23,21 +24,18 @@ using Stretch = std::vector<Sample>;
 
 Stretch stretch_of(const InnovationRun& run, double from_s, double to_s, double late_s) {
   Stretch stretch;
-  double next_s = from_s, left = 0.0, right = 0.0;
-  std::size_t w = 0;
+  double next_s = from_s;
+  WheelSample before;
   for (std::size_t i = 0; i < run.truth.size(); ++i) {
     const TruthSample& t = run.truth[i];
     if (t.time_s < next_s || run.set_aside[i]) continue;
     if (t.time_s > to_s) break;
     const double at_s = t.time_s - late_s;
     if (at_s < run.wheels.front().time_s || at_s > run.wheels.back().time_s) continue;
-    while (w + 2 < run.wheels.size() && run.wheels[w + 1].time_s < at_s) ++w;
-    const WheelSample &a = run.wheels[w], &b = run.wheels[w + 1];
-    const double share = (at_s - a.time_s) / (b.time_s - a.time_s);
-    const double l = a.left_rad + share * (b.left_rad - a.left_rad),
-                 r = a.right_rad + share * (b.right_rad - a.right_rad);
-    stretch.push_back({stretch.empty() ? 0.0 : l - left, stretch.empty() ? 0.0 : r - right, t.position});
-    left = l, right = r;
+    const WheelSample now = wheels_at(run.wheels, at_s);
+    if (stretch.empty()) before = now;
+    stretch.push_back({now.left_rad - before.left_rad, now.right_rad - before.right_rad, t.position});
+    before = now;
     next_s = t.time_s + kApart_s;
   }
   return stretch;
