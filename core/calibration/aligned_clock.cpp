@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/calibration/wheels_at.h"
 
 namespace odolab {
@@ -146,6 +147,22 @@ std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const Innova
     }
   return AlignedClock{model.truth.time_offset_s + best_first * kStep_s, (best_first - best_last) * kStep_s / duration_s,
                       as_they_are - best};
+}
+
+std::vector<std::optional<AlignedClock>> aligned_clocks(const std::vector<InnovationRun>& runs,
+                                                        const std::function<InnovationModel(int run)>& model_of) {
+  std::vector<std::optional<AlignedClock>> clocks(runs.size());
+  parallel_for(static_cast<int>(runs.size()), [&](int run) {
+    const auto r = static_cast<std::size_t>(run);
+    clocks[r] = aligned_clock(runs[r], model_of(run));
+  });
+  return clocks;
+}
+
+bool worth_a_try(const std::vector<std::optional<AlignedClock>>& clocks) {
+  constexpr double kWorthATry = 50.0;  // of chi-square: samples taken as independent, which they are not
+  return std::any_of(clocks.begin(), clocks.end(),
+                     [](const std::optional<AlignedClock>& clock) { return clock && clock->gain >= kWorthATry; });
 }
 
 }  // namespace odolab

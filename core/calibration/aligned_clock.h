@@ -1,7 +1,9 @@
 // How the truth's clock lies against the wheels' by what both say from moment to moment: README.md, "Clocks".
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/calibration/innovations.h"
 
@@ -18,5 +20,12 @@ struct AlignedClock {
 // truth's only where the clocks agree, so the likelihood has many summits and a descent finds the nearest. None where
 // the truth is too sparse to tell or gives no headings.
 std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const InnovationModel& model);
+
+// Those of all runs, each by the model of that run.
+std::vector<std::optional<AlignedClock>> aligned_clocks(const std::vector<InnovationRun>& runs,
+                                                        const std::function<InnovationModel(int run)>& model_of);
+
+// Whether one of them gains so much that a fit from there is worth a try.
+bool worth_a_try(const std::vector<std::optional<AlignedClock>>& clocks);
 
 }  // namespace odolab

@@ -293,22 +293,26 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
 }
 
 // Where the moments say that they are elsewhere than the fit has them; empty where not, or where a clock is shared.
-std::vector<AlignedClock> aligned_clocks(const std::vector<Recording>& recordings, const LeastSquaresCalibration& fit,
-                                         const LeastSquaresOptions& options) {
-  constexpr double kWorthATry = 50.0;
+std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings, const LeastSquaresCalibration& fit,
+                                       const LeastSquaresOptions& options) {
   const auto* drive = std::get_if<DifferentialDrive>(&fit.vehicle.kind);
-  std::vector<AlignedClock> clocks;
-  if (!drive || fit.time_offset_s.size() != recordings.size() || options.one_truth_clock) return clocks;
-  double most = 0.0;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const Result<InnovationRun> run = innovation_run(recordings[r], fit.vehicle);
-    InnovationModel model{*drive, fit.vehicle.truth, fit.noise};
-    model.truth.time_offset_s = fit.time_offset_s[r];
-    const std::optional<AlignedClock> aligned = run ? aligned_clock(*run, model) : std::nullopt;
-    clocks.push_back(aligned.value_or(AlignedClock{fit.time_offset_s[r], 0.0, 0.0}));
-    most = std::max(most, clocks.back().gain);
+  if (!drive || fit.time_offset_s.size() != recordings.size() || options.one_truth_clock) return {};
+  std::vector<InnovationRun> runs;
+  for (const Recording& recording : recordings) {
+    Result<InnovationRun> run = innovation_run(recording, fit.vehicle);
+    if (!run) return {};
+    runs.push_back(std::move(*run));
   }
-  if (most < kWorthATry) clocks.clear();
+  const auto model_of = [&](int run) {
+    InnovationModel model{*drive, fit.vehicle.truth, fit.noise};
+    model.truth.time_offset_s = fit.time_offset_s[static_cast<std::size_t>(run)];
+    return model;
+  };
+  const std::vector<std::optional<AlignedClock>> found = aligned_clocks(runs, model_of);
+  if (!worth_a_try(found)) return {};
+  std::vector<AlignedClock> clocks;
+  for (std::size_t r = 0; r < found.size(); ++r)
+    clocks.push_back(found[r].value_or(AlignedClock{fit.time_offset_s[r], 0.0, 0.0}));
   return clocks;
 }
 
@@ -329,7 +333,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   if (!all || is_white(*all)) return all;
   // Clocks that run apart correlate them just so, and that is no noise.
   LeastSquaresOptions clocks_right = options;
-  clocks_right.clocks = aligned_clocks(recordings, *all, options);
+  clocks_right.clocks = moved_clocks(recordings, *all, options);
   const bool clocks_are_off = !clocks_right.clocks.empty();
   if (clocks_are_off) {
     const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);

@@ -1,6 +1,5 @@
 #include "core/diagnosis/clocks_first.h"
 
-#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -13,9 +12,6 @@
 namespace odolab {
 
 namespace {
-
-// Of chi-square: samples taken as independent, which they are not.
-constexpr double kWorthATry = 50.0;
 
 constexpr double kFreeEnough = 20.0;  // of twice the log-likelihood that slopes may lose
 
@@ -58,12 +54,7 @@ Lags likeliest(JointModel& joint, int run, Lags at) {
 }
 
 std::vector<std::optional<AlignedClock>> by_moments(const JointModel& joint) {
-  std::vector<std::optional<AlignedClock>> found(joint.runs().size());
-  parallel_for(static_cast<int>(found.size()), [&](int run) {
-    const auto r = static_cast<std::size_t>(run);
-    found[r] = aligned_clock(joint.runs()[r], joint.model_of(run));
-  });
-  return found;
+  return aligned_clocks(joint.runs(), [&](int run) { return joint.model_of(run); });
 }
 
 // From where the moments say or from where they are, whichever is likelier.
@@ -106,9 +97,7 @@ void align_clocks(JointModel& joint) { align(joint, by_moments(joint)); }
 
 void let_clocks_in(JointModel& joint) {
   const std::vector<std::optional<AlignedClock>> moments = by_moments(joint);
-  double most = 0.0;
-  for (const std::optional<AlignedClock>& m : moments) most = std::max(most, m ? m->gain : 0.0);
-  if (most < kWorthATry) return;
+  if (!worth_a_try(moments)) return;
 
   // From the freest: the simplest that is not beaten by one freer.
   const std::size_t n = joint.runs().size();
