@@ -95,7 +95,10 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   const Error stopped{"calibration", "stopped before its end", ""};
   for (const std::optional<Error>& fault : faults_in(recordings, nominal))
     if (fault) return *fault;
-  const std::vector<InnovationRun> on_one_clock = by_the_wheels_clock(runs, nominal.truth.time_offset_s);
+  const double late_s = nominal.truth.time_offset_s;
+  std::vector<InnovationRun> moved;
+  if (late_s != 0.0) moved = by_the_wheels_clock(runs, late_s);
+  const std::vector<InnovationRun>& on_one_clock = late_s != 0.0 ? moved : runs;
   if (const std::string contradiction = contradiction_in(on_one_clock, *drive); !contradiction.empty())
     return Error{recordings.size() == 1 ? recordings[0].name : "the recordings", contradiction,
                  "wheels and truth of one robot, in the units that the columns are named after"};

@@ -26,7 +26,9 @@ Stretch stretch_of(const InnovationRun& run, double from_s, double to_s, double 
   Stretch stretch;
   double next_s = from_s;
   WheelSample before;
-  for (std::size_t i = 0; i < run.truth.size(); ++i) {
+  const auto first = std::lower_bound(run.truth.begin(), run.truth.end(), from_s,
+                                      [](const TruthSample& t, double time_s) { return t.time_s < time_s; });
+  for (auto i = static_cast<std::size_t>(first - run.truth.begin()); i < run.truth.size(); ++i) {
     const TruthSample& t = run.truth[i];
     if (t.time_s < next_s || run.set_aside[i]) continue;
     if (t.time_s > to_s) break;
