@@ -40,6 +40,20 @@ GuidePage runs_page(PageTask task, std::string title, std::string words) {
           {"Press Drive; each square that comes home becomes a point."}};
 }
 
+GuidePage held_out_page() {
+  return {PageTask::held_out,
+          "Does it hold?",
+          {"Drives that the calibration has not seen, with the numbers as they were and with the new ones. Only this "
+           "shows that they are right, and not only fitted."},
+          {"Drop one or more recordings that know the true pose at their start and end, headings included. What the "
+           "odometry makes of them is compared with that."},
+          {"Press Drive: the calibrated robot drives another way, and the simulation knows the truth."}};
+}
+
+GuidePage vehicle_file_page() {
+  return {PageTask::finish, "Take it along", {"The calibrated vehicle file, and a page that tells how."}, {}, {}};
+}
+
 Guide umbmark_guide() {
   return {
       GuideKind::umbmark,
@@ -133,16 +147,8 @@ Guide castor_guide() {
             {"Each number with its uncertainty, which is that of the encoders' steps."},
             {},
             {}},
-           {PageTask::held_out,
-            "Does it hold?",
-            {"Drives that the calibration has not seen, with the numbers as they were and with the new ones. Only this "
-             "shows that "
-             "they are right, and not only fitted."},
-            {"Drop one or more recordings that know the true pose at their start and end, headings included. What the "
-             "odometry "
-             "makes of them is compared with that."},
-            {"Press Drive: the calibrated robot drives another way, and the simulation knows the truth."}},
-           {PageTask::finish, "Take it along", {"The calibrated vehicle file, and a page that tells how."}, {}, {}}}};
+           held_out_page(),
+           vehicle_file_page()}};
 }
 
 Guide linked_guide() {
@@ -170,16 +176,8 @@ Guide linked_guide() {
         {"Each number with its uncertainty. What the drives could not tell keeps its value, and is said."},
         {},
         {}},
-       {PageTask::held_out,
-        "Does it hold?",
-        {"Drives that the calibration has not seen, with the numbers as they were and with the new ones. Only this "
-         "shows that "
-         "they are right, and not only fitted."},
-        {"Drop one or more recordings that know the true pose at their start and end, headings included. What the "
-         "odometry "
-         "makes of them is compared with that."},
-        {"Press Drive: the calibrated robot drives another way, and the simulation knows the truth."}},
-       {PageTask::finish, "Take it along", {"The calibrated vehicle file, and a page that tells how."}, {}, {}}}};
+       held_out_page(),
+       vehicle_file_page()}};
 }
 
 }  // namespace

@@ -2,28 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "core/diagnosis/diagnosis.h"
-#include "test/support/linked_runs.h"
+#include "test/support/miscounting_runs.h"
 
 namespace odolab::test {
 namespace {
 
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-}
-
 // Truck B, which carries no truth, loses counts; truck A does not.
 TEST(UnitMismatch, OfAHeldOutRunIsEachTrucksOwn) {
-  LinkedRunSettings s;
-  s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.10 * by_rad : 0.0; };  // 3 rad/s
-  std::vector<Recording> fitted;
-  for (const std::uint64_t seed : {51, 52, 53}) fitted.push_back(linked_run(Clapper{}, s, seed));
-  Recording left_out = linked_run(Clapper{}, s, 61);
-  left_out.name = "left out.csv";
-  Vehicle nominal;
-  nominal.kind = Clapper{};
+  const auto [nominal, fitted, left_out] = miscounting_runs(Clapper{}, linked_run, 0.10);
   const Result<Diagnosis> d = diagnose(fitted, {}, nominal);
   ASSERT_TRUE(d.ok());
   ASSERT_FALSE(d->findings.empty());

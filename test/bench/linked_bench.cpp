@@ -3,6 +3,7 @@
 #include <box2d/box2d.h>
 
 #include "physics/simulation.h"
+#include "test/bench/real_time.h"
 
 namespace odolab {
 namespace {
@@ -36,25 +37,9 @@ void Box2dTwoTrucksAndALink(benchmark::State& state) {
   link.maxLength = 10.0f;
   b2LinearStiffness(link.stiffness, link.damping, 2.0f, 0.7f, trucks[0], trucks[1]);
   world.CreateJoint(&link);
-  double simulated_s = 0.0;
-  for (auto _ : state) {
-    for (int k = 0; k < 1000; ++k) world.Step(0.001f, 8, 3);
-    simulated_s += 1.0;
-  }
-  state.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
+  step_on(state, world);
 }
 BENCHMARK(Box2dTwoTrucksAndALink)->Unit(benchmark::kMillisecond);
-
-// A whole run at 1 ms: motors, encoders, controller, internal correction, driver and truth.
-void whole_runs(benchmark::State& state, const Scenario& scenario) {
-  double simulated_s = 0.0;
-  for (auto _ : state) {
-    Simulation simulation(scenario, 1);
-    run_to_end(simulation);
-    simulated_s += simulation.state().time_s;
-  }
-  state.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
-}
 
 // range(0): 1 with ten bumps and a rough floor.
 void ClapperOnItsRectangle(benchmark::State& state) {

@@ -5,6 +5,7 @@
 
 #include "physics/planar_world.h"
 #include "physics/simulation.h"
+#include "test/bench/real_time.h"
 
 namespace odolab {
 namespace {
@@ -28,12 +29,7 @@ void Box2dOneBodyTwoWheels(benchmark::State& state) {
     joint.maxForce = 150.0f;
     world.CreateJoint(&joint);
   }
-  double simulated_s = 0.0;
-  for (auto _ : state) {
-    for (int k = 0; k < 1000; ++k) world.Step(0.001f, 8, 3);
-    simulated_s += 1.0;
-  }
-  state.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
+  step_on(state, world);
 }
 BENCHMARK(Box2dOneBodyTwoWheels)->Unit(benchmark::kMillisecond);
 
@@ -44,13 +40,7 @@ void LabMateOnItsSquare(benchmark::State& state) {
   if (state.range(0) >= 2)
     for (int i = 1; i <= 10; ++i)
       scenario.floor.bumps.push_back({{0.36 * i, 0.0}, 0.5 * kPi, 1.5, 0.010, Under::inside_wheel});
-  double simulated_s = 0.0;
-  for (auto _ : state) {
-    Simulation simulation(scenario, 1);
-    run_to_end(simulation);
-    simulated_s += simulation.state().time_s;
-  }
-  state.counters["times_real_time"] = benchmark::Counter(simulated_s, benchmark::Counter::kIsRate);
+  whole_runs(state, scenario);
   state.SetLabel(state.range(0) == 0   ? "smooth floor"
                  : state.range(0) == 1 ? "rough floor"
                                        : "rough floor, ten cables");

@@ -37,14 +37,9 @@ const fs::path& eights() {
 
 std::string eight(const char* name) { return (eights() / name).string() + " "; }
 
-// Bad input: exit 2, one line that names all of `words`, and no file in `folder`.
+// And no file is written into `folder`.
 void expect_refused(const std::string& arguments, const std::vector<std::string>& words, const fs::path& folder) {
-  const Outcome outcome = odolab(arguments);
-  EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
-  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
-  EXPECT_EQ(outcome.output, "") << arguments;
+  odolab::expect_refused(arguments, words);
   EXPECT_TRUE(fs::is_empty(folder)) << "half-written output";
 }
 

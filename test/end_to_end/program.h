@@ -1,13 +1,16 @@
 // Runs the program as a script would.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace odolab {
 
@@ -45,6 +48,16 @@ inline Outcome odolab(const std::string& arguments) {
   std::filesystem::remove(log.string() + ".out");
   std::filesystem::remove(log.string() + ".err");
   return outcome;
+}
+
+// Bad usage or bad input: exit 2, one line that names all of `words`, and nothing on standard output.
+inline void expect_refused(const std::string& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = odolab(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.errors;
+  EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.errors.find(word), std::string::npos) << word << " in: " << outcome.errors;
+  EXPECT_EQ(outcome.output, "") << arguments;
 }
 
 }  // namespace odolab

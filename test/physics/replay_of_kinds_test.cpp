@@ -9,6 +9,7 @@
 #include "core/scenario/suited_scenario.h"
 #include "physics/replay.h"
 #include "physics/simulation.h"
+#include "test/support/finished_run.h"
 
 namespace odolab {
 namespace {
@@ -26,12 +27,7 @@ Scenario corner(const std::string& file) {
   return scenario;
 }
 
-Recording recorded(const Scenario& scenario) {
-  Simulation simulation(scenario, 3);
-  run_to_end(simulation, 120.0);
-  EXPECT_TRUE(simulation.state().finished);
-  return simulation.recording();
-}
+Recording recorded(const Scenario& scenario) { return finished(scenario, 3).recording(); }
 
 Scenario replaying(const Scenario& scenario, const Recording& recording) {
   Scenario again = scenario;

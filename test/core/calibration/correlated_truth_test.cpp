@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/calibration/least_squares.h"
+#include "test/support/known_drive.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -60,15 +61,7 @@ TEST(CorrelatedTruth, OfATrackerThatSmoothsBendsNoCalibration) {
   const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);
   ASSERT_TRUE(fit);
   EXPECT_GT(fit->truth_apart_s, 0.0) << fit->lasting_correlation;
-  const DifferentialDrive found = std::get<DifferentialDrive>(fit->vehicle.kind);
-  // Four standard errors of three parameters: passed by chance 9998 times in 10 000.
-  const std::pair<const char*, double> off[] = {
-      {"wheelbase_m", found.wheelbase_m - c.actual.wheelbase_m},
-      {"wheel_radius_left_m", found.wheel_radius_left_m - c.actual.wheel_radius_left_m},
-      {"wheel_radius_right_m", found.wheel_radius_right_m - c.actual.wheel_radius_right_m}};
-  for (const ParameterEstimate& p : fit->parameters)
-    for (const auto& [name, by_m] : off)
-      EXPECT_TRUE(p.name != name || std::abs(by_m) < 4.0 * p.stderr_value) << name << " off by " << by_m;
+  expect_holds(*fit, c.actual);
 }
 
 TEST(CorrelatedTruth, IsNotSuspectedWhereTheNoiseIsWhite) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "physics/simulation.h"
+#include "test/support/finished_run.h"
 
 namespace odolab {
 
@@ -23,12 +24,6 @@ inline Scenario table_drive(std::vector<WheelSpeeds> phases, std::vector<ActiveE
   scenario.path = WheelSpeedPath{std::move(phases), 0.5};
   scenario.effects = std::move(effects);
   return scenario;
-}
-
-inline Simulation finished(const Scenario& scenario) {
-  Simulation simulation(scenario, 1);
-  run_to_end(simulation, 600.0);
-  return simulation;
 }
 
 inline Pose end_pose(const Scenario& scenario) { return finished(scenario).state().true_pose; }

@@ -5,6 +5,7 @@
 #include "physics/ground.h"
 #include "physics/sensors/slip_ring.h"
 #include "physics/simulation.h"
+#include "test/support/finished_run.h"
 
 namespace odolab {
 namespace {
@@ -25,13 +26,6 @@ Scenario andros_with_trailer(const Path& path) {
   scenario.path = path;
   scenario.step_s = 0.002;
   return scenario;
-}
-
-Simulation finished(const Scenario& scenario) {
-  Simulation simulation(scenario, 1);
-  run_to_end(simulation, 600.0);
-  EXPECT_TRUE(simulation.state().finished);
-  return simulation;
 }
 
 TEST(EncoderTrailer, KnowsWhereItIsThoughTheTracksSlip) {

@@ -4,6 +4,7 @@
 #include "core/recording/vehicle_samples.h"
 #include "physics/ground.h"
 #include "physics/simulation.h"
+#include "test/support/finished_run.h"
 
 namespace odolab {
 namespace {
@@ -23,13 +24,6 @@ Scenario k2a(const Path& path) {
   scenario.actual.moment_of_inertia_kgm2 = 8.0;
   scenario.step_s = 0.002;
   return scenario;
-}
-
-Simulation finished(const Scenario& scenario) {
-  Simulation simulation(scenario, 1);
-  run_to_end(simulation, 600.0);
-  EXPECT_TRUE(simulation.state().finished);
-  return simulation;
 }
 
 void put_cable_under(Scenario& scenario, Under under) {

@@ -3,26 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "core/diagnosis/mismatch.h"
-#include "test/support/linked_runs.h"
+#include "test/support/miscounting_runs.h"
 
 namespace odolab::test {
 namespace {
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0.0 : sum / double(values.size());
-}
-
 TEST(HeldOutResiduals, OfATrailerAreNoiseOnceTheWheelThatErrsIsKnown) {
-  LinkedRunSettings s;
-  s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
-  std::vector<Recording> fitted;
-  for (const std::uint64_t seed : {51, 52, 53}) fitted.push_back(trailer_run(EncoderTrailer{}, s, seed));
-  Recording left_out = trailer_run(EncoderTrailer{}, s, 61);
-  left_out.name = "left out.csv";
-  Vehicle nominal;
-  nominal.kind = EncoderTrailer{};
+  const auto [nominal, fitted, left_out] = miscounting_runs(EncoderTrailer{}, trailer_run, 0.04);
   const Result<Diagnosis> d = diagnose(fitted, {}, nominal);
   ASSERT_TRUE(d.ok());
   ASSERT_FALSE(d->findings.empty());
