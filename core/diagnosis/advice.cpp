@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <optional>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/advised_drive.h"
-#include "core/diagnosis/chi_square.h"
+#include "core/diagnosis/drive_plan.h"
 #include "core/diagnosis/select.h"
+#include "core/diagnosis/visible.h"
 
 namespace odolab {
 
@@ -17,89 +17,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPower = 1.2816;     // normal quantile of 90 %
-constexpr int kShapes = 9;            // of a scan, to find what is typical
-constexpr double kLongest_s = 180.0;  // of an advised drive
-constexpr int kMostDrives = 5;
-
-std::string text(const char* format, double a = 0.0, double b = 0.0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
-
 double quantile(std::vector<double> v, double share) {
   if (v.empty()) return 0.0;
   const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
   std::nth_element(v.begin(), v.begin() + k, v.end());
   return v[static_cast<std::size_t>(k)];
-}
-
-// The chi-square that is exceeded with that probability.
-double chi_square_at(double probability, int freedom) {
-  double low = 0.0, high = 200.0;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (chi_square_tail(middle, freedom) > probability ? low : high) = middle;
-  }
-  return high;
-}
-
-// An entry of the catalogue at a typical shape, and what would have been seen of it.
-struct Visible {
-  const Effect* effect = nullptr;
-  std::vector<double> shape;
-  double needed = 1e9;    // smallest size that would have been seen, in units of the medium one
-  double standard = 0.0;  // standard deviations of the weakest amplitude that are needed
-  double survives = 0.0;
-  double inflation = 1.0;
-  int weakest = 0;  // amplitude
-  bool excited = false;
-};
-
-Visible visible_at(const JointModel& joint, const Effect& e, const std::vector<double>& shape, double probability) {
-  Visible out;
-  out.effect = &e;
-  out.shape = shape;
-  const CandidateTest t = joint.test(joint.columns_of(e, shape), -1, !e.local);
-  out.standard = std::sqrt(chi_square_at(probability, static_cast<int>(e.amplitudes.size()))) + kPower;
-  if (t.value.empty()) return out;
-  out.excited = true;
-  out.survives = t.survives;
-  out.inflation = t.inflation;
-  out.needed = 0.0;
-  for (std::size_t k = 0; k < t.value.size(); ++k) {
-    const double needed = out.standard * t.stderr_value[k] * std::sqrt(t.inflation) / e.amplitudes[k].medium;
-    if (needed > out.needed) out.needed = needed, out.weakest = static_cast<int>(k);
-  }
-  return out;
-}
-
-// Nothing where the recordings are too few for it to be asked.
-std::optional<Visible> visible(const JointModel& joint, const Effect& e, double family_wise_error) {
-  std::vector<std::vector<double>> shapes{{}};
-  std::size_t scanned = 1;
-  if (e.shape_follows_amplitude) {
-    shapes = {{e.amplitudes[0].medium}};
-    scanned = e.scan(joint.views()).size();
-  } else if (e.scan) {
-    const std::vector<std::vector<double>> all = e.scan(joint.views());
-    scanned = std::max<std::size_t>(1, all.size());
-    shapes.clear();
-    for (std::size_t k = 0; k < kShapes && !all.empty(); ++k)
-      shapes.push_back(all[(2 * k + 1) * all.size() / (2 * kShapes)]);
-  }
-  const double probability =
-      family_wise_error /
-      (static_cast<double>(catalogue().size() * scanned * std::max<std::size_t>(1, e.forms.size())));
-  if (shapes.empty()) return std::nullopt;
-  std::vector<Visible> of;
-  for (std::vector<double>& s : shapes) {
-    if (e.forms.size() > 1) s.push_back(0.0);
-    of.push_back(visible_at(joint, e, s, probability));
-  }
-  std::stable_sort(of.begin(), of.end(), [](const Visible& a, const Visible& b) { return a.needed < b.needed; });
-  return of[of.size() / 2];
 }
 
 DrivingRange range_of(const JointModel& joint) {
@@ -178,139 +100,11 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   return out;
 }
 
-// What is to be decided: whether the columns [from, from + value.size()) have that value, whatever those of `free` are.
-struct Decision {
-  int from = 0;
-  VectorXd value;
-  std::vector<int> free;
-  double inflation = 1.0, needed = 5.0;
-};
-
-// In standard deviations.
-double separation(const MatrixXd& information, const Decision& d) {
-  const auto m = static_cast<Eigen::Index>(d.free.size()), n = d.value.size();
-  MatrixXd rest(m, m), cross(m, n);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    for (Eigen::Index j = 0; j < m; ++j) rest(i, j) = information(d.free[i], d.free[j]);
-    for (Eigen::Index j = 0; j < n; ++j) cross(i, j) = information(d.free[i], d.from + j);
-  }
-  const MatrixXd own = information.block(d.from, d.from, n, n);
-  // Scaled, so that what is not excited at all does no harm.
-  VectorXd scale(m);
-  for (Eigen::Index i = 0; i < m; ++i) scale(i) = rest(i, i) > 0.0 ? 1.0 / std::sqrt(rest(i, i)) : 0.0;
-  const MatrixXd scaled = scale.asDiagonal() * rest * scale.asDiagonal() + 1e-9 * MatrixXd::Identity(m, m);
-  const MatrixXd projected = scale.asDiagonal() * cross;
-  const MatrixXd left = own - projected.transpose() * scaled.ldlt().solve(projected);
-  return std::sqrt(std::max(0.0, d.value.dot(left * d.value)) / d.inflation);
-}
-
-struct Plan {
-  std::vector<int> times;  // of each manoeuvre
-  double duration_s = 0.0;
-  std::vector<double> reached;
-  bool any = false;
-};
-
-// Greedy: at each step the manoeuvre that closes most of what is open, for its time.
-Plan planned(const MatrixXd& known, const std::vector<MatrixXd>& adds, const std::vector<AdvisedDrive>& all,
-             const std::vector<Decision>& decisions) {
-  Plan plan;
-  plan.times.assign(all.size(), 0);
-  MatrixXd now = known;
-  const auto open = [&](const MatrixXd& i) {
-    double sum = 0.0;
-    for (const Decision& d : decisions) sum += 1.0 - std::min(1.0, std::pow(separation(i, d) / d.needed, 2));
-    return sum;
-  };
-  double left = open(now);
-  for (int step = 0; step < kMostDrives && left > 1e-6; ++step) {
-    int best = -1;
-    double best_rate = 0.0;
-    for (std::size_t m = 0; m < all.size(); ++m) {
-      if (plan.duration_s + all[m].duration_s() > kLongest_s) continue;
-      const double rate = (left - open(now + adds[m])) / all[m].duration_s();
-      if (rate > best_rate) best_rate = rate, best = static_cast<int>(m);
-    }
-    if (best < 0 || best_rate * all[best].duration_s() < 0.02) break;
-    now += adds[best];
-    ++plan.times[best];
-    plan.duration_s += all[best].duration_s();
-    plan.any = true;
-    left = open(now);
-  }
-  for (const Decision& d : decisions) plan.reached.push_back(separation(now, d));
-  return plan;
-}
-
-std::string in_words(const Plan& plan, const std::vector<AdvisedDrive>& all) {
-  std::string s;
-  for (std::size_t m = 0; m < all.size(); ++m)
-    if (plan.times[m] > 0) {
-      s += (s.empty() ? "" : "; and ") + all[m].sentence;
-      if (plan.times[m] > 1) s += plan.times[m] == 2 ? ", twice" : text(", %.0f times", plan.times[m]);
-    }
-  return s + text(", %.0f s in all", std::ceil(plan.duration_s));
-}
-
-std::vector<DriveLeg> legs_of(const Plan& plan, const std::vector<AdvisedDrive>& all) {
-  std::vector<DriveLeg> legs;
-  for (std::size_t m = 0; m < all.size(); ++m)
-    for (int k = 0; k < plan.times[m]; ++k) legs.insert(legs.end(), all[m].legs.begin(), all[m].legs.end());
-  return legs;
-}
-
-std::string because_of(const Visible& v) {
-  if (!v.excited) return "these drives hold nothing that would show it";
-  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  const std::string unit = a.unit == "1" ? "" : " " + a.unit;
-  const bool absorbed = v.survives < 0.05;
-  const std::string share =
-      absorbed ? text("on these drives calibration absorbs %.3g %% of what it would do: ", 100.0 * (1.0 - v.survives))
-               : "";
-  if (v.needed > 1e4) return share + "none of any size would have shown";
-  return share + text("less than %.2g", v.needed * a.medium) + unit + " would not have shown here" +
-         text(", and %.2g", a.medium) + unit + " is of importance";
-}
-
 }  // namespace
 
 Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, double family_wise_error) {
   Advice out;
-  const bool commands = joint.views().front().from_commands;
-  std::vector<const Effect*> asked;
-  for (const Effect& e : catalogue()) {
-    if (e.only_commands && !commands) continue;
-    if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) continue;
-    if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
-                    [&](const AcceptedEffect& a) { return a.effect->name == e.name; }))
-      continue;
-    if (e.name == "wheel_toe") continue;  // a mounting turned the other way; seen as that
-    asked.push_back(&e);
-  }
-  std::vector<std::optional<Visible>> looks(asked.size());
-  parallel_for(static_cast<int>(asked.size()), [&](int i) { looks[i] = visible(joint, *asked[i], family_wise_error); });
-  // Of an effect that shows in several ways the clearest counts; of one that several parts may have, the part on which
-  // it shows least.
-  std::vector<Visible> seen, dark;
-  for (const std::optional<Visible>& v : looks) {
-    if (!v) continue;
-    const auto same = std::find_if(seen.begin(), seen.end(), [&](const Visible& s) {
-      return s.effect->name == v->effect->name && s.effect->component == v->effect->component;
-    });
-    if (same == seen.end())
-      seen.push_back(*v);
-    else if (v->needed < same->needed)
-      *same = *v;
-  }
-  for (const Visible& v : seen) {
-    if (v.needed <= 1.0) continue;
-    const auto same =
-        std::find_if(dark.begin(), dark.end(), [&](const Visible& d) { return d.effect->name == v.effect->name; });
-    if (same == dark.end())
-      dark.push_back(v);
-    else if (v.needed > same->needed)
-      *same = v;
-  }
+  const std::vector<Visible> dark = unseen(joint, family_wise_error);
   if (dark.empty() && confused.empty()) return out;
 
   const DrivingRange range = range_of(joint);
@@ -422,13 +216,13 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
     NotTestable n;
     n.effect = dark[k].effect->name;
     n.because = because_of(dark[k]);
-    const Plan plan = planned(known, adds, all, {sights[k]});
+    const DrivePlan plan = planned(known, adds, all, {sights[k]});
     n.drive_this =
         plan.any && plan.reached[0] >= 0.7 * sights[k].needed ? in_words(plan, all) : dark[k].effect->told_apart_by;
     out.not_testable.push_back(n);
   }
   if (!pairs.empty()) {
-    const Plan plan = planned(known, adds, all, pairs);
+    const DrivePlan plan = planned(known, adds, all, pairs);
     std::size_t least = 0;
     for (std::size_t k = 1; k < pairs.size(); ++k)
       if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
@@ -438,13 +232,13 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
     if (plan.any && plan.reached[least] >= 0.7 * pairs[least].needed) {
       out.next_drive =
           in_words(plan, all) + ": tells " + names +
-          text(" by %.0f standard deviations, now %.1f", plan.reached[least], separation(known, pairs[least]));
+          formatted(" by %.0f standard deviations, now %.1f", plan.reached[least], separation(known, pairs[least]));
       out.next_legs = legs_of(plan, all);
     } else {
       out.next_drive = a.effect->told_apart_by + ": tells " + names;
     }
   } else if (!sights.empty()) {
-    const Plan plan = planned(known, adds, all, sights);
+    const DrivePlan plan = planned(known, adds, all, sights);
     std::string names;
     int named = 0;
     for (std::size_t k = 0; k < sights.size(); ++k)
