@@ -7,6 +7,7 @@
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effect_motions.h"
 #include "core/diagnosis/select.h"
+#include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/traces.h"

@@ -1,6 +1,6 @@
 #include "core/diagnosis/units/unit_models.h"
 
-#include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {

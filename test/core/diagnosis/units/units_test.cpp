@@ -4,6 +4,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/unit_recordings.h"

@@ -1,0 +1,29 @@
+// What the units found, as findings of the vehicle: README.md in this folder, 4.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/geometry_fit.h"
+
+namespace odolab {
+
+// The findings of one unit in the vehicle's words. What remains of the truth's mounting is a biased encoder, or lengths
+// that are calibration.
+void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRounding& rounding,
+                     std::vector<Finding>& all);
+
+// A patch of floor that one unit names looks like pushes and bumps to units that only touch it.
+void put_events_into_their_zones(std::vector<Finding>& all);
+
+// As with one drive: what is left without a name beside names that stand must be a fair part of the evidence.
+// Whether something was taken out.
+bool leave_out_small_rest(std::vector<Finding>& all);
+
+// Biased encoders by the geometry's fit.
+void add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units, std::vector<Finding>& all);
+
+// Mounting and clock of the truth where no unit carries it.
+void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);
+
+}  // namespace odolab
