@@ -61,8 +61,7 @@ void add_proof(ui::DiagnosisView& view, const Diagnosis& d) {
                      : d.left_out_in_turn ? "Each run predicted from the others"
                                           : "On the runs that were held out";
   const auto add = [&](const char* label, const std::optional<FitFigures>& f, ui::ProofBar::Kind kind) {
-    if (f && (f->position_rms_m > 0.0 || f->heading_rms_rad > 0.0))  // exactly zero: there was nothing to measure it on
-      view.proof.push_back({label, f->position_rms_m, f->heading_rms_rad, kind});
+    if (f && f->gathered()) view.proof.push_back({label, f->position_rms_m, f->heading_rms_rad, kind});
   };
   add("calibrated only", fit.calibrated, ui::ProofBar::Kind::calibrated);
   if (!d.findings.empty()) add("with what was found", fit.with_findings, ui::ProofBar::Kind::with_findings);

@@ -68,6 +68,9 @@ struct FitFigures {
   double position_rms_m = 0.0;  // gathered over a metre or a radian, from a true start
   double heading_rms_rad = 0.0;
   double normalised_chi2 = 0.0;
+
+  // False: there was nothing to gather them over, as of a truth without headings; both are then exactly zero.
+  bool gathered() const { return position_rms_m > 0.0 || heading_rms_rad > 0.0; }
 };
 
 struct FitTable {

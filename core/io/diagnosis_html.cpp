@@ -17,8 +17,8 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kMostRecordings = 4;     // drawn; more make a page that nobody reads
-constexpr std::size_t kMostResponses = 3;      // the strongest
+constexpr std::size_t kMostRecordings = 4;  // drawn; more make a page that nobody reads
+constexpr std::size_t kMostResponses = 3;   // the strongest
 
 // Where the mismatch is largest comes first.
 std::vector<const Residuals*> drawn_first(const std::vector<Residuals>& all) {
@@ -171,9 +171,13 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
     BarGroup group{part, {}};
     const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
       if (!figures) return;
+      const std::string chi2 = number_text("%.2f", figures->normalised_chi2);
+      if (!figures->gathered()) {
+        table.push_back({part + ": " + name, "not measured", "not measured", chi2});
+        return;
+      }
       table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                       number_text("%.3f", degrees(figures->heading_rms_rad)),
-                       number_text("%.2f", figures->normalised_chi2)});
+                       number_text("%.3f", degrees(figures->heading_rms_rad)), chi2});
       group.bars.push_back(
           {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };

@@ -109,7 +109,7 @@ std::string fit_line(const char* name, const FitTable& table) {
   const auto add = [&](const char* what, const std::optional<FitFigures>& f) {
     if (f) line += (line.empty() ? "" : "  ->  ") + std::string(what) + " " + figures_text(*f);
   };
-  if (table.with_findings && table.with_findings->position_rms_m == 0.0 && table.with_findings->heading_rms_rad == 0.0)
+  if (table.with_findings && !table.with_findings->gathered())
     return std::string(name) + "not to be had: it takes the truth's headings";
   add("nominal", table.nominal);
   add("calibrated", table.calibrated);

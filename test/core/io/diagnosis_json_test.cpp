@@ -24,7 +24,8 @@ TEST(DiagnosisJson, SaysWhatTheSchemasExampleSays) {
   const nlohmann::json& eccentric = json["findings"][0];
   EXPECT_EQ(eccentric["effect"], "wheel_eccentricity");
   EXPECT_EQ(eccentric["component"], "left_wheel");
-  EXPECT_EQ(eccentric["parameters"]["amplitude"], (nlohmann::json{{"value", 0.006}, {"stderr", 0.0001}, {"unit", "1"}}));
+  EXPECT_EQ(eccentric["parameters"]["amplitude"],
+            (nlohmann::json{{"value", 0.006}, {"stderr", 0.0001}, {"unit", "1"}}));
   EXPECT_EQ(eccentric["evidence"], (nlohmann::json{{"log_likelihood_gain", 412.0}, {"p_value", 1e-12}}));
   EXPECT_EQ(eccentric["alternatives"][0]["log_likelihood_gain"], 3.1);
   EXPECT_EQ(eccentric["alternatives"][0]["effect"], "wheel_eccentricity");
@@ -45,7 +46,8 @@ TEST(DiagnosisJson, SaysWhatTheSchemasExampleSays) {
 
 TEST(DiagnosisJson, WhereHoldsOnlyWhatApplies) {
   const nlohmann::json json = parsed(test::diagnosis_by_hand());
-  EXPECT_EQ(json["findings"][0]["where"], (nlohmann::json{{"regime", "once in each turn of the wheel, at every speed"}}));
+  EXPECT_EQ(json["findings"][0]["where"],
+            (nlohmann::json{{"regime", "once in each turn of the wheel, at every speed"}}));
   EXPECT_EQ(json["findings"][1]["where"], (nlohmann::json::parse(R"({"time_s": [[3.75, 7.25]], "recording": "run_3.csv",
                                            "zone": {"x_m": 2.2, "y_m": 0.1, "radius_m": 0.7}})")));
 }
@@ -65,7 +67,8 @@ TEST(DiagnosisJson, KnowsEveryVerdictByTheSchemasWord) {
 
 TEST(DiagnosisJson, AnEmptyDiagnosisHasEveryKey) {
   const nlohmann::json json = parsed(Diagnosis{});
-  for (const char* key : {"schema", "verdict", "calibration", "findings", "fit", "simulation", "not_testable_here", "next_drive"})
+  for (const char* key :
+       {"schema", "verdict", "calibration", "findings", "fit", "simulation", "not_testable_here", "next_drive"})
     EXPECT_TRUE(json.contains(key)) << key;
   EXPECT_TRUE(json["findings"].is_array());
   EXPECT_TRUE(json["not_testable_here"].is_array());
@@ -77,6 +80,16 @@ TEST(DiagnosisJson, WhatIsNotDeterminedHasNoError) {
   const nlohmann::json json = parsed(test::diagnosis_by_hand());
   EXPECT_TRUE(json["calibration"]["truth_mounting.x_m"]["stderr"].is_null());
   EXPECT_EQ(json["calibration"]["truth_mounting.x_m"]["value"], 0.0);
+}
+
+TEST(DiagnosisJson, ErrorsThatATruthWithoutHeadingsDoesNotTellAreNull) {
+  Diagnosis diagnosis = test::diagnosis_by_hand();
+  diagnosis.held_out.calibrated = FitFigures{0.0, 0.0, 3.2};
+  const nlohmann::json held_out = parsed(diagnosis)["fit"]["held_out"];
+  EXPECT_TRUE(held_out["calibrated"]["position_rms_m"].is_null());
+  EXPECT_TRUE(held_out["calibrated"]["heading_rms_rad"].is_null());
+  EXPECT_EQ(held_out["calibrated"]["normalised_chi2"], 3.2);
+  EXPECT_EQ(held_out["with_findings"]["position_rms_m"], 0.0019);
 }
 
 }  // namespace
