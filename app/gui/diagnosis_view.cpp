@@ -8,6 +8,7 @@
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/number_text.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -19,7 +20,7 @@ std::string capital(std::string text) {
 }
 
 std::string guess_words(const std::string& guess) {
-  return guess.empty() ? "nothing is missing" : guess == kOutsideGuess ? "something in no list" : with_blanks(guess);
+  return guess.empty() ? "nothing is missing" : guess == kOutsideGuess ? "something in no list" : effect_words(guess);
 }
 
 // A log-likelihood gain: what is large needs no digits behind the point.
@@ -42,8 +43,7 @@ ui::FindingCard card_of(const Finding& f, bool on) {
   card.where = f.effect == "unknown" ? "" : where_text(f.where);  // an unknown's sentence says it
   card.evidence = evidence_words(f);
   for (const FoundParameter& p : f.parameters)
-    card.parameters.emplace_back(p.name.rfind("per_", 0) == 0 ? "amount" : name_text(p.name),
-                                 quantity_text(p.value, p.stderr_value, p.unit));
+    card.parameters.emplace_back(parameter_words(p.name), quantity_text(p.value, p.stderr_value, p.unit));
   for (const Alternative& a : f.alternatives) {
     card.alternatives.emplace_back((f.effect == "unknown" ? "resembles " : "or ") + effect_text(a.effect, a.component) +
                                        " (gain " + gain_text(a.log_likelihood_gain) + ")",
@@ -80,7 +80,7 @@ ui::MysteryView mystery_view(const DrawnMystery& mystery, const std::optional<st
   m.guessed_right = guess && *guess == right;
   m.answer = mystery.kind == concealed::Kind::nothing ? "Nothing was concealed."
              : mystery.kind == concealed::Kind::outside
-                 ? capital(with_blanks(mystery.effect.effect)) + ": it stands in no list."
+                 ? capital(effect_words(mystery.effect.effect)) + ": it stands in no list."
                  : capital(effect_text(mystery.effect.effect, mystery.effect.component)) + ".";
   if (!diagnosis) return m;
   m.tool_asked = true;
@@ -154,9 +154,9 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   if (const auto at = simulations_.find(on_); at != simulations_.end()) v.simulated_now = at->second.error;
   add_proof(v, *d);
   for (const NotTestable& n : d->not_testable)
-    v.not_testable.emplace_back(capital(with_blanks(n.effect)),
+    v.not_testable.emplace_back(capital(effect_words(n.effect)),
                                 capital(n.because) + ". " + capital(n.drive_this) + ".");
-  if (!d->next_drive.empty()) v.next_drive = capital(with_blanks(d->next_drive)) + ".";
+  if (!d->next_drive.empty()) v.next_drive = capital(d->next_drive) + ".";
   const auto* drive = std::get_if<DifferentialDrive>(&answer_->nominal.kind);
   if (drive && !d->next_legs.empty()) v.advised_way = advised_way_;
   v.can_simulate_advice = drive && !d->next_legs.empty() && !v.busy;
@@ -195,7 +195,7 @@ ui::FloorScene diagnosis_scene(const ui::DiagnosisView& view, const ui::Diagnosi
   if (view.diagnosis)
     for (const Finding& f : view.diagnosis->findings)
       if (f.where.zone)
-        scene.discs.push_back({{f.where.zone->x_m, f.where.zone->y_m}, f.where.zone->radius_m, with_blanks(f.effect)});
+        scene.discs.push_back({{f.where.zone->x_m, f.where.zone->y_m}, f.where.zone->radius_m, effect_words(f.effect)});
   scene.planned_name = "advised";
   if (state.show_advice) scene.planned = view.advised_way;
   return scene;

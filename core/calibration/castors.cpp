@@ -217,9 +217,10 @@ Result<InternalCalibration> calibrate_castors(const std::vector<Recording>& reco
     for (const Revolution& cw : runs)
       for (const Revolution& ccw : runs)
         both_ways = both_ways || (cw.clockwise && !ccw.clockwise && cw.still == ccw.still && cw.still != c);
-    const std::string castor = "castor[" + std::to_string(c + 1) + "]";
+    const std::string number = std::to_string(c + 1), castor = "castor[" + number + "]";
     if (!both_ways)
-      result.cannot_tell.push_back(castor + ": it did not go both ways about one still castor; hold another castor " +
+      result.cannot_tell.push_back("castor " + number +
+                                   ": it did not go both ways about one still castor; hold another castor " +
                                    "still and drive clockwise, then counter-clockwise");
     for (std::size_t k = 0; k < std::size(kKeys); ++k)
       result.parameters.push_back({castor + "." + kKeys[k].name, kKeys[k].unit, before.castors[c].*kKeys[k].value,

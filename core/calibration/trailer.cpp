@@ -150,7 +150,8 @@ Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& reco
   if (!goes_on(progress, 1.0)) return Error{"calibration", "stopped before its end", ""};
   if (!found.determined(kWheelbaseTow) || !found.determined(kWheelbaseTrailer))
     result.cannot_tell.push_back("a wheelbase: drive turns");
-  if (!found.determined(kDrawbar)) result.cannot_tell.push_back("drawbar_length_m: drive with the trailer at an angle");
+  if (!found.determined(kDrawbar))
+    result.cannot_tell.push_back("the drawbar's length: drive with the trailer at an angle");
 
   for (int unknown = 0; unknown < kUnknowns; ++unknown)
     if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;

@@ -9,6 +9,7 @@
 #include "core/diagnosis/drive_plan.h"
 #include "core/diagnosis/select.h"
 #include "core/diagnosis/visible.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -228,7 +229,7 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
       if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
     const Confusion& between = confused[least < confused.size() ? least : other_forms[least - confused.size()].first];
     const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(between.accepted)];
-    const std::string names = a.effect->name + " from " + between.alternative->name;
+    const std::string names = effect_words(a.effect->name) + " from " + effect_words(between.alternative->name);
     if (plan.any && plan.reached[least] >= 0.7 * pairs[least].needed) {
       out.next_drive =
           in_words(plan, all) + ": tells " + names +
@@ -243,7 +244,7 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, d
     int named = 0;
     for (std::size_t k = 0; k < sights.size(); ++k)
       if (plan.reached[k] >= 0.9 * sights[k].needed && ++named <= 4)
-        names += (names.empty() ? "" : ", ") + dark[k].effect->name;
+        names += (names.empty() ? "" : ", ") + effect_words(dark[k].effect->name);
     if (plan.any && !names.empty()) {
       out.next_drive =
           in_words(plan, all) + ": would show " + names + (named > 4 ? " and others" : "") + " if there were any";

@@ -113,14 +113,16 @@ std::vector<Visible> unseen(const JointModel& joint, double family_wise_error) {
 std::string because_of(const Visible& v) {
   if (!v.excited) return "these drives hold nothing that would show it";
   const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  const std::string unit = a.unit == "1" ? "" : " " + a.unit;
+  const bool of_itself = a.unit == "1" || a.unit.rfind("1/", 0) == 0;
+  const double factor = of_itself ? 100.0 : 1.0;
+  const std::string unit = a.unit == "1" ? " %" : of_itself ? " % per " + a.unit.substr(2) : " " + a.unit;
   const bool absorbed = v.survives < 0.05;
   const std::string share = absorbed ? formatted("on these drives calibration absorbs %.3g %% of what it would do: ",
                                                  100.0 * (1.0 - v.survives))
                                      : "";
   if (v.needed > 1e4) return share + "none of any size would have shown";
-  return share + formatted("less than %.2g", v.needed * a.medium) + unit + " would not have shown here" +
-         formatted(", and %.2g", a.medium) + unit + " is of importance";
+  return share + formatted("less than %.2g", v.needed * a.medium * factor) + unit + " would not have shown here" +
+         formatted(", and %.2g", a.medium * factor) + unit + " is of importance";
 }
 
 }  // namespace odolab

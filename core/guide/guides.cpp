@@ -1,5 +1,6 @@
 #include "core/calibration/internal.h"
 #include "core/guide/guide.h"
+#include "core/vehicle/parameters.h"
 
 namespace odolab {
 
@@ -192,16 +193,15 @@ const Guide& guide_of(GuideKind kind) { return guides()[static_cast<std::size_t>
 std::string why_not(const Guide& guide, const Vehicle& vehicle) {
   const bool drive = std::holds_alternative<DifferentialDrive>(vehicle.kind);
   const bool castors = std::holds_alternative<MultiCastor>(vehicle.kind);
+  const std::string but = "; the vehicle is another: " + words_of(vehicle.kind) + ".";
   switch (guide.kind) {
     case GuideKind::umbmark:
     case GuideKind::extended_umbmark:
-      return drive ? "" : "This guide is for differential drives; the vehicle is a " + kind_name(vehicle) + ".";
+      return drive ? "" : "This guide is for differential drives" + but;
     case GuideKind::castors:
-      return castors ? "" : "This guide is for vehicles on castors; the vehicle is a " + kind_name(vehicle) + ".";
+      return castors ? "" : "This guide is for vehicles on castors" + but;
     case GuideKind::linked:
-      return can_calibrate_internally(vehicle) && !castors
-                 ? ""
-                 : "This guide is for two linked trucks; the vehicle is a " + kind_name(vehicle) + ".";
+      return can_calibrate_internally(vehicle) && !castors ? "" : "This guide is for two linked trucks" + but;
   }
   return "";
 }

@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/guide/misfit.h"
 #include "core/guide/rest.h"
 #include "core/odometry/prediction.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
 namespace {
-
-template <typename... Numbers>
-std::string text_of(const char* format, Numbers... numbers) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return text;
-}
 
 double relative(double stderr_value, double value) { return value == 0.0 ? 0.0 : stderr_value / value; }
 
@@ -46,11 +40,11 @@ std::vector<Setting> drive_settings(const DifferentialDrive& before, const Diffe
 }
 
 void tell_type_errors(GuideOutcome& out, const UmbmarkCalibration& c, double side_m) {
-  out.sentences.push_back(
-      text_of("In each corner the robot turns %.2f degrees too %s: its wheelbase is %.2f %% %s than believed (type A).",
-              degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far",
-              100.0 * std::abs(c.wheelbase_ratio - 1.0), c.wheelbase_ratio > 1.0 ? "wider" : "narrower"));
-  out.sentences.push_back(text_of(
+  out.sentences.push_back(formatted(
+      "In each corner the robot turns %.2f degrees too %s: its wheelbase is %.2f %% %s than believed (type A).",
+      degrees(std::abs(c.exact.alpha_rad)), c.exact.alpha_rad > 0.0 ? "little" : "far",
+      100.0 * std::abs(c.wheelbase_ratio - 1.0), c.wheelbase_ratio > 1.0 ? "wider" : "narrower"));
+  out.sentences.push_back(formatted(
       "On each side of %g m it curves %.2f degrees to the %s: its %s wheel is %.3f %% larger than the other (type B).",
       side_m, degrees(std::abs(c.exact.beta_rad)), c.exact.beta_rad > 0.0 ? "left" : "right",
       c.wheel_diameter_ratio > 1.0 ? "right" : "left", 100.0 * std::abs(c.wheel_diameter_ratio - 1.0)));
@@ -78,20 +72,20 @@ void tell_accuracy(GuideOutcome& out) {
   const UmbmarkMeasure& first = *out.rounds.front().measure;
   const UmbmarkMeasure& last = *out.rounds.back().measure;
   if (out.rounds.size() < 2) {
-    out.sentences.push_back(
-        text_of("As it is, the worse direction's squares end %.0f mm from their start, single runs scatter by %.0f mm.",
-                1e3 * first.largest_systematic_error_m, 1e3 * first.spread_m));
+    out.sentences.push_back(formatted(
+        "As it is, the worse direction's squares end %.0f mm from their start, single runs scatter by %.0f mm.",
+        1e3 * first.largest_systematic_error_m, 1e3 * first.spread_m));
     return;
   }
   const double before = first.largest_systematic_error_m, after = last.largest_systematic_error_m;
   if (after < before)
-    out.verdict.push_back(text_of("The systematic error went from %.1f to %.1f mm: %.0f times smaller.", 1e3 * before,
-                                  1e3 * after, before / after));
+    out.verdict.push_back(formatted("The systematic error went from %.1f to %.1f mm: %.0f times smaller.", 1e3 * before,
+                                    1e3 * after, before / after));
   else
     out.warnings.push_back(
-        text_of("The systematic error went from %.1f to %.1f mm: the calibration did not help. Were "
-                "the new settings put into the robot, and were both directions entered as driven?",
-                1e3 * before, 1e3 * after));
+        formatted("The systematic error went from %.1f to %.1f mm: the calibration did not help. Were "
+                  "the new settings put into the robot, and were both directions entered as driven?",
+                  1e3 * before, 1e3 * after));
   const RestOfCalibration rest = rest_of(last, out.rounds.back().runs);
   out.compensate_again = rest.worth_another;
   out.verdict.push_back(rest.sentence);
@@ -113,17 +107,17 @@ void squares_outcome(GuideOutcome& out, const GuideSession& session) {
     out.extended = measure_extended_umbmark(umbmark_runs(session.rounds.front(), session.side_m),
                                             umbmark_runs(session.bumped, session.side_m));
     if (!out.extended) return;
-    out.sentences.push_back(text_of("Ten bumps turn the robot by %.2f degrees on average (Eq. 3.5).",
-                                    degrees(out.extended->mean_absolute_heading_error_rad)));
+    out.sentences.push_back(formatted("Ten bumps turn the robot by %.2f degrees on average (Eq. 3.5).",
+                                      degrees(out.extended->mean_absolute_heading_error_rad)));
     out.sentences.push_back(
-        text_of("Taken off before: %.2f degrees clockwise and %.2f degrees counter-clockwise, the "
-                "robot's own bias on the smooth floor (Eq. 3.6).",
-                degrees(out.extended->systematic_bias_clockwise_rad),
-                degrees(out.extended->systematic_bias_counter_clockwise_rad)));
+        formatted("Taken off before: %.2f degrees clockwise and %.2f degrees counter-clockwise, the "
+                  "robot's own bias on the smooth floor (Eq. 3.6).",
+                  degrees(out.extended->systematic_bias_clockwise_rad),
+                  degrees(out.extended->systematic_bias_counter_clockwise_rad)));
     return;
   }
   if (out.scale)
-    out.sentences.push_back(text_of(
+    out.sentences.push_back(formatted(
         "The robot believes to have gone %.3f times as far as it has: both wheels roll %.2f %% %s than believed.",
         out.scale->scaling_error, 100.0 * std::abs(1.0 / out.scale->scaling_error - 1.0),
         out.scale->scaling_error > 1.0 ? "less" : "more"));
@@ -146,18 +140,12 @@ void internal_outcome(GuideOutcome& out, const InternalCalibration& internal) {
   int determined = 0;
   for (const ParameterEstimate& p : internal.parameters) {
     determined += p.determined;
-    std::string words = p.name;
-    for (char& c : words)
-      if (c == '_' || c == '.' || c == '[') c = ' ';
-    if (const std::size_t at = words.find(']'); at != std::string::npos) words[at] = ',';  // "castor 1, offset"
-    for (const char* unit : {" m", " rad"})
-      if (words.size() > 4 && words.compare(words.size() - std::string(unit).size(), std::string::npos, unit) == 0)
-        words.resize(words.size() - std::string(unit).size());
-    out.settings.push_back({words, p.name, "", p.unit, p.nominal, p.value, p.stderr_value, p.determined});
+    out.settings.push_back(
+        {parameter_words(p.name), p.name, "", p.unit, p.nominal, p.value, p.stderr_value, p.determined});
   }
   out.sentences.push_back(
-      text_of("%d of %d numbers were found from the encoders alone; no outside truth was looked at.", determined,
-              static_cast<int>(internal.parameters.size())));
+      formatted("%d of %d numbers were found from the encoders alone; no outside truth was looked at.", determined,
+                static_cast<int>(internal.parameters.size())));
   for (const std::string& sentence : internal.taken_as_known)
     out.sentences.push_back("Taken as known: " + sentence + ".");
   for (const std::string& sentence : internal.cannot_tell) out.warnings.push_back("Not to be told: " + sentence + ".");

@@ -12,6 +12,7 @@
 #include "core/io/picture/bar_picture.h"
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -38,7 +39,7 @@ std::string track_of(const Diagnosis& d, const Residuals& r, const ResidualSizes
   picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
   for (const Finding& f : d.findings)
     if (with_discs && f.where.zone)
-      picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, with_blanks(f.effect)});
+      picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, effect_words(f.effect)});
   return coloured_track_picture(picture);
 }
 
@@ -51,7 +52,7 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
     report.sentence(f.sentence.empty() ? name : name + ": " + f.sentence);
     std::vector<std::vector<std::string>> rows;
     for (const FoundParameter& p : f.parameters)
-      rows.push_back({name_text(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
+      rows.push_back({parameter_words(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
     if (f.share_of_mismatch > 0.0)
@@ -217,7 +218,7 @@ void add_limits(HtmlReport& report, const Diagnosis& d) {
     report.paragraph(
         "Each of these may be there or not: the way that was driven leaves no trace of it beside the calibration.");
     std::vector<std::vector<std::string>> rows;
-    for (const NotTestable& n : d.not_testable) rows.push_back({with_blanks(n.effect), n.because, n.drive_this});
+    for (const NotTestable& n : d.not_testable) rows.push_back({effect_words(n.effect), n.because, n.drive_this});
     report.word_table({"effect", "because", "this drive would show it"}, rows);
   }
   if (!d.next_drive.empty()) {
@@ -231,7 +232,7 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
   report.heading("Calibration");
   std::vector<std::vector<std::string>> rows;
   for (const ParameterEstimate& p : c.parameters)
-    rows.push_back({name_text(p.name), quantity_text(p.nominal, 0.0, p.unit),
+    rows.push_back({parameter_words(p.name), quantity_text(p.nominal, 0.0, p.unit),
                     p.determined ? quantity_text(p.value, p.stderr_value, p.unit) : "not determined"});
   report.table({"parameter", "as drawn", "estimate and standard error"}, rows);
   for (const std::string& sentence : c.cannot_tell) report.paragraph("Cannot tell: " + sentence);

@@ -6,6 +6,7 @@
 
 #include "core/geometry/angles.h"
 #include "core/io/number_text.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -93,8 +94,8 @@ std::string finding_line(const Finding& f) {
   if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
   std::string parameters;
   for (const FoundParameter& p : f.parameters)
-    parameters +=
-        (parameters.empty() ? "; " : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+    parameters += (parameters.empty() ? "; " : ", ") + parameter_words(p.name) + " " +
+                  quantity_text(p.value, p.stderr_value, p.unit);
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
@@ -120,28 +121,19 @@ std::string fit_line(const char* name, const FitTable& table) {
 
 }  // namespace
 
-std::string name_text(const std::string& key) {
-  const std::size_t end = key.rfind('_');
-  const bool is_rate = key.find("per_") != std::string::npos;
-  for (const char* unit : {"m", "rad", "s", "mps"})
-    if (!is_rate && end != std::string::npos && end > 0 && key.compare(end + 1, std::string::npos, unit) == 0)
-      return with_blanks(key.substr(0, end));
-  return with_blanks(key);
-}
-
 std::string component_text(const std::string& component) {
   const std::size_t dot = component.find('.');
   if (dot != std::string::npos)
-    return component_text(component.substr(dot + 1)) + " of " + with_blanks(component.substr(0, dot));
+    return component_text(component.substr(dot + 1)) + " of " + part_words(component.substr(0, dot));
   if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0)
-    return with_blanks(component);
-  return "the " + with_blanks(component);
+    return part_words(component);
+  return "the " + part_words(component);
 }
 
 std::string effect_text(const std::string& effect, const std::string& component) {
   if (effect == "unknown")
     return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_text(component);
-  std::string text = with_blanks(effect);
+  std::string text = effect_words(effect);
   // "truth frozen of the truth" says it twice
   if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_text(component);
   return text;
@@ -266,8 +258,8 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   std::string calibration;
   for (const ParameterEstimate& p : diagnosis.calibration.parameters)
     if (p.determined && p.name.find('.') == std::string::npos)
-      calibration +=
-          (calibration.empty() ? "" : ", ") + name_text(p.name) + " " + quantity_text(p.value, p.stderr_value, p.unit);
+      calibration += (calibration.empty() ? "" : ", ") + parameter_words(p.name) + " " +
+                     quantity_text(p.value, p.stderr_value, p.unit);
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
   if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
   for (const std::string& line :
@@ -279,7 +271,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
                   figures_text(*diagnosis.simulation.with_findings));
   if (!diagnosis.not_testable.empty()) {
     std::vector<std::string> names;
-    for (const NotTestable& n : diagnosis.not_testable) names.push_back(with_blanks(n.effect));
+    for (const NotTestable& n : diagnosis.not_testable) names.push_back(effect_words(n.effect));
     append_wrapped(end, "could not show here: " + list_of(names, "and"), columns, "   ");
   }
   if (!diagnosis.next_drive.empty()) append_wrapped(end, "drive next: " + diagnosis.next_drive, columns, "   ");

@@ -14,19 +14,18 @@ std::string verdict_sentence(const Diagnosis& diagnosis);
 // "wheel eccentricity of the left wheel".
 std::string effect_text(const std::string& effect, const std::string& component);
 
-// "the left wheel", "both wheels", "the left wheel of truck a".
+// "the left wheel", "both wheels", "the left wheel of truck A".
 std::string component_text(const std::string& component);
 
-// A parameter's key without its unit: "wheel radius left".
-std::string name_text(const std::string& key);
-
-// "6.00 ± 0.10 mm": lengths in millimetres, angles in degrees, fractions in per cent, as many digits as the error bears.
+// "6.00 ± 0.10 mm": lengths in millimetres, angles in degrees, fractions in per cent, as many digits as the error
+// bears.
 std::string quantity_text(double value, double stderr_value, const std::string& unit);
 
 // "in run_3.csv, 3.75 to 7.25 s; within 0.70 m of (2.20, 0.10) m; in turns"; empty where nothing applies.
 std::string where_text(const WhereFound& where);
 
 // The summary that a person reads in a minute on a terminal: `most_lines` lines at most, each fit for `columns`.
-std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines = 25, std::size_t columns = 110);
+std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines = 25,
+                                       std::size_t columns = 110);
 
 }  // namespace odolab

@@ -61,9 +61,4 @@ std::string number_text(const char* format, double value) {
   return text;
 }
 
-std::string with_blanks(std::string key) {
-  std::replace(key.begin(), key.end(), '_', ' ');
-  return key;
-}
-
 }  // namespace odolab

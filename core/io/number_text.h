@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/vehicle/key_words.h"
+
 namespace odolab {
 
 // Without blanks, tabs and carriage returns at both ends.
@@ -22,9 +24,6 @@ std::string decimal_text(double value);
 
 // As printf writes it, for people: "%.2f".
 std::string number_text(const char* format, double value);
-
-// A key made readable: "wheel_radius_left" as "wheel radius left".
-std::string with_blanks(std::string key);
 
 // A piece of foreign text made fit for one line of an error message: quoted and cut short.
 std::string in_quotes(std::string_view text);

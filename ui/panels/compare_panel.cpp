@@ -1,5 +1,6 @@
 #include "ui/panels/compare_panel.h"
 
+#include "core/vehicle/key_words.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -44,7 +45,10 @@ void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
     text_right(title, theme.muted);
   }
   for (const ParameterEstimate& p : c.parameters) {
-    ParameterName name{p.name.c_str(), p.name.c_str(), p.unit.c_str(), 1.0, 4};
+    const std::string own = parameter_words(p.name);
+    ParameterName name{p.name.c_str(), own.c_str(), p.unit == "1" ? "" : p.unit.c_str(), 1.0, 4};
+    if (p.unit == "m") name.unit = "mm", name.per_si = 1e3, name.decimals = 3;
+    if (p.unit == "rad") name.unit = "°", name.per_si = kDegrees.per_si, name.decimals = 3;
     for (const ParameterName& n : kNames)
       if (p.name == n.key) name = n;
     const Unit bare{"", name.per_si, name.decimals, 0.0};

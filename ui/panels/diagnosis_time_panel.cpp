@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/vehicle/key_words.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -34,12 +35,8 @@ std::string brush_words(const DiagnosedRun& run, const DiagnosisState& state) {
   return all;
 }
 
-// "truck_b" as "truck b"; what tows has no name of its own.
-std::string unit_words(std::string unit) {
-  if (unit.empty()) return "towing";
-  std::replace(unit.begin(), unit.end(), '_', ' ');
-  return unit;
-}
+// What tows has no name of its own.
+std::string unit_words(const std::string& unit) { return unit.empty() ? "towing" : part_words(unit); }
 
 void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisState& state, ImVec2 size,
                const Theme& theme) {

@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/units/merged_calibration.h"
 #include "core/diagnosis/units/merged_findings.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -38,7 +39,8 @@ std::vector<NotTestable> not_testable_in(const std::vector<Diagnosis>& diagnoses
   for (std::size_t u = 0; u < diagnoses.size(); ++u)
     for (const NotTestable& n : diagnoses[u].not_testable) {
       if (std::any_of(all.begin(), all.end(), [&](const NotTestable& m) { return m.effect == n.effect; })) continue;
-      all.push_back({n.effect, units[u].name.empty() ? n.because : units[u].name + ": " + n.because, n.drive_this});
+      all.push_back(
+          {n.effect, units[u].name.empty() ? n.because : part_words(units[u].name) + ": " + n.because, n.drive_this});
     }
   return all;
 }
@@ -78,7 +80,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
       truth_is_carried = true;
     }
     add_findings_of(one, units[u], rounding_of_joints(nominal, u), d.findings);
-    const std::string of = units[u].name.empty() ? "" : units[u].name + ": ";
+    const std::string of = units[u].name.empty() ? "" : part_words(units[u].name) + ": ";
     for (const std::string& w : one.warnings) d.warnings.push_back(of + w);
     for (Response r : one.responses) {
       r.channel = of + r.channel;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/vehicle/key_words.h"
+
 namespace odolab {
 
 namespace {
@@ -64,7 +66,7 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
       for (ParameterEstimate& renamed : in_file(p, units[u], nominal, u)) sum.parameters.push_back(std::move(renamed));
     }
     for (const std::string& sentence : one.cannot_tell)
-      sum.cannot_tell.push_back(units[u].name.empty() ? sentence : units[u].name + ": " + sentence);
+      sum.cannot_tell.push_back(units[u].name.empty() ? sentence : part_words(units[u].name) + ": " + sentence);
     sum.innovations += one.innovations;
     sum.outliers += one.outliers;
     const double share = 1.0 / static_cast<double>(units.size());

@@ -7,6 +7,7 @@
 #include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/traces.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -102,12 +103,13 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
       const double error = toe ? toe->stderr_value : heading ? heading->stderr_value : 0.0;
       if (std::abs(turned) < 0.003 || std::abs(turned) < kSigmas * error) continue;
       Finding biased;
+      const std::string stands = (unit.name == "trailer" ? "the " : "") + part_words(unit.name);
       biased.effect = bias->effect;
       biased.component = bias->component;
       biased.parameters = {{"bias_rad", bias->sign * turned, error, "rad"}};
       biased.log_likelihood_gain = f.log_likelihood_gain;
       biased.p_value = f.p_value;
-      biased.sentence = "the encoder that tells how the " + unit.name + " stands reads more or less than it should";
+      biased.sentence = "the encoder that tells how " + stands + " stands reads more or less than it should";
       all.push_back(biased);
       continue;
     }

@@ -22,11 +22,13 @@ TEST(QuantityText, HasAsManyDigitsAsItsErrorBears) {
 
 TEST(VerdictSentence, NamesWhatWasFound) {
   Diagnosis d = test::diagnosis_by_hand();
-  EXPECT_EQ(verdict_sentence(d), "What the model lacks: wheel eccentricity of the left wheel and slip zone of the floor.");
+  EXPECT_EQ(verdict_sentence(d),
+            "What the model lacks: wheel eccentricity of the left wheel and slip zone of the floor.");
   d.verdict = Verdict::ambiguous;
   d.findings.resize(1);
-  EXPECT_EQ(verdict_sentence(d), "Something is missing, and these recordings cannot tell what: wheel eccentricity of the left wheel or "
-                                 "wheel eccentricity of the right wheel.");
+  EXPECT_EQ(verdict_sentence(d),
+            "Something is missing, and these recordings cannot tell what: wheel eccentricity of the left wheel or "
+            "wheel eccentricity of the right wheel.");
   d.findings.clear();
   d.verdict = Verdict::nothing_missing;
   EXPECT_EQ(verdict_sentence(d), "Nothing is missing: calibration explains these recordings down to their noise.");
@@ -55,20 +57,21 @@ TEST(VerdictSentence, TellsAMarkerFromPhysics) {
   zone.component = "floor";
   d.findings = {zone, toe};
   d.verdict = Verdict::ambiguous;
-  EXPECT_EQ(verdict_sentence(d), "What the model lacks: slip zone of the floor. Not told apart by these recordings: wheel toe of "
-                                 "the vehicle or truth mounting offset.");
+  EXPECT_EQ(verdict_sentence(d),
+            "What the model lacks: slip zone of the floor. Not told apart by these recordings: wheel toe of "
+            "the vehicle or truth mounting offset.");
 }
 
 TEST(EffectText, ReadsAsAPersonWouldSayIt) {
   EXPECT_EQ(effect_text("wheel_toe", "both_wheels"), "wheel toe of both wheels");
-  EXPECT_EQ(effect_text("wheel_eccentricity", "truck_a.left_wheel"), "wheel eccentricity of the left wheel of truck a");
-  EXPECT_EQ(name_text("wheel_radius_left_m"), "wheel radius left");
-  EXPECT_EQ(name_text("rad_per_m"), "rad per m");
+  EXPECT_EQ(effect_text("wheel_eccentricity", "truck_a.left_wheel"), "wheel eccentricity of the left wheel of truck A");
+  EXPECT_EQ(effect_text("one_sided_drag", "castor2"), "one-sided drag of castor 2");
 }
 
 TEST(WhereText, SaysOnlyWhatApplies) {
   EXPECT_EQ(where_text({}), "");
-  EXPECT_EQ(where_text(test::diagnosis_by_hand().findings[1].where), "in run_3.csv at 3.75 to 7.25 s; within 0.70 m of x 2.20, y 0.10 m");
+  EXPECT_EQ(where_text(test::diagnosis_by_hand().findings[1].where),
+            "in run_3.csv at 3.75 to 7.25 s; within 0.70 m of x 2.20, y 0.10 m");
 }
 
 TEST(SummaryLines, AreReadInAMinute) {
@@ -80,8 +83,7 @@ TEST(SummaryLines, AreReadInAMinute) {
     d.findings.push_back(d.findings[1]);
     d.not_testable.push_back(d.not_testable[0]);
   }
-  for (const std::string& line : summary_lines(test::diagnosis_by_hand()))
-    EXPECT_LE(line.size(), 150u) << line;
+  for (const std::string& line : summary_lines(test::diagnosis_by_hand())) EXPECT_LE(line.size(), 150u) << line;
 }
 
 std::size_t count(const std::string& text, const std::string& what) {
@@ -93,8 +95,9 @@ std::size_t count(const std::string& text, const std::string& what) {
 TEST(DiagnosisReport, IsOnePageWithEveryPart) {
   const std::string html = diagnosis_report(test::diagnosis_by_hand()).text();
   EXPECT_EQ(count(html, "<h1>What the model lacks"), 1u);
-  for (const char* part : {"What was found", "Where the model and the recordings differ", "What the mismatch depends on", "The evidence",
-                           "The proof", "could not show", "What to drive next", "Calibration", "To be aware of"})
+  for (const char* part :
+       {"What was found", "Where the model and the recordings differ", "What the mismatch depends on", "The evidence",
+        "The proof", "could not show", "What to drive next", "Calibration", "To be aware of"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   // two recordings, each with its track before and after and its residual; a response; evidence; before and after
   EXPECT_EQ(count(html, "<svg "), 2u * 3u + 3u);
