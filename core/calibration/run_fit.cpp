@@ -138,7 +138,10 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
   return s;
 }
 
-void fit_turns(const std::vector<Stretch>& stretches, RunFit& fit) {
+// Radii of a vehicle's file are not off against each other by more than a tenth: on a circle, where way and turn are
+// the same, noise alone would tell one from the other.
+void fit_turns(const std::vector<Stretch>& stretches, double wheelbase_m, RunFit& fit) {
+  constexpr double kUnequal = 0.1;
   const Eigen::Index n = static_cast<Eigen::Index>(stretches.size());
   MatrixXd rows(n, 2);
   VectorXd y(n);
@@ -147,7 +150,7 @@ void fit_turns(const std::vector<Stretch>& stretches, RunFit& fit) {
     rows.row(i) << s.rolled_rad, s.rolled_m;
     y[i] = s.turn_rad;
   }
-  const Solution found = solved(rows, y, 1, {0.0, 0.0});
+  const Solution found = solved(rows, y, 1, {0.0, kUnequal / wheelbase_m});
   fit.turn_ratio = found.x[0];
   fit.turn_explained = found.explained;
 }
@@ -210,7 +213,7 @@ std::optional<RunFit> run_fit(const Recording& recording, const Vehicle& nominal
   for (const Stretch& s : stretches) driven_m += std::abs(s.rolled_m), turned_rad += std::abs(s.rolled_rad);
   fit.drives = driven_m > kLeastDriven_m;
   fit.turns = turned_rad > kLeastTurned_rad;
-  if (fit.turns) fit_turns(stretches, fit);
+  if (fit.turns) fit_turns(stretches, std::get<DifferentialDrive>(nominal.kind).wheelbase_m, fit);
   if (fit.drives) fit_way(stretches, fit);
   return fit;
 }

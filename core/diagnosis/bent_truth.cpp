@@ -92,8 +92,8 @@ GenericCurve curve_along(bool x, const Floor& floor) {
 std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked_at) {
   const Floor floor = floor_of(joint.views());
   if (floor.half_m < 1e-3) return {};
-  std::vector<GenericTest> tests(2);
-  parallel_for(2, [&](int i) {
+  std::vector<GenericTest> tests(kBentTruthTests);
+  parallel_for(kBentTruthTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const bool headings_too = i == 1;
     auto term = std::make_shared<Effect>();

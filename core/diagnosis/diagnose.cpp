@@ -31,8 +31,11 @@ std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 
   return buffer;
 }
 
-bool stands_out(const AcceptedEffect& a) {
+// Well away from nothing and, where it is one moment, from all that is left out and from both ends of its recording.
+bool stands_out(const JointModel& joint, const AcceptedEffect& a) {
   constexpr double kLeastSigmas = 3.0;
+  if (a.effect->local && a.effect->of_one_recording && !joint.is_well_inside(static_cast<int>(a.shape[0]), a.shape[1]))
+    return false;
   for (std::size_t k = 0; k < a.value.size(); ++k)
     if (std::abs(a.value[k]) > kLeastSigmas * a.stderr_value[k]) return true;
   return false;
@@ -356,7 +359,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   // it was not fitted to refute.
   const auto untenable = [&]() -> std::optional<std::size_t> {
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
-      if (!stands_out(joint.accepted[k])) return k;
+      if (!stands_out(joint, joint.accepted[k])) return k;
     const std::optional<std::size_t> k = refuted(joint, calibrated, d, ready_held_out, nominal);
     if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
     return k;

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/bent_truth.h"
 #include "core/diagnosis/chi_square.h"
+#include "core/diagnosis/uneven_wheels.h"
 #include "core/diagnosis/waves.h"
 
 namespace odolab {
@@ -198,7 +199,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
 
   const int count = static_cast<int>(groups.size()) * kGenericChannels;
-  const double n = count + 2.0;  // with those of a bent truth
+  const double n = count + kUnevenWheelTests + kBentTruthTests;
   std::vector<GenericTest> tests(static_cast<std::size_t>(count));
   parallel_for(count, [&](int i) {
     const Group& g = groups[i / kGenericChannels];
@@ -236,7 +237,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     tests[i].p_value =
         std::min(1.0, n * scaled_chi_square_tail(tests[i].test.judged(), tests[i].test.freedom, tests[i].test.batches));
   });
-  for (const std::vector<GenericTest>& more : {bent_truth_tests(joint, n), wave_tests(joint, n)})
+  for (const std::vector<GenericTest>& more :
+       {uneven_wheel_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

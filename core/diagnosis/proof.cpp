@@ -35,6 +35,7 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   JointModel j(std::move(runs), std::move(commands), start, nominal);
   for (AcceptedEffect a : source.accepted) {
     if (a.effect->of_one_recording) continue;
+    if (a.effect->of_each_recording && !a.effect->clock_rate) continue;  // phases of their own are not known of others
     if (a.effect->clock_rate && a.effect->of_each_recording) {
       a.effect = &effects::clock_rate_of_each_run(static_cast<int>(j.runs().size())).front();
       a.value.assign(j.runs().size(), 0.0);

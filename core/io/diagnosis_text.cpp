@@ -12,6 +12,10 @@ namespace odolab {
 
 namespace {
 
+std::string more_of(std::size_t count, const char* one, const char* several) {
+  return count == 1 ? one : number_text(several, static_cast<double>(count));
+}
+
 constexpr const char* kPlusMinus = " \xC2\xB1 ";
 
 std::string decimals_of(double value, int decimals) {
@@ -222,7 +226,7 @@ std::string where_text(const WhereFound& where) {
             (to_s > from_s ? number_text("%.2f to ", from_s) : std::string()) + number_text("%.2f s", to_s);
   }
   if (where.time_s.size() > shown)
-    when += number_text(" and %.0f times more", static_cast<double>(where.time_s.size() - shown));
+    when += more_of(where.time_s.size() - shown, " and once more", " and %.0f times more");
   if (!when.empty()) parts.push_back(when);
   if (where.zone)
     parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) +
@@ -237,8 +241,13 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   std::vector<std::string> lines;
   append_wrapped(lines, verdict_sentence(diagnosis), columns, "");
   constexpr std::size_t kMostFindings = 4;
-  for (std::size_t i = 0; i < diagnosis.findings.size() && i < kMostFindings; ++i) {
-    const Finding& f = diagnosis.findings[i];
+  // A marker that is off shows a hundred times as strongly as what is looked for.
+  std::vector<Finding> physics_first = diagnosis.findings;
+  const auto rank = [](const Finding& f) { return is_data_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
+  std::stable_sort(physics_first.begin(), physics_first.end(),
+                   [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
+  for (std::size_t i = 0; i < physics_first.size() && i < kMostFindings; ++i) {
+    const Finding& f = physics_first[i];
     append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
     if (f.alternatives.empty()) continue;
     const Alternative& a = f.alternatives.front();
@@ -252,7 +261,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   }
   if (diagnosis.findings.size() > kMostFindings)
     lines.push_back(
-        number_text("   and %.0f findings more", static_cast<double>(diagnosis.findings.size() - kMostFindings)));
+        more_of(diagnosis.findings.size() - kMostFindings, "   and one finding more", "   and %.0f findings more"));
 
   std::vector<std::string> end;
   std::string calibration;

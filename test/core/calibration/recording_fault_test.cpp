@@ -115,5 +115,28 @@ TEST(RecordingFault, LeavesRunsWithoutTurnsAlone) {
   EXPECT_FALSE(fault_in(r, Vehicle{}));
 }
 
+// On a circle way and turn are the same but for a factor: which of both the truth's turn belongs to is told by nothing
+// but noise.
+TEST(RecordingFault, LeavesCirclesAloneHoweverNoisyTheirHeadingsAre) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    test::GeneratorSettings g;
+    g.duration_s = 30.0;
+    g.truth_period_s = 1.0 / 30.0;
+    g.truth_position_noise_m = 0.002;
+    g.truth_heading_noise_rad = 0.01;
+    Random random(seed);
+    const auto circle = [](double t) {
+      const double pace = 1.0 + 0.2 * std::sin(0.5 * t);
+      return test::WheelSpeedsAt{3.0 * pace, 4.0 * pace};
+    };
+    const Recording r = generated(g, circle, random);
+    const std::optional<Error> fault = fault_in(r, Vehicle{});
+    EXPECT_FALSE(fault) << seed << ": " << (fault ? fault->message() : "");
+    Recording exchanged = r;
+    std::swap(column(exchanged, "left_wheel_rad"), column(exchanged, "right_wheel_rad"));
+    EXPECT_TRUE(fault_in(exchanged, Vehicle{})) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace odolab
