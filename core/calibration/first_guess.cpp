@@ -116,17 +116,22 @@ Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
 
 struct Planes {
   Plane turn, way;
-  bool enough = false;  // both wheels were driven apart and together
+  bool enough = false;  // both wheels were driven apart and together, and not always in one proportion
 };
 
 Planes planes_of(const std::vector<Stretch>& stretches) {
   Planes planes;
-  double together = 0.0, apart = 0.0;
+  // On a circle one wheel is as good as the other, and which of them moves the robot is told by noise alone.
+  constexpr double kNotInProportion = 2e-3;
+  double left2 = 0.0, right2 = 0.0, both = 0.0;
   for (const Stretch& s : stretches) {
-    together += (s.left_rad + s.right_rad) * (s.left_rad + s.right_rad);
-    apart += (s.left_rad - s.right_rad) * (s.left_rad - s.right_rad);
+    left2 += s.left_rad * s.left_rad;
+    right2 += s.right_rad * s.right_rad;
+    both += s.left_rad * s.right_rad;
   }
-  planes.enough = stretches.size() >= 8 && together > 0.01 * apart && apart > 0.01 * together;
+  const double together = left2 + right2 + 2.0 * both, apart = left2 + right2 - 2.0 * both;
+  planes.enough = stretches.size() >= 8 && together > 0.01 * apart && apart > 0.01 * together &&
+                  left2 * right2 - both * both > kNotInProportion * left2 * right2;
   if (!planes.enough) return planes;
   planes.turn = fitted(stretches, &Stretch::turn_rad);
   planes.way = fitted(stretches, &Stretch::way_m);

@@ -99,16 +99,19 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       step_m = std::min(step_m, by);
   const double least_rolled_m = std::max(0.005, 2.0 * step_m);
   DataFault frozen{"truth_frozen", "truth", recording.name, {}, ""};
+  TimeStretches repeated;  // at rest too, where it is a fault only of a truth that does so on the way
   for (std::size_t i = 0; i < truth.size();) {
     std::size_t j = i + 1;
     while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
            truth[j].position.y_m == truth[i].position.y_m && truth[j].heading_rad == truth[i].heading_rad)
       ++j;
+    if (j - i >= 3) repeated.push_back({truth[i].time_s, truth[j - 1].time_s});
     if (j - i >= 3 && rolled[at(truth[j - 1].time_s)] - rolled[at(truth[i].time_s)] > least_rolled_m)
-      frozen.time_s.push_back({truth[i].time_s, truth[j - 1].time_s});
+      frozen.time_s.push_back(repeated.back());
     i = j;
   }
   if (!frozen.time_s.empty()) {
+    frozen.time_s = repeated;
     std::size_t k = 0;
     for (Channel& c : out.recording.channels) {
       if (c.name.rfind("truth_", 0) != 0) continue;

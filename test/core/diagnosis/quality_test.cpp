@@ -1,0 +1,58 @@
+#include "core/diagnosis/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/support/drive_generator.h"
+
+namespace odolab {
+namespace {
+
+// Drives for 10 s, stands for 10 s, drives on.
+Recording with_a_rest() {
+  test::GeneratorSettings g;
+  g.duration_s = 30.0;
+  g.truth_position_noise_m = 0.001;
+  g.truth_heading_noise_rad = 0.001;
+  Random random(3);
+  return generated(
+      g,
+      [](double t) {
+        const double pace = t < 10.0 || t > 20.0 ? 4.0 : 0.0;
+        return test::WheelSpeedsAt{pace, 1.1 * pace};
+      },
+      random);
+}
+
+void freeze(Recording& r, double from_s, double to_s) {
+  for (Channel& c : r.channels) {
+    if (c.name.rfind("truth_", 0) != 0) continue;
+    double last = 0.0;
+    for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+      if (!std::isfinite(c.values[i])) continue;
+      if (r.time_s[i] > from_s && r.time_s[i] < to_s) c.values[i] = last;
+      last = c.values[i];
+    }
+  }
+}
+
+TEST(Checked, LeavesATruthThatRepeatsItselfAtRestAlone) {
+  Recording r = with_a_rest();
+  freeze(r, 14.0, 14.6);
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+TEST(Checked, LeavesItOutAtRestTooWhereItDoesSoOnTheWay) {
+  Recording r = with_a_rest();
+  freeze(r, 5.0, 5.6);
+  freeze(r, 14.0, 14.6);
+  const CheckedRecording c = checked(r, Vehicle{});
+  ASSERT_EQ(c.faults.size(), 1u);
+  ASSERT_EQ(c.faults[0].time_s.size(), 2u);
+  EXPECT_NEAR(c.faults[0].time_s[1].first, 14.0, 0.06);  // the truth comes every 0.05 s
+  EXPECT_NEAR(c.faults[0].time_s[1].second, 14.6, 0.06);
+}
+
+}  // namespace
+}  // namespace odolab
