@@ -10,9 +10,11 @@
 #include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/intervals.h"
+#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/ready_run.h"
+#include "core/diagnosis/responses.h"
 #include "core/diagnosis/select.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -22,7 +24,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kWorthShowing = 0.01;  // p value of a wave in what is left
 constexpr int kFewestInnovations = 40;  // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
@@ -71,196 +72,10 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen
   return f;
 }
 
-// Mounting and clock of the truth, where they are not where the vehicle's file says.
-bool add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
-                  const LeastSquaresCalibration& fit, const Vehicle& nominal) {
-  const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
-    for (const ParameterEstimate& p : fit.parameters)
-      if (p.name == name && p.determined) return &p;
-    return nullptr;
-  };
-  const char* const keys[3] = {"truth_mounting.x_m", "truth_mounting.y_m", "truth_mounting.heading_rad"};
-  const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
-  const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
-  const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double least[3] = {0.004, 0.004, 0.003};
-  Finding mounting;
-  double gain = 0.0;
-  bool material = false;
-  for (int k = 0; k < 3; ++k) {
-    const ParameterEstimate* p = determined(keys[k]);
-    if (!p) continue;
-    const double se = intervals.stderr_of_nuisance(3 + k);
-    const double z = by[k] / std::max(p->stderr_value, se);
-    mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
-    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
-  }
-  // A heading of the mounting alone is what wheels that are not square to the axle do too.
-  const double turned = now.heading_rad - then.heading_rad;
-  const double shifted = std::hypot(by[0], by[1]);
-  if (material && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
-      !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
-    const FoundParameter heading = mounting.parameters.back();
-    Finding toe;
-    toe.effect = "wheel_toe";
-    toe.component = "vehicle";
-    toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
-    const double z = turned / heading.stderr_value;
-    if (z * z * 0.5 > 0.5 * gain) {
-      toe.log_likelihood_gain = 0.5 * z * z;
-      toe.p_value = chi_square_tail(z * z, 1);
-      toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
-      toe.where.regime = "wherever it drives, in proportion to the way";
-      toe.alternatives.push_back(
-          {"truth_mounting_offset", "truth", gain, "a look at how the markers sit: the motion is the same"});
-      findings.push_back(toe);
-      return true;
-    }
-  }
-  if (material) {
-    mounting.effect = "truth_mounting_offset";
-    mounting.component = "truth";
-    mounting.log_likelihood_gain = gain;
-    mounting.p_value = chi_square_tail(2.0 * gain, 3);
-    mounting.sentence = "the tracked point is not where the vehicle's file has it";
-    findings.push_back(mounting);
-  }
-  return material;
-}
-
-void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-               const Vehicle& nominal, bool from_commands) {
-  for (const ParameterEstimate& estimate : fit.parameters) {
-    const ParameterEstimate* p = &estimate;
-    if (p->name != "truth_mounting.time_offset_s" || !p->determined) continue;
-    double mean = 0.0;
-    for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
-    const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
-    if (std::abs(z) > 6.0 && std::abs(off) > 0.004) {
-      Finding f;
-      const bool delay = from_commands && off > 0.0;
-      f.effect = delay ? "actuator_delay" : "truth_time_offset";
-      f.component = delay ? "vehicle" : "truth";
-      f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : mean, p->stderr_value, "s"}};
-      f.log_likelihood_gain = 0.5 * z * z;
-      f.p_value = chi_square_tail(z * z, 1);
-      f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
-      if (delay)
-        f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
-                                  "one clock for commands and truth: on their own the two are the same"});
-      findings.push_back(f);
-    }
-  }
-}
-
-// The tracked point of one recording that sat elsewhere: a fault of its data, put right before all else.
-Finding finding_of(const MovedMounting& m) {
-  Finding f;
-  f.effect = "truth_mounting_offset";
-  f.component = "truth";
-  f.parameters = {{"x_m", m.axle_T_tracked.x_m, m.stderrs.x_m, "m"},
-                  {"y_m", m.axle_T_tracked.y_m, m.stderrs.y_m, "m"},
-                  {"heading_rad", m.axle_T_tracked.heading_rad, m.stderrs.heading_rad, "rad"}};
-  f.where.recording = m.recording;
-  f.log_likelihood_gain = m.log_likelihood_gain;
-  f.p_value = chi_square_tail(2.0 * m.log_likelihood_gain, 3);
-  f.sentence = m.sentence();
-  return f;
-}
-
-// `left`: the same group with the findings let in; null where there are none.
-Response response_of(const GenericTest& g, const GenericTest* left) {
-  Response r;
-  r.variable = g.variable;
-  r.channel = g.channel;
-  for (std::size_t k = 0; k < g.at.size() && k < g.test.value.size(); ++k) {
-    const double se = g.test.stderr_value[k] * std::sqrt(g.test.inflation);
-    if (se > 1e3) continue;
-    r.at.push_back(g.at[k]);
-    r.value.push_back(g.test.value[k]);
-    r.low.push_back(g.test.value[k] - 2.0 * se);
-    r.high.push_back(g.test.value[k] + 2.0 * se);
-    if (left && k < left->test.value.size()) r.after.push_back(left->test.value[k]);
-  }
-  return r;
-}
-
-// Around the angle. The values are held for independent of each other, as they are where all angles are driven alike.
-Response response_of(const GenericTest& g, const GenericWave& wave, const GenericTest* left) {
-  constexpr int kPoints = 25;
-  Response r;
-  r.variable = wave.variable;
-  r.channel = g.channel;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2.0 * kPi * i / (kPoints - 1);
-    double value = 0.0, variance = 0.0, after = 0.0;
-    const auto add = [&](std::size_t k, double basis) {
-      value += basis * g.test.value[k];
-      variance += basis * basis * g.test.stderr_value[k] * g.test.stderr_value[k] * g.test.inflation;
-      if (left) after += basis * left->test.value[k];
-    };
-    for (std::size_t n = 0; n < wave.cosine.size(); ++n) {
-      add(wave.cosine[n], std::cos(static_cast<double>(n + 1) * angle));
-      add(wave.sine[n], std::sin(static_cast<double>(n + 1) * angle));
-    }
-    const double se = std::sqrt(variance);
-    if (se > 1e3) return r;
-    r.at.push_back(angle);
-    r.value.push_back(value);
-    r.low.push_back(value - 2.0 * se);
-    r.high.push_back(value + 2.0 * se);
-    if (left) r.after.push_back(after);
-  }
-  return r;
-}
-
 std::string of_refuted(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
   return name + " would describe the recordings that were fitted, but what was not fitted is predicted worse with it";
-}
-
-// Of what calibration leaves to each variable that has an axis.
-std::vector<Response> responses_of(const JointModel& calibrated, const std::vector<GenericTest>& generic_now,
-                                   bool found) {
-  const std::vector<GenericTest> at_first = found ? generic_tests(calibrated) : generic_now;
-  std::vector<Response> responses;
-  for (const GenericTest& g : at_first) {
-    const auto left = std::find_if(generic_now.begin(), generic_now.end(), [&](const GenericTest& other) {
-      return other.variable == g.variable && other.channel == g.channel;
-    });
-    const GenericTest* now = found && left != generic_now.end() && !left->test.value.empty() ? &*left : nullptr;
-    if (!g.at.empty()) responses.push_back(response_of(g, now));
-    if (g.test.value.empty()) continue;  // it could not be tested
-    // Of waves that were looked for at many lengths only what was found is of interest.
-    if (g.tests > static_cast<double>(at_first.size()) && g.p_value > kWorthShowing) continue;
-    for (const GenericWave& wave : g.waves) responses.push_back(response_of(g, wave, now));
-  }
-  return responses;
-}
-
-std::vector<Residuals> residuals_of(const JointModel& joint) {
-  std::vector<Residuals> all;
-  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
-    Residuals out;
-    out.recording = joint.runs()[r].name;
-    for (const FilterStep& s : joint.linearised()[r].steps()) {
-      if (s.truth_index < 0 || !s.used) continue;
-      const Vec2 body = rotated({s.residual[0], s.residual[1]}, -s.heading_rad);
-      out.time_s.push_back(joint.runs()[r].truth[s.truth_index].time_s);
-      out.x_m.push_back(s.pose.x_m);
-      out.y_m.push_back(s.pose.y_m);
-      out.along_m.push_back(body.x_m);
-      out.across_m.push_back(body.y_m);
-      out.heading_rad.push_back(s.size == 3 ? s.residual[2] : 0.0);
-      const Whitened& w = joint.linearised()[r].residual();
-      double squared = 0.0;
-      for (int k = 0; k < 3; ++k) squared += w[3 * s.truth_index + k] * w[3 * s.truth_index + k];
-      out.squared.push_back(squared / s.size);
-    }
-    all.push_back(std::move(out));
-  }
-  return all;
 }
 
 }  // namespace

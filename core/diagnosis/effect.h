@@ -95,6 +95,8 @@ struct Effect {
   std::function<bool(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                      const std::vector<DriveView>& views)>
       beyond_counts;
+  // How well a place can be known at best, by its form; empty: to a centimetre.
+  std::function<double(const std::vector<double>& shape)> place_known_to_m;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
   double tests_of_a_shape = 1.0;         // so many independent ones a scanned shape stands for, once it is refined

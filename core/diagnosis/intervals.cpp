@@ -26,6 +26,15 @@ double resolution_of(const AcceptedEffect& a, int shape) {
   return unit == "s" ? kWheelSample_s : 0.0;
 }
 
+// Beside what the recordings say of a place or a threshold: rims are not sharp, and speeds are known as smoothed.
+double known_to(const AcceptedEffect& a, int shape) {
+  constexpr double kPlace_m = 0.01, kOfThreshold = 0.05;
+  const std::string& unit = a.effect->shapes[static_cast<std::size_t>(shape)].unit;
+  if (unit == "rad/s") return kOfThreshold * std::abs(a.shape[static_cast<std::size_t>(shape)]);
+  if (unit != "m") return 0.0;
+  return a.effect->place_known_to_m ? a.effect->place_known_to_m(a.shape) : kPlace_m;
+}
+
 // The derivative of the motion by the free shapes, over the width within which they are known.
 Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const MatrixXd& covariance) {
   Effect e;
@@ -152,7 +161,7 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
   Eigen::Index k = n;
   for (int s : free_shapes(*a.effect)) {
     const double se = k < covariance.rows() ? std::sqrt(std::max(0.0, covariance(k, k))) : 0.0;
-    out.push_back({a.effect->shapes[s].name, a.shape[s], se, a.effect->shapes[s].unit});
+    out.push_back({a.effect->shapes[s].name, a.shape[s], std::hypot(se, known_to(a, s)), a.effect->shapes[s].unit});
     ++k;
   }
   const bool in_another_form = a.effect->forms.size() > 1 && a.shape.back() > 0.0;

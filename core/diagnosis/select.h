@@ -5,20 +5,9 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/scored_candidates.h"
 
 namespace odolab {
-
-struct ScoredCandidate {
-  const Effect* effect = nullptr;
-  CandidateTest test;
-  double p_value = 1.0;       // family-wise
-  double log_tests = 0.0;     // logarithm of how many it was chosen from
-  bool beyond_counts = true;  // more than whole counts can feign
-};
-
-// Every entry's best shape, judged against the model as it is; best first.
-std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, double family_wise_error, int without = -1);
 
 struct Selected {
   std::vector<ScoredCandidate> evidence;                   // of each accepted effect of the model, in its order

@@ -99,6 +99,10 @@ Effect each_time(Wheel wheel) {
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kReach_m[static_cast<int>(shape.back())])};
   };
+  // It is met anywhere within reach, and no wheel comes to the same line twice.
+  e.place_known_to_m = [](const std::vector<double>& shape) {
+    return kReach_m[static_cast<int>(shape.back())] / std::sqrt(3.0);
+  };
   // Only places to which the wheel came more than once: else it is a moment.
   e.scan = [wheel](const std::vector<DriveView>& views) {
     constexpr double kGrid_m = 0.1;

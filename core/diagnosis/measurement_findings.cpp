@@ -1,0 +1,104 @@
+#include "core/diagnosis/measurement_findings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/chi_square.h"
+
+namespace odolab {
+
+void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+                  const LeastSquaresCalibration& fit, const Vehicle& nominal) {
+  const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
+    for (const ParameterEstimate& p : fit.parameters)
+      if (p.name == name && p.determined) return &p;
+    return nullptr;
+  };
+  const char* const keys[3] = {"truth_mounting.x_m", "truth_mounting.y_m", "truth_mounting.heading_rad"};
+  const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
+  const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
+  const double value[3] = {now.x_m, now.y_m, now.heading_rad};
+  const double least[3] = {0.004, 0.004, 0.003};
+  Finding mounting;
+  double gain = 0.0;
+  bool material = false;
+  for (int k = 0; k < 3; ++k) {
+    const ParameterEstimate* p = determined(keys[k]);
+    if (!p) continue;
+    const double se = intervals.stderr_of_nuisance(3 + k);
+    const double z = by[k] / std::max(p->stderr_value, se);
+    mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
+    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
+  }
+  // A heading of the mounting alone is what wheels that are not square to the axle do too.
+  const double turned = now.heading_rad - then.heading_rad;
+  const double shifted = std::hypot(by[0], by[1]);
+  if (material && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
+      !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
+    const FoundParameter heading = mounting.parameters.back();
+    Finding toe;
+    toe.effect = "wheel_toe";
+    toe.component = "vehicle";
+    toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
+    const double z = turned / heading.stderr_value;
+    if (z * z * 0.5 > 0.5 * gain) {
+      toe.log_likelihood_gain = 0.5 * z * z;
+      toe.p_value = chi_square_tail(z * z, 1);
+      toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
+      toe.where.regime = "wherever it drives, in proportion to the way";
+      toe.alternatives.push_back(
+          {"truth_mounting_offset", "truth", gain, "a look at how the markers sit: the motion is the same"});
+      findings.push_back(toe);
+      return;
+    }
+  }
+  if (material) {
+    mounting.effect = "truth_mounting_offset";
+    mounting.component = "truth";
+    mounting.log_likelihood_gain = gain;
+    mounting.p_value = chi_square_tail(2.0 * gain, 3);
+    mounting.sentence = "the tracked point is not where the vehicle's file has it";
+    findings.push_back(mounting);
+  }
+}
+
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+               const Vehicle& nominal, bool from_commands) {
+  for (const ParameterEstimate& estimate : fit.parameters) {
+    const ParameterEstimate* p = &estimate;
+    if (p->name != "truth_mounting.time_offset_s" || !p->determined) continue;
+    double mean = 0.0;
+    for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
+    const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
+    if (std::abs(z) > 6.0 && std::abs(off) > 0.004) {
+      Finding f;
+      const bool delay = from_commands && off > 0.0;
+      f.effect = delay ? "actuator_delay" : "truth_time_offset";
+      f.component = delay ? "vehicle" : "truth";
+      f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : mean, p->stderr_value, "s"}};
+      f.log_likelihood_gain = 0.5 * z * z;
+      f.p_value = chi_square_tail(z * z, 1);
+      f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
+      if (delay)
+        f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
+                                  "one clock for commands and truth: on their own the two are the same"});
+      findings.push_back(f);
+    }
+  }
+}
+
+Finding finding_of(const MovedMounting& m) {
+  Finding f;
+  f.effect = "truth_mounting_offset";
+  f.component = "truth";
+  f.parameters = {{"x_m", m.axle_T_tracked.x_m, m.stderrs.x_m, "m"},
+                  {"y_m", m.axle_T_tracked.y_m, m.stderrs.y_m, "m"},
+                  {"heading_rad", m.axle_T_tracked.heading_rad, m.stderrs.heading_rad, "rad"}};
+  f.where.recording = m.recording;
+  f.log_likelihood_gain = m.log_likelihood_gain;
+  f.p_value = chi_square_tail(2.0 * m.log_likelihood_gain, 3);
+  f.sentence = m.sentence();
+  return f;
+}
+
+}  // namespace odolab

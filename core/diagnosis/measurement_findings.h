@@ -1,0 +1,23 @@
+// Findings that are of how the truth was measured: its mounting and its clock.
+#pragma once
+
+#include <vector>
+
+#include "core/calibration/moved_mounting.h"
+#include "core/diagnosis/intervals.h"
+
+namespace odolab {
+
+// Where the mounting is not where the vehicle's file says. A small turn of it alone is what wheels do that are not
+// square to the axle; then that is the name, with the mounting beside it.
+void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+                  const LeastSquaresCalibration& fit, const Vehicle& nominal);
+
+// A late base that follows commands, and a late truth, are the same: both are said.
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
+               const Vehicle& nominal, bool from_commands);
+
+// The tracked point of one recording that sat elsewhere: a fault of its data, put right before all else.
+Finding finding_of(const MovedMounting& moved);
+
+}  // namespace odolab
