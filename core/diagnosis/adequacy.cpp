@@ -64,6 +64,12 @@ std::vector<Response> shape_of(const GenericTest& group, const JointModel& with)
   return shape;
 }
 
+JointModel without_names(JointModel joint) {
+  std::erase_if(joint.accepted, [](const AcceptedEffect& a) { return !a.effect->clock_rate; });
+  joint.fit(3);
+  return joint;
+}
+
 // The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
 // does anyway a score can promise without end.
 Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
@@ -71,7 +77,12 @@ Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& gener
     JointModel with = joint;
     const double kept = let_in(with, *g);
     const double p = scaled_chi_square_tail(kept / g->test.inflation, g->test.freedom, g->test.batches) * g->tests;
-    if (p < error) return {g, shape_of(*g, with)};
+    if (p >= error) continue;
+    if (g->curves.empty()) return {g, {}};
+    // Beside names it would be drawn without what these have taken of it.
+    JointModel alone = without_names(joint);
+    let_in(alone, *g);
+    return {g, shape_of(*g, alone)};
   }
   return {};
 }
@@ -117,9 +128,7 @@ Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double
 // A group without a name that says more in the place of all names than they do, chance and a name's imperfect form
 // allowed for.
 std::optional<Unnamed> what_says_more(const JointModel& joint, double error) {
-  JointModel bare = joint;
-  std::erase_if(bare.accepted, [](const AcceptedEffect& a) { return !a.effect->clock_rate; });
-  bare.fit(3);
+  const JointModel bare = without_names(joint);
   JointModel named = bare;
   for (const AcceptedEffect& a : joint.accepted)
     if (!a.effect->clock_rate)

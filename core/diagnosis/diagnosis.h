@@ -122,8 +122,9 @@ struct DiagnosisOptions {
   double family_wise_error = 0.02;
 };
 
-// Recordings of one vehicle. `held_out` are judged only after everything is frozen. Where none are given, each
-// recording in turn is predicted from a fit to the others (the names themselves were found on all of them).
+// Recordings of one vehicle. `held_out` give no name and no number: they are predicted after everything is frozen, and
+// may only take a name away that they contradict. Where none are given, each recording in turn is predicted from a fit
+// to the others (the names themselves were found on all of them).
 Result<Diagnosis> diagnose(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options = {}, const Progress& progress = {});
 

@@ -205,7 +205,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   report.paragraph(
       "The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, "
       "root mean "
-      "square. Held-out recordings were not looked at until everything was fixed.");
+      "square. Held-out recordings gave no name and no number; all they may do is take a name away that they "
+      "contradict.");
   bars.title = "Position error over each metre or radian";
   bars.x_label = "position error [mm]";
   report.picture(bar_picture(bars));
