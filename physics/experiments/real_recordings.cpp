@@ -227,7 +227,7 @@ void add_looked_for(const RecordingSet& set, const Diagnosis& diagnosis, Tables&
                               : " is not named, and what was not fitted is no better predicted with it");
       claim.because = without + " -> " + with + ", better by " + number_text("%.1f", l->better_by) +
                       " standard errors" + (could ? "" : "; these drives could not show it");
-      claim.holds = named ? l->better_by > 0.0 : l->better_by < kPlainlyBetter;
+      claim.holds = named ? l->better_by > kUndecided : l->better_by < kPlainlyBetter;
       claim.explained = named && std::abs(l->better_by) < kUndecided;
       if (claim.explained && !claim.holds)
         claim.because += ": too little was driven to confirm the name or to refute it";
