@@ -290,6 +290,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
+  if (clean.size() == 1 && held_out.empty() && !joint.accepted.empty())
+    d.warnings.push_back(
+        "what was found rests on one recording alone: hold out another of the same vehicle, and it is borne out or "
+        "taken "
+        "away");
   prove(d, joint, calibrated, adequacy.generic.front().as_effect, train, ready_held_out, nominal);
   if (named.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
