@@ -219,7 +219,10 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, cons
     else if (gain > kMostLeft * explained || is_in_pieces(evidence))
       out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
   }
-  if (!out.unnamed && names_physics(joint)) out.unnamed = what_says_more(joint, error);
+  // In the place of names a group says more than they by no more than it says beside them.
+  const bool may_say_more = std::any_of(out.generic.begin(), out.generic.end(),
+                                        [&](const GenericTest& g) { return g.test.statistic > kMostLeft * explained; });
+  if (!out.unnamed && may_say_more && names_physics(joint)) out.unnamed = what_says_more(joint, error);
   if (!out.unnamed) out.unnamed = what_contradicts(joint, calibrated, calibration.noise);
   return out;
 }
