@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/chi_square.h"
 
 namespace odolab {
 
@@ -103,12 +102,7 @@ std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked
     term->motions = [floor, headings_too](const DriveView& view, const std::vector<double>&) {
       return motions_of(view, floor, headings_too);
     };
-    CandidateColumns columns = joint.columns_of(*term, {});
-    columns.least_surviving = kLeastSurvivingOfGeneric;
-    t.test = joint.test(columns, -1, true);
-    t.tests = looked_at;
-    t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
-    t.as_effect = term;
+    ask(t, joint, term, looked_at);
     t.curves = {curve_along(true, floor), curve_along(false, floor)};
   });
   return tests;

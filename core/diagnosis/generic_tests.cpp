@@ -78,6 +78,15 @@ BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int chann
   return m;
 }
 
+void ask(GenericTest& t, const JointModel& joint, std::shared_ptr<const Effect> term, double looked_at) {
+  CandidateColumns columns = joint.columns_of(*term, {});
+  columns.least_surviving = kLeastSurvivingOfGeneric;
+  t.test = joint.test(columns, -1, true);
+  t.tests = looked_at;
+  t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
+  t.as_effect = std::move(term);
+}
+
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
@@ -225,17 +234,11 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     std::vector<std::vector<double>> one;
     g.values(DriveView{}, one);
     term->amplitudes.resize(one.size());
-    tests[i].as_effect = term;
     tests[i].variable = g.variable;
     tests[i].channel = name_of_channel(channel);
     tests[i].at = g.at;
     tests[i].waves = g.waves;
-    CandidateColumns columns = joint.columns_of(*term, {});
-    columns.least_surviving = kLeastSurvivingOfGeneric;
-    tests[i].test = joint.test(columns, -1, true);
-    tests[i].tests = n;
-    tests[i].p_value =
-        std::min(1.0, n * scaled_chi_square_tail(tests[i].test.judged(), tests[i].test.freedom, tests[i].test.batches));
+    ask(tests[i], joint, term, n);
   });
   for (const std::vector<GenericTest>& more :
        {uneven_wheel_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})

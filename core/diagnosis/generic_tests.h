@@ -44,6 +44,9 @@ BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int chann
 // its error, and are not tested.
 constexpr double kLeastSurvivingOfGeneric = 0.04;
 
+// Tests a group's term against the model, as one of so many that were looked at.
+void ask(GenericTest& test, const JointModel& joint, std::shared_ptr<const Effect> term, double looked_at);
+
 // Hats, harmonics and polynomials of what the vehicle does and where it is, waves (`waves.h`) and what bends the truth
 // (`bent_truth.h`). Best first.
 std::vector<GenericTest> generic_tests(const JointModel& joint);

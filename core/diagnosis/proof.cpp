@@ -57,34 +57,26 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   return j;
 }
 
-// Of one model, or of several that hold a run each.
-FitFigures figures(const std::vector<JointModel>& models) {
-  double position_m2 = 0.0, heading_rad2 = 0.0, windows = 0.0, chi2 = 0.0, scalars = 0.0;
-  for (const JointModel& j : models) {
-    const JointModel::GatheredError e = j.gathered_error();
-    position_m2 += e.windows * e.position_m2;
-    heading_rad2 += e.windows * e.heading_rad2;
-    windows += e.windows;
-    chi2 += j.chi2();
-    scalars += j.scalars();
-  }
-  if (windows > 0.0) position_m2 /= windows, heading_rad2 /= windows;
-  return {std::sqrt(position_m2), std::sqrt(heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
+JointModel::GatheredError summed_up(const std::vector<JointModel>& models) {
+  JointModel::GatheredError sum;
+  for (const JointModel& m : models) sum.add(m.gathered_error());
+  return sum;
 }
+
+// Of one model, or of several that hold a run each, and what they leave.
+FitFigures figures(const std::vector<JointModel>& models, const JointModel::GatheredError& error) {
+  double chi2 = 0.0, scalars = 0.0;
+  for (const JointModel& j : models) chi2 += j.chi2(), scalars += j.scalars();
+  return {std::sqrt(error.position_m2), std::sqrt(error.heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
+}
+FitFigures figures(const std::vector<JointModel>& models) { return figures(models, summed_up(models)); }
 
 // What the noise alone leaves over the same windows; it is fitted too, and where chance was kind the floor is what was
 // reached.
-FitFigures noise_floor(const std::vector<JointModel>& models, const FitFigures& reached) {
-  double position_m2 = 0.0, heading_rad2 = 0.0, windows = 0.0;
-  for (const JointModel& j : models) {
-    const JointModel::GatheredError e = j.gathered_error();
-    position_m2 += e.windows * e.noise_position_m2;
-    heading_rad2 += e.windows * e.noise_heading_rad2;
-    windows += e.windows;
-  }
-  if (windows > 0.0) position_m2 /= windows, heading_rad2 /= windows;
-  return {std::min(std::sqrt(position_m2), reached.position_rms_m),
-          std::min(std::sqrt(heading_rad2), reached.heading_rms_rad), std::min(1.0, reached.normalised_chi2)};
+FitFigures noise_floor(const JointModel::GatheredError& error, const FitFigures& reached) {
+  return {std::min(std::sqrt(error.noise_position_m2), reached.position_rms_m),
+          std::min(std::sqrt(error.noise_heading_rad2), reached.heading_rms_rad),
+          std::min(1.0, reached.normalised_chi2)};
 }
 
 struct ReadyRuns {
@@ -116,12 +108,6 @@ JointModel with_noise(JointModel m, const FittedNoise& noise, bool with_columns)
   m.model.noise = noise;
   m.linearise(with_columns);
   return m;
-}
-
-JointModel::GatheredError summed_up(const std::vector<JointModel>& models) {
-  JointModel::GatheredError sum;
-  for (const JointModel& m : models) sum.add(m.gathered_error());
-  return sum;
 }
 
 // The same term half a run later: as free as the finding, and without meaning.
@@ -178,10 +164,11 @@ void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
     t.nominal = figures(judged(as_nominal, true));
     t.calibrated = figures(judged(calibrated, false));
     const std::vector<JointModel> found = judged(after, false);
-    t.with_findings = figures(found);
+    const JointModel::GatheredError left = summed_up(found);
+    t.with_findings = figures(found, left);
     t.spline = figures(judged(with_spline, false));
     if (with_placebo) t.placebo = figures(judged(*with_placebo, false));
-    t.noise_floor = noise_floor(found, *t.with_findings);
+    t.noise_floor = noise_floor(left, *t.with_findings);
     return t;
   };
   using Models = std::vector<JointModel>;

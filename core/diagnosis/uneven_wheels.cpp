@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/chi_square.h"
 
 namespace odolab {
 
@@ -45,16 +44,11 @@ std::vector<GenericTest> uneven_wheel_tests(const JointModel& joint, double look
     term->motions = [=](const DriveView& view, const std::vector<double>&) {
       return motions_of(view, wheel, times_a_turn, runs);
     };
-    CandidateColumns columns = joint.columns_of(*term, {});
-    columns.least_surviving = kLeastSurvivingOfGeneric;
-    t.test = joint.test(columns, -1, true);
-    t.tests = looked_at;
-    t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
+    ask(t, joint, term, looked_at);
     for (std::size_t r = 0; r < runs; ++r)
       t.waves.push_back({"phase of " + t.variable + (runs > 1 ? ", recording " + std::to_string(r + 1) : "") + " [rad]",
                          {2 * r},
                          {2 * r + 1}});
-    t.as_effect = term;
   });
   return tests;
 }

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/chi_square.h"
 
 namespace odolab {
 
@@ -246,11 +245,7 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests)
                     ? wave.in_time ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
-    CandidateColumns columns = joint.columns_of(*term, {});
-    columns.least_surviving = kLeastSurvivingOfGeneric;
-    t.test = joint.test(columns, -1, true);
-    t.tests = looked_at;
-    t.p_value = std::min(1.0, looked_at * scaled_chi_square_tail(t.test.judged(), t.test.freedom, t.test.batches));
+    ask(t, joint, term, looked_at);
     const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.in_time ? runs : 1); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {
@@ -259,7 +254,6 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests)
         t.waves.push_back(
             {"phase of " + t.variable + where + " [rad]", {k * of_each + 2 * axis}, {k * of_each + 2 * axis + 1}});
       }
-    t.as_effect = term;
   });
   return tests;
 }
