@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/replay.h"

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "core/base/parallel.h"
 #include "core/calibration/cannot_be_told.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/first_guess.h"
@@ -171,7 +173,9 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   result.warnings.insert(result.warnings.end(), jumps.begin(), jumps.end());
   const InnovationModel& model = fit.now().shared;
   fit.correlations(result.correlation);
-  result.lasting_correlation = fit.lasting_correlation();
+  const LikelihoodFit::Lasting lasting = fit.lasting_correlation();
+  result.lasting_correlation = lasting.a_reading;
+  result.correlation_after_1_s = lasting.a_second;
   constexpr int kBatches = 60;
   const LikelihoodFit::Sums final_sums = fit.sums(fit.now(), true, kBatches);
   result.innovations = final_sums.scalars;
@@ -324,8 +328,8 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
 Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
                                                         const Vehicle& nominal, const LeastSquaresOptions& options,
                                                         const Progress& progress) {
-  // A missing effect correlates innovations too, but less, and over as long as a manoeuvre lasts.
-  constexpr double kNext = 0.5, kLasting = 0.2;
+  // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts.
+  constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5;
   const auto next = [](const LeastSquaresCalibration& c) {
     return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
   };
@@ -333,7 +337,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   const auto is_white = [&](const LeastSquaresCalibration& c) {
     return next(c) < kNext && c.lasting_correlation < kLasting;
   };
-  if (!all || is_white(*all)) return all;
+  if (!all || is_white(*all) || all->correlation_after_1_s > kOfManoeuvres) return all;
   // Clocks that run apart correlate them just so, and that is no noise.
   LeastSquaresOptions clocks_right = options;
   clocks_right.clocks = moved_clocks(recordings, *all, options);
@@ -342,12 +346,23 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);
     if (put_right && is_white(*put_right)) return all;
   }
-  for (double apart_s : {0.1, 0.2, 0.3, 0.5}) {
+  constexpr std::array<double, 4> kApart_s = {0.1, 0.2, 0.3, 0.5};
+  const auto of_samples_apart = [&](double apart_s, const LeastSquaresOptions& with) {
     std::vector<Recording> thinned;
     for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
-    Result<LeastSquaresCalibration> of_fewer = calibrated_by_all(thinned, nominal, clocks_right, progress);
+    return calibrated_by_all(thinned, nominal, with, {});
+  };
+  std::array<std::optional<Result<LeastSquaresCalibration>>, kApart_s.size()> tried;
+  parallel_for(static_cast<int>(tried.size()), [&](int k) {
+    const auto at = static_cast<std::size_t>(k);
+    tried[at] = of_samples_apart(kApart_s[at], clocks_right);
+  });
+  if (!goes_on(progress, 1.0)) return Error{"calibration", "stopped before its end", ""};
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    const double apart_s = kApart_s[k];
+    Result<LeastSquaresCalibration> of_fewer = std::move(*tried[k]);
     if (!of_fewer || next(*of_fewer) > kLasting || of_fewer->lasting_correlation > kLasting) continue;
-    if (clocks_are_off) of_fewer = calibrated_by_all(thinned, nominal, options, progress);
+    if (clocks_are_off) of_fewer = of_samples_apart(apart_s, options);
     if (!of_fewer) return of_fewer;
     of_fewer->truth_apart_s = apart_s;
     of_fewer->warnings.push_back(

@@ -56,7 +56,8 @@ struct LeastSquaresCalibration {
   // there is something that these parameters do not describe. The standard errors are then enlarged to what the scatter
   // of the score over batches of the recordings shows.
   double correlation[3] = {};
-  double lasting_correlation = 0.0;  // the largest of these at a reading and a half of the encoders
+  double lasting_correlation = 0.0;    // the largest of these at a reading and a half of the encoders
+  double correlation_after_1_s = 0.0;  // and of innovations a second apart
   // Where these are large and pass within half a second, the truth's noise lasts: only samples so far apart are used
   // then (correlated_truth.h). Zero: all of them.
   double truth_apart_s = 0.0;

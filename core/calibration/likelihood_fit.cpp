@@ -88,6 +88,7 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
   Sums now = sums(now_, true);
   double value = objective(now, now_);
   double damping = 1e-6;
+  constexpr double kNothing = 1e-6;  // a thousandth of a standard deviation
   const int n = static_cast<int>(active.size());
   for (int i = 0; i < most_iterations; ++i) {
     MatrixXd a(n, n);
@@ -104,6 +105,7 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
       for (int r = 0; r < n; ++r) damped(r, r) *= 1.0 + damping;
       const VectorXd step = damped.ldlt().solve(g);
       size = step.dot(a * step);
+      if (size < kNothing) break;
       FitParameters candidate = now_;
       for (int r = 0; r < n; ++r) parameter_of(candidate, active[r]) += step(r) * prior_[active[r]];
       if (problems_in(candidate.shared.drive).empty()) {
@@ -118,10 +120,9 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
           break;
         }
       }
-      if (size < 1e-6) break;
       damping = std::max(damping * 10.0, 1e-4) * 3.0;
     }
-    if (!accepted || size < 1e-6) break;  // a thousandth of a standard deviation
+    if (!accepted) break;
   }
 }
 
@@ -220,9 +221,18 @@ void LikelihoodFit::correlations(double* out) const {
   for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
 }
 
-double LikelihoodFit::lasting_correlation() const {
+LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
   constexpr double kReadings = 1.5;
-  double product[3] = {}, square[3] = {};
+  struct Products {
+    std::array<double, 3> product{}, square{};
+    double largest() const {
+      double most = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (square[k] > 0.0) most = std::max(most, product[k] / square[k]);
+      return most;
+    }
+  };
+  Products a_reading, a_second;
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
     std::vector<std::array<double, 3>> white;
     FilterOptions options;
@@ -236,18 +246,18 @@ double LikelihoodFit::lasting_correlation() const {
     const auto period_s = [](const auto& samples) {
       return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
     };
-    const double apart = kReadings * period_s(runs_[r].wheels) / period_s(runs_[r].truth);
-    const auto lag = static_cast<std::size_t>(std::clamp(apart, 1.0, 100.0));
-    for (std::size_t i = lag; i < white.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        product[k] += white[i][k] * white[i - lag][k];
-        square[k] += white[i][k] * white[i][k];
-      }
+    const auto add = [&](Products& sum, double apart_s) {
+      const auto lag = static_cast<std::size_t>(std::clamp(apart_s / period_s(runs_[r].truth), 1.0, 1000.0));
+      for (std::size_t i = lag; i < white.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+          sum.product[k] += white[i][k] * white[i - lag][k];
+          sum.square[k] += white[i][k] * white[i][k];
+        }
+    };
+    add(a_reading, kReadings * period_s(runs_[r].wheels));
+    add(a_second, 1.0);
   }
-  double largest = 0.0;
-  for (int k = 0; k < 3; ++k)
-    if (square[k] > 0.0) largest = std::max(largest, product[k] / square[k]);
-  return largest;
+  return {a_reading.largest(), a_second.largest()};
 }
 
 LikelihoodFit::Sums LikelihoodFit::none() const {

@@ -78,9 +78,12 @@ class LikelihoodFit {
 
   // Lag-one correlation of the whitened innovations of x, y and heading.
   void correlations(double* out) const;
-  // The largest of the three at a reading and a half of the encoders: samples between the same two readings share their
-  // rounding.
-  double lasting_correlation() const;
+  // The largest of the three between samples a reading and a half of the encoders apart, since those between the same
+  // two readings share their rounding; and between samples a second apart.
+  struct Lasting {
+    double a_reading = 0.0, a_second = 0.0;
+  };
+  Lasting lasting_correlation() const;
 
   void hold_at_nominal(int c) { parameter_of(now_, c) = value(nominal_, c); }
   static double value(FitParameters parameters, int c) { return parameter_of(parameters, c); }

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/calibration/restamped.h"
-#include "core/diagnosis/effect_motions.h"
-#include "core/diagnosis/joint_model.h"
-#include "core/diagnosis/ready_run.h"
+#include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/model/joint_model.h"
+#include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {

@@ -2,20 +2,20 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/chi_square.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/moved_mounting.h"
 #include "core/calibration/recording_fault.h"
-#include "core/diagnosis/adequacy.h"
-#include "core/diagnosis/advice.h"
-#include "core/diagnosis/chi_square.h"
+#include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/intervals.h"
+#include "core/diagnosis/generic/adequacy.h"
+#include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/proof.h"
 #include "core/diagnosis/quality.h"
-#include "core/diagnosis/ready_run.h"
-#include "core/diagnosis/responses.h"
-#include "core/diagnosis/select.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/where.h"
@@ -172,10 +172,14 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   Intervals intervals = refined(joint, inflation);
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.
+  const Predictor predictor(ready_held_out, d.calibration_alone, nominal);
+  Predicted by_calibrated, by_joint;
   const auto untenable = [&]() -> std::optional<std::size_t> {
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
       if (!stands_out(joint, joint.accepted[k])) return k;
-    const std::optional<std::size_t> k = refuted(joint, calibrated, d, ready_held_out, nominal);
+    by_calibrated = predictor.of(calibrated, joint.model.noise);
+    by_joint = joint.accepted.empty() ? by_calibrated : predictor.of(joint, joint.model.noise);
+    const std::optional<std::size_t> k = refuted(predictor, joint, by_joint, by_calibrated);
     if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
     return k;
   };
@@ -214,7 +218,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
-  d.responses = responses_of(calibrated, adequacy.generic, !joint.accepted.empty());
+  d.responses = responses_of(adequacy.generic, !joint.accepted.empty());
 
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
@@ -293,9 +297,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (clean.size() == 1 && held_out.empty() && !joint.accepted.empty())
     d.warnings.push_back(
         "what was found rests on one recording alone: hold out another of the same vehicle, and it is borne out or "
-        "taken "
-        "away");
-  prove(d, joint, calibrated, adequacy.generic.front().as_effect, train, ready_held_out, nominal);
+        "taken away");
+  prove(d, predictor, joint, calibrated, by_joint, by_calibrated, adequacy.generic.front().as_effect, train);
   if (named.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;

@@ -10,7 +10,8 @@
 #include "core/base/result.h"
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/active_effect.h"
-#include "core/diagnosis/advised_drive.h"
+#include "core/diagnosis/advice/advised_drive.h"
+#include "core/diagnosis/found_parameter.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -22,13 +23,6 @@ enum class Verdict {
   unknown_effect,   // something is missing that no entry of the catalogue describes
   ambiguous,        // something is missing, and the recordings cannot decide between the names given
   cannot_say,       // the recordings are too poor to judge
-};
-
-struct FoundParameter {
-  std::string name;
-  double value = 0.0;
-  double stderr_value = 0.0;
-  std::string unit;
 };
 
 // Only what applies.

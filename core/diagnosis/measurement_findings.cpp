@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/chi_square.h"
+#include "core/base/chi_square.h"
 
 namespace odolab {
 

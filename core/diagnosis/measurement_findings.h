@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "core/calibration/moved_mounting.h"
-#include "core/diagnosis/intervals.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/naming/intervals.h"
 
 namespace odolab {
 

@@ -2,8 +2,8 @@
 
 #include "core/calibration/left_out.h"
 #include "core/calibration/restamped.h"
-#include "core/diagnosis/effect_motions.h"
-#include "core/diagnosis/ready_run.h"
+#include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {

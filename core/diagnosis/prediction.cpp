@@ -5,7 +5,7 @@
 
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/effect_motions.h"
+#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/units/prediction.h"
 #include "core/diagnosis/units/vehicle_units.h"

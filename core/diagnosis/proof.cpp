@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/clocks_first.h"
-#include "core/diagnosis/material.h"
-#include "core/diagnosis/ready_run.h"
+#include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/naming/clocks_first.h"
+#include "core/diagnosis/naming/material.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -15,21 +15,19 @@ namespace {
 
 using Eigen::VectorXd;
 
-Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal, int run) {
+Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal) {
   Vehicle v = nominal;
   v.kind = j.model.drive;
   v.truth = j.model.truth;
-  double mean = 0.0;
-  for (double c : j.clock_s) mean += c / static_cast<double>(j.clock_s.size());
-  v.truth.time_offset_s = run >= 0 ? j.clock_s[run] : mean;
+  v.truth.time_offset_s = 0.0;
+  for (double c : j.clock_s) v.truth.time_offset_s += c / static_cast<double>(j.clock_s.size());
   return v;
 }
 
 // Other runs under a model that is frozen but for their clocks.
 JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
-                  const Diagnosis& d, const Vehicle& nominal, const FittedNoise& noise) {
-  LeastSquaresCalibration start = d.calibration_alone;
-  start.vehicle = vehicle_of(source, nominal, -1);
+                  LeastSquaresCalibration start, const Vehicle& nominal, const FittedNoise& noise) {
+  start.vehicle = vehicle_of(source, nominal);
   start.noise = noise;
   start.time_offset_s.assign(runs.size(), start.vehicle.truth.time_offset_s);
   JointModel j(std::move(runs), std::move(commands), start, nominal);
@@ -57,42 +55,25 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   return j;
 }
 
-JointModel::GatheredError summed_up(const std::vector<JointModel>& models) {
-  JointModel::GatheredError sum;
-  for (const JointModel& m : models) sum.add(m.gathered_error());
-  return sum;
-}
-
-// Of one model, or of several that hold a run each, and what they leave.
-FitFigures figures(const std::vector<JointModel>& models, const JointModel::GatheredError& error) {
+// Of one model, or of several that hold a run each.
+Predicted::Side side_of(const std::vector<JointModel>& models) {
+  Predicted::Side side;
   double chi2 = 0.0, scalars = 0.0;
-  for (const JointModel& j : models) chi2 += j.chi2(), scalars += j.scalars();
-  return {std::sqrt(error.position_m2), std::sqrt(error.heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
+  for (const JointModel& j : models) {
+    side.error.add(j.gathered_error());
+    chi2 += j.chi2(), scalars += j.scalars();
+  }
+  side.figures = {std::sqrt(side.error.position_m2), std::sqrt(side.error.heading_rad2),
+                  scalars > 0.0 ? chi2 / scalars : 0.0};
+  return side;
 }
-FitFigures figures(const std::vector<JointModel>& models) { return figures(models, summed_up(models)); }
 
 // What the noise alone leaves over the same windows; it is fitted too, and where chance was kind the floor is what was
 // reached.
-FitFigures noise_floor(const JointModel::GatheredError& error, const FitFigures& reached) {
-  return {std::min(std::sqrt(error.noise_position_m2), reached.position_rms_m),
-          std::min(std::sqrt(error.noise_heading_rad2), reached.heading_rms_rad),
-          std::min(1.0, reached.normalised_chi2)};
-}
-
-struct ReadyRuns {
-  std::vector<InnovationRun> runs;
-  std::vector<char> commands;
-};
-
-ReadyRuns ready_runs(const std::vector<CheckedRecording>& checked, const Vehicle& nominal) {
-  ReadyRuns ready;
-  for (const CheckedRecording& c : checked) {
-    Result<InnovationRun> run = ready_run(c, nominal);
-    if (!run) continue;
-    ready.runs.push_back(std::move(*run));
-    ready.commands.push_back(c.from_commands);
-  }
-  return ready;
+FitFigures noise_floor(const Predicted::Side& reached) {
+  return {std::min(std::sqrt(reached.error.noise_position_m2), reached.figures.position_rms_m),
+          std::min(std::sqrt(reached.error.noise_heading_rad2), reached.figures.heading_rms_rad),
+          std::min(1.0, reached.figures.normalised_chi2)};
 }
 
 // Each run by a fit to the others.
@@ -134,75 +115,84 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
 
 }  // namespace
 
-void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
-           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
-           const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal) {
+Predictor::Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
+                     const Vehicle& nominal)
+    : calibration_(calibration), nominal_(nominal) {
+  for (const CheckedRecording& c : ready_held_out) {
+    Result<InnovationRun> run = ready_run(c, nominal);
+    if (!run) continue;
+    runs_.push_back(std::move(*run));
+    commands_.push_back(c.from_commands);
+  }
+}
+
+Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit fit) const {
+  const bool leaves_out_in_turn = runs_.empty() && model.runs().size() > 1 && fit == Fit::to_recordings;
+  const std::vector<JointModel> all = {with_noise(model, noise, leaves_out_in_turn)};
+  Predicted p;
+  p.fitted = side_of(all);
+  if (!runs_.empty())
+    p.unseen = side_of({frozen(model, runs_, commands_, calibration_, nominal_, noise)});
+  else if (leaves_out_in_turn)
+    p.unseen = side_of(left_out_in_turn(all[0]));
+  else if (model.runs().size() > 1)
+    p.unseen = p.fitted;
+  return p;
+}
+
+void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
+           const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
+           const std::vector<Recording>& train) {
   const FittedNoise noise = joint.model.noise;
   const bool unnamed =
       std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "unknown"; });
   const JointModel& after = unnamed ? calibrated : joint;
-  d.fitted_vehicle = vehicle_of(after, nominal, -1);
+  const Predicted& by_after = unnamed ? by_calibrated : by_joint;
+  d.fitted_vehicle = vehicle_of(after, predictor.nominal());
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
-  const auto with_term = [&](const Effect& term) {
+  const auto by_term = [&](const Effect& term) {
     JointModel m = calibrated;
     m.accepted.push_back({&term, {}, std::vector<double>(term.amplitudes.size(), 0.0), {}});
     m.fit(2);
-    return m;
+    return predictor.of(m, noise);
   };
-  const JointModel with_spline = with_term(*spline);
-  Effect placebo;
-  std::optional<JointModel> with_placebo;
-  if (!after.accepted.empty() && !after.accepted[0].effect->clock_rate) {
-    placebo = out_of_step(*after.accepted[0].effect, after.accepted[0].shape);
-    with_placebo = with_term(placebo);
-  }
+  const Predicted by_spline = by_term(*spline);
+  std::optional<Predicted> by_placebo;
+  if (!after.accepted.empty() && after.accepted[0].acts_on_motion())
+    by_placebo = by_term(out_of_step(*after.accepted[0].effect, after.accepted[0].shape));
   JointModel as_nominal = calibrated;
-  as_nominal.model.drive = std::get<DifferentialDrive>(nominal.kind);
-  as_nominal.model.truth = nominal.truth;
-  const auto table = [&](const auto& judged) {
+  as_nominal.model.drive = std::get<DifferentialDrive>(predictor.nominal().kind);
+  as_nominal.model.truth = predictor.nominal().truth;
+  const Predicted by_nominal = predictor.of(as_nominal, noise, Predictor::Fit::none);
+  const auto table = [&](const auto& side) {
     FitTable t;
-    t.nominal = figures(judged(as_nominal, true));
-    t.calibrated = figures(judged(calibrated, false));
-    const std::vector<JointModel> found = judged(after, false);
-    const JointModel::GatheredError left = summed_up(found);
-    t.with_findings = figures(found, left);
-    t.spline = figures(judged(with_spline, false));
-    if (with_placebo) t.placebo = figures(judged(*with_placebo, false));
-    t.noise_floor = noise_floor(left, *t.with_findings);
+    t.nominal = side(by_nominal).figures;
+    t.calibrated = side(by_calibrated).figures;
+    t.with_findings = side(by_after).figures;
+    t.spline = side(by_spline).figures;
+    if (by_placebo) t.placebo = side(*by_placebo).figures;
+    t.noise_floor = noise_floor(side(by_after));
     return t;
   };
-  using Models = std::vector<JointModel>;
-  d.train = table([&](const JointModel& m, bool) { return Models{with_noise(m, noise, false)}; });
-  if (const ReadyRuns unseen = ready_runs(ready_held_out, nominal); !unseen.runs.empty()) {
-    d.held_out = table(
-        [&](const JointModel& m, bool) { return Models{frozen(m, unseen.runs, unseen.commands, d, nominal, noise)}; });
-  } else if (ready_held_out.empty() && train.size() > 1) {
-    d.left_out_in_turn = true;
-    d.held_out = table([&](const JointModel& m, bool as_it_is) {
-      const JointModel all = with_noise(m, noise, !as_it_is);
-      return as_it_is ? Models{all} : left_out_in_turn(all);
-    });
-  }
+  d.train = table([](const Predicted& p) { return p.fitted; });
+  d.left_out_in_turn = predictor.leaves_out_in_turn() && by_after.unseen;
+  if (by_after.unseen) d.held_out = table([](const Predicted& p) { return *p.unseen; });
 }
 
-std::optional<std::size_t> refuted(const JointModel& joint, const JointModel& calibrated, const Diagnosis& d,
-                                   const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal) {
-  const FittedNoise noise = joint.model.noise;
-  const ReadyRuns unseen = ready_runs(ready_held_out, nominal);
-  if (joint.accepted.empty() || (unseen.runs.empty() && joint.runs().size() < 2)) return std::nullopt;
-  const auto error_of = [&](const JointModel& m) {
-    return unseen.runs.empty() ? summed_up(left_out_in_turn(with_noise(m, noise, true)))
-                               : frozen(m, unseen.runs, unseen.commands, d, nominal, noise).gathered_error();
+std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel& joint, const Predicted& by_joint,
+                                   const Predicted& by_calibrated) {
+  if (joint.accepted.empty() || !by_joint.unseen) return std::nullopt;
+  const auto worse_than = [&](const Predicted& other) {
+    return worse_than_chance(other.unseen->error, by_joint.unseen->error);
   };
-  const JointModel::GatheredError with_all = error_of(joint);
-  if (worse_than_chance(error_of(calibrated), with_all) <= 0.0) return std::nullopt;
+  if (worse_than(by_calibrated) <= 0.0) return std::nullopt;
   std::optional<std::size_t> worst;
   double most = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     JointModel without = joint;
     without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
     without.fit(3);
-    const double worse = worse_than_chance(error_of(without), with_all);
+    const double worse = worse_than(predictor.of(without, joint.model.noise));
     if (worse > most) most = worse, worst = k;
   }
   return worst;

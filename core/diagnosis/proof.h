@@ -7,21 +7,48 @@
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/model/joint_model.h"
 #include "core/diagnosis/quality.h"
 
 namespace odolab {
 
-// `spline` is let in beside calibration, whatever its evidence.
-// Fills in `train` and `held_out`; nothing is fitted to the held-out runs but the truth's clock of each. Without any
-// each run is left out in turn.
-void prove(Diagnosis& d, const JointModel& joint, const JointModel& calibrated,
-           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train,
-           const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal);
+// What a model comes to, on the recordings that it was fitted to and on those that it was not.
+struct Predicted {
+  struct Side {
+    FitFigures figures;
+    JointModel::GatheredError error;
+  };
+  Side fitted;
+  std::optional<Side> unseen;  // unset where there is none
+};
 
-// Of the accepted effects the one by which runs that were not fitted are predicted worse than chance could make it, if
-// any; the worst of them. Runs as in `prove`.
-std::optional<std::size_t> refuted(const JointModel& joint, const JointModel& calibrated, const Diagnosis& d,
-                                   const std::vector<CheckedRecording>& ready_held_out, const Vehicle& nominal);
+// Predicts what was not fitted: the recordings held out, by a model that is frozen but for their clocks; where there
+// are none, each recording in turn by a fit to the others.
+class Predictor {
+ public:
+  Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
+            const Vehicle& nominal);
+  enum class Fit { to_recordings, none };  // none: a model as it was given, for which all recordings are new
+  // With that noise in the place of the model's own, so that models can be compared.
+  Predicted of(const JointModel& model, const FittedNoise& noise, Fit fit = Fit::to_recordings) const;
+  bool leaves_out_in_turn() const { return runs_.empty(); }
+  const Vehicle& nominal() const { return nominal_; }
+
+ private:
+  std::vector<InnovationRun> runs_;
+  std::vector<char> commands_;
+  LeastSquaresCalibration calibration_;
+  Vehicle nominal_;
+};
+
+// Fills in `train`, `held_out` and the vehicle as fitted. `spline`: let in beside calibration, whatever its evidence.
+void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
+           const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
+           const std::vector<Recording>& train);
+
+// Of the accepted effects the one by which what was not fitted is predicted worse than chance could make it, if any;
+// the worst of them.
+std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel& joint, const Predicted& by_joint,
+                                   const Predicted& by_calibrated);
 
 }  // namespace odolab

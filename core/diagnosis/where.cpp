@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/intervals.h"
+#include "core/diagnosis/naming/intervals.h"
 
 namespace odolab {
 

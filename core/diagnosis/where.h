@@ -1,7 +1,8 @@
 // When and where an accepted effect acts.
 #pragma once
 
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
 

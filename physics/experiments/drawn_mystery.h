@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
-#include "core/diagnosis/advised_drive.h"
+#include "core/diagnosis/advice/advised_drive.h"
 #include "core/diagnosis/fitted_model.h"
 #include "physics/experiments/concealed/drawn_case.h"
 

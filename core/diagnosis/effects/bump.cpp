@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

@@ -1,7 +1,7 @@
 // One-sided drag: a turn per metre that keeps its side in reverse, unlike unequal wheels.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

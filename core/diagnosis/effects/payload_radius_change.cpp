@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

@@ -3,7 +3,7 @@
 // between.
 #include <algorithm>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

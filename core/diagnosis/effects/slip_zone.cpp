@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 
@@ -17,7 +17,8 @@ std::vector<Effect> slip_zone() {
   e.component = "floor";
   e.amplitudes = {{"slip", "1", 0.05, 0.0, 1.0}};
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m", 0.0, 0.03, 20.0}};
-  // A patch of three numbers is refined from a coarse grid, from several starts: a few independent ones for each scanned.
+  // A patch of three numbers is refined from a coarse grid, from several starts: a few independent ones for each
+  // scanned.
   e.tests_of_a_shape = 4.0;
   e.forms = {"each wheel that is on the patch", "both wheels while the axle's centre is on it",
              "travel alone while the axle's centre is on it"};

@@ -1,7 +1,7 @@
 // The radius of both wheels grows by a share in proportion to the speed of the vehicle.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

@@ -1,7 +1,7 @@
 // Traction slip: the share of a step that is lost is in proportion to the acceleration along the travel.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

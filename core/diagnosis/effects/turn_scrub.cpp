@@ -1,7 +1,7 @@
 // Turn scrub: the effective wheelbase is b (1 + k |w|), so a turn falls short by k |w| of itself.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

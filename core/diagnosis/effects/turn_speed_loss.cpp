@@ -1,7 +1,7 @@
 // Loss of speed in turns: the share of the forward motion that is lost is k |w|.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

@@ -1,7 +1,7 @@
 // Tyre compression: with lateral acceleration a = v w the outer tyre is squeezed, and the inner one may be relieved.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

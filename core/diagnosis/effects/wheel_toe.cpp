@@ -2,7 +2,7 @@
 // round.
 #include <cmath>
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 

@@ -5,8 +5,8 @@
 
 #include "core/calibration/linked.h"
 #include "core/calibration/smoothed_readings.h"
-#include "core/diagnosis/effect_motions.h"
-#include "core/diagnosis/select.h"
+#include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/merged.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/diagnosis/chi_square.h"
+#include "core/base/chi_square.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/vehicle/key_words.h"

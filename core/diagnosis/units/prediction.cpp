@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/calibration/smoothed_readings.h"
-#include "core/diagnosis/effect_motions.h"
+#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/odometry/cast.h"
 #include "core/odometry/encoder_trailer.h"

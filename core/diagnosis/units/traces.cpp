@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/material.h"
+#include "core/diagnosis/naming/material.h"
 
 namespace odolab {
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/adequacy.h"
+#include "core/diagnosis/generic/adequacy.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/candidate_scan.h"
+#include "core/diagnosis/model/candidate_scan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/counts_at_rest.h"
+#include "core/diagnosis/model/counts_at_rest.h"
 
 #include <gtest/gtest.h>
 

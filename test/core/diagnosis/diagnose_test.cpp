@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/chi_square.h"
 #include "core/base/parallel.h"
-#include "core/diagnosis/chi_square.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/model/joint_model.h"
 #include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
 

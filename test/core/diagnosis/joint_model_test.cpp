@@ -1,4 +1,4 @@
-#include "core/diagnosis/joint_model.h"
+#include "core/diagnosis/model/joint_model.h"
 
 #include <gtest/gtest.h>
 

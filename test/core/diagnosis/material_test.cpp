@@ -1,4 +1,4 @@
-#include "core/diagnosis/material.h"
+#include "core/diagnosis/naming/material.h"
 
 #include <gtest/gtest.h>
 

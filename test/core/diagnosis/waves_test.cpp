@@ -1,4 +1,4 @@
-#include "core/diagnosis/waves.h"
+#include "core/diagnosis/generic/waves.h"
 
 #include <gtest/gtest.h>
 

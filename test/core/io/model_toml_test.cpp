@@ -1,6 +1,6 @@
 #include "core/io/model_toml.h"
 
-#include "core/diagnosis/effect.h"
+#include "core/diagnosis/effects/effect.h"
 #include "test/core/io/files.h"
 
 namespace odolab {

@@ -1,0 +1,128 @@
+#include "core/diagnosis/advice/visible.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/chi_square.h"
+#include "core/base/formatted.h"
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kShapes = 9;  // of a scan, to find what is typical
+
+// The chi-square that is exceeded with that probability.
+double chi_square_at(double probability, int freedom) {
+  double low = 0.0, high = 200.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (chi_square_tail(middle, freedom) > probability ? low : high) = middle;
+  }
+  return high;
+}
+
+Visible visible_at(const JointModel& joint, const Effect& e, const std::vector<double>& shape, double probability) {
+  Visible out;
+  out.effect = &e;
+  out.shape = shape;
+  const CandidateTest t = joint.test(joint.columns_of(e, shape), -1, !e.local);
+  out.standard = std::sqrt(chi_square_at(probability, static_cast<int>(e.amplitudes.size()))) + kPower;
+  if (t.value.empty()) return out;
+  out.excited = true;
+  out.survives = t.survives;
+  out.inflation = t.inflation;
+  out.needed = 0.0;
+  for (std::size_t k = 0; k < t.value.size(); ++k) {
+    const double needed = out.standard * t.stderr_value[k] * std::sqrt(t.inflation) / e.amplitudes[k].medium;
+    if (needed > out.needed) out.needed = needed, out.weakest = static_cast<int>(k);
+  }
+  return out;
+}
+
+// Nothing where the recordings are too few for it to be asked.
+std::optional<Visible> visible(const JointModel& joint, const Effect& e, double family_wise_error) {
+  std::vector<std::vector<double>> shapes{{}};
+  std::size_t scanned = 1;
+  if (e.shape_follows_amplitude) {
+    shapes = {{e.amplitudes[0].medium}};
+    scanned = e.scan(joint.views()).size();
+  } else if (e.scan) {
+    const std::vector<std::vector<double>> all = e.scan(joint.views());
+    scanned = std::max<std::size_t>(1, all.size());
+    shapes.clear();
+    for (std::size_t k = 0; k < kShapes && !all.empty(); ++k)
+      shapes.push_back(all[(2 * k + 1) * all.size() / (2 * kShapes)]);
+  }
+  const double probability =
+      family_wise_error /
+      (static_cast<double>(catalogue().size() * scanned * std::max<std::size_t>(1, e.forms.size())));
+  if (shapes.empty()) return std::nullopt;
+  std::vector<Visible> of;
+  for (std::vector<double>& s : shapes) {
+    if (e.forms.size() > 1) s.push_back(0.0);
+    of.push_back(visible_at(joint, e, s, probability));
+  }
+  std::stable_sort(of.begin(), of.end(), [](const Visible& a, const Visible& b) { return a.needed < b.needed; });
+  return of[of.size() / 2];
+}
+
+}  // namespace
+
+std::vector<Visible> unseen(const JointModel& joint, double family_wise_error) {
+  const bool commands = joint.views().front().from_commands;
+  std::vector<const Effect*> asked;
+  for (const Effect& e : catalogue()) {
+    if (e.only_commands && !commands) continue;
+    if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) continue;
+    if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                    [&](const AcceptedEffect& a) { return a.effect->name == e.name; }))
+      continue;
+    if (e.name == "wheel_toe") continue;  // a mounting turned the other way; seen as that
+    asked.push_back(&e);
+  }
+  std::vector<std::optional<Visible>> looks(asked.size());
+  parallel_for(static_cast<int>(asked.size()), [&](int i) { looks[i] = visible(joint, *asked[i], family_wise_error); });
+  // Of an effect that shows in several ways the clearest counts; of one that several parts may have, the part on which
+  // it shows least.
+  std::vector<Visible> seen, dark;
+  for (const std::optional<Visible>& v : looks) {
+    if (!v) continue;
+    const auto same = std::find_if(seen.begin(), seen.end(), [&](const Visible& s) {
+      return s.effect->name == v->effect->name && s.effect->component == v->effect->component;
+    });
+    if (same == seen.end())
+      seen.push_back(*v);
+    else if (v->needed < same->needed)
+      *same = *v;
+  }
+  for (const Visible& v : seen) {
+    if (v.needed <= 1.0) continue;
+    const auto same =
+        std::find_if(dark.begin(), dark.end(), [&](const Visible& d) { return d.effect->name == v.effect->name; });
+    if (same == dark.end())
+      dark.push_back(v);
+    else if (v.needed > same->needed)
+      *same = v;
+  }
+  return dark;
+}
+
+std::string because_of(const Visible& v) {
+  if (!v.excited) return "these drives hold nothing that would show it";
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  const bool of_itself = a.unit == "1" || a.unit.rfind("1/", 0) == 0;
+  const double factor = of_itself ? 100.0 : 1.0;
+  const std::string unit = a.unit == "1" ? " %" : of_itself ? " % per " + a.unit.substr(2) : " " + a.unit;
+  const bool absorbed = v.survives < 0.05;
+  const std::string share = absorbed ? formatted("on these drives calibration absorbs %.3g %% of what it would do: ",
+                                                 100.0 * (1.0 - v.survives))
+                                     : "";
+  if (v.needed > 1e4) return share + "none of any size would have shown";
+  return share + formatted("less than %.2g", v.needed * a.medium * factor) + unit + " would not have shown here" +
+         formatted(", and %.2g", a.medium * factor) + unit + " is of importance";
+}
+
+}  // namespace odolab

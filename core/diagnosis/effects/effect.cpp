@@ -1,0 +1,172 @@
+#include "core/diagnosis/effects/effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace odolab {
+
+const char* component_of(Wheel wheel) {
+  return wheel == Wheel::left ? "left_wheel" : wheel == Wheel::right ? "right_wheel" : "both_wheels";
+}
+
+BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m) {
+  if (wheel == Wheel::both) return {extra_m, 0.0, 0.0};
+  return {0.5 * extra_m, 0.0, (wheel == Wheel::right ? extra_m : -extra_m) / wheelbase_m};
+}
+
+std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, double apart_s,
+                                         const std::function<bool(const EffectStep&)>& may_happen) {
+  constexpr double kMost = 2500.0;
+  double span_s = 0.0;
+  for (const DriveView& v : views)
+    if (!v.steps.empty()) span_s += v.steps.back().time_s - v.steps.front().time_s;
+  std::vector<std::vector<double>> found;
+  for (const DriveView& v : views) {
+    double next_s = -1e300, rolled_m = 0.0;
+    for (const EffectStep& s : v.steps) {
+      rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+      if (rolled_m <= 0.05 || s.time_s < next_s || !may_happen(s)) continue;
+      found.push_back({static_cast<double>(v.number), s.time_s});
+      next_s = s.time_s + std::max(apart_s, span_s / kMost);
+    }
+  }
+  return found;
+}
+
+std::size_t DriveView::step_at(double time_s) const {
+  return static_cast<std::size_t>(
+      std::lower_bound(steps.begin(), steps.end(), time_s, [](const EffectStep& s, double t) { return s.time_s < t; }) -
+      steps.begin());
+}
+
+DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
+                     const Track& truth_poses, Way way) {
+  DriveView view;
+  view.number = number;
+  view.drive = drive;
+  view.from_commands = from_commands;
+  const std::vector<WheelSample>& smooth = run.smooth.empty() ? run.wheels : run.smooth;
+  const std::vector<WheelSample>& wheels = way == Way::smoothed ? smooth : run.wheels;
+  std::vector<DriveStep> reckoned;
+  if (truth_poses.empty()) reckoned = drive_steps(run, drive);
+  const int n = static_cast<int>(run.wheels.size()) - 1;
+  view.steps.resize(n);
+  std::size_t k = 0;
+  for (int i = 0; i < n; ++i) {
+    const WheelSample &a = wheels[i], &b = wheels[i + 1], &first = wheels.front();
+    EffectStep& s = view.steps[i];
+    s.time_s = 0.5 * (run.wheels[i].time_s + run.wheels[i + 1].time_s);
+    s.duration_s = run.wheels[i + 1].time_s - run.wheels[i].time_s;
+    s.since_start_s = s.time_s - first.time_s;
+    s.left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad);
+    s.right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
+    s.turn_rad = (s.right_m - s.left_m) / drive.wheelbase_m;
+    s.left_rad = 0.5 * (a.left_rad + b.left_rad) - first.left_rad;
+    s.right_rad = 0.5 * (a.right_rad + b.right_rad) - first.right_rad;
+    s.left_by_rad = b.left_rad - a.left_rad;
+    s.right_by_rad = b.right_rad - a.right_rad;
+    s.left_read_rad = run.wheels[i + 1].left_rad - run.wheels[i].left_rad;
+    s.right_read_rad = run.wheels[i + 1].right_rad - run.wheels[i].right_rad;
+    if (truth_poses.empty()) {
+      s.heading_rad = reckoned[i].heading_rad;
+      s.position = reckoned[i].position;
+    } else {
+      while (k + 2 < truth_poses.size() && truth_poses[k + 1].time_s <= s.time_s) ++k;
+      const TimedPose &p = truth_poses[k], &q = truth_poses[std::min(k + 1, truth_poses.size() - 1)];
+      const double gap = q.time_s - p.time_s;
+      const double share = gap > 0.0 ? std::clamp((s.time_s - p.time_s) / gap, 0.0, 1.0) : 0.0;
+      s.position = p.pose.position() + share * (q.pose.position() - p.pose.position());
+      s.heading_rad = p.pose.heading_rad + share * wrapped(q.pose.heading_rad - p.pose.heading_rad);
+    }
+  }
+  double longest_m2 = 0.0;
+  for (int i = 0; i + 1 < n; ++i) {
+    const Vec2 step = view.steps[i + 1].position - view.steps[i].position;
+    longest_m2 = std::max(longest_m2, dot(step, step));
+  }
+  view.longest_step_m = std::max(view.longest_step_m, std::sqrt(longest_m2));
+  for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
+  // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
+  // kick, so that over shorter times noise itself would depend on acceleration.
+  constexpr double kSpeedWindow_s = 0.0, kAccelerationWindow_s = 0.12;  // to either side
+  const auto smoothed = [&](int i, double half_s, double* left, double* right) {
+    const double t = view.steps[i].time_s;
+    int lo = i, hi = i;
+    while (lo > 0 && t - view.steps[lo - 1].time_s < half_s) --lo;
+    while (hi + 1 < n && view.steps[hi + 1].time_s - t < half_s) ++hi;
+    double span = 0.0, l = 0.0, r = 0.0;
+    for (int j = lo; j <= hi; ++j) {
+      span += view.steps[j].duration_s;
+      l += smooth[static_cast<std::size_t>(j) + 1].left_rad - smooth[static_cast<std::size_t>(j)].left_rad;
+      r += smooth[static_cast<std::size_t>(j) + 1].right_rad - smooth[static_cast<std::size_t>(j)].right_rad;
+    }
+    *left = span > 0.0 ? l / span : 0.0;  // two readings may have one stamp
+    *right = span > 0.0 ? r / span : 0.0;
+  };
+  const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
+  for (int i = 0; i < n; ++i) {
+    EffectStep& s = view.steps[i];
+    smoothed(i, kSpeedWindow_s, &s.left_radps, &s.right_radps);
+    s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
+    s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
+  }
+  for (int i = 0; i < n; ++i) {
+    int lo = i, hi = i;
+    const double t = view.steps[i].time_s;
+    while (lo > 0 && t - view.steps[lo].time_s < kAccelerationWindow_s) --lo;
+    while (hi + 1 < n && view.steps[hi].time_s - t < kAccelerationWindow_s) ++hi;
+    const double span = view.steps[hi].time_s - view.steps[lo].time_s;
+    if (span <= 0.0) continue;
+    view.steps[i].acceleration_mps2 = (view.steps[hi].speed_mps - view.steps[lo].speed_mps) / span;
+    view.steps[i].left_mps2 = rl * (view.steps[hi].left_radps - view.steps[lo].left_radps) / span;
+    view.steps[i].right_mps2 = rr * (view.steps[hi].right_radps - view.steps[lo].right_radps) / span;
+    view.steps[i].yaw_acceleration_radps2 = (view.steps[hi].yaw_rate_radps - view.steps[lo].yaw_rate_radps) / span;
+  }
+  return view;
+}
+
+const std::vector<Effect>& catalogue() {
+  static const std::vector<Effect> all = [] {
+    std::vector<Effect> list;
+    for (auto entry : {effects::wheel_eccentricity,
+                       effects::encoder_missed_counts,
+                       effects::drivetrain_backlash,
+                       effects::wheel_toe,
+                       effects::castor_reversal_kick,
+                       effects::radius_drift,
+                       effects::tyre_compression,
+                       effects::speed_dependent_radius,
+                       effects::payload_radius_change,
+                       effects::lateral_slip,
+                       effects::traction_slip,
+                       effects::turn_scrub,
+                       effects::one_sided_drag,
+                       effects::bump,
+                       effects::slip_zone,
+                       effects::floor_slope_creep,
+                       effects::collision,
+                       effects::turn_speed_loss,
+                       effects::clock_rate,
+                       effects::actuator_lag})
+      for (Effect& e : entry()) list.push_back(std::move(e));
+    return list;
+  }();
+  return all;
+}
+
+const Effect* catalogue_entry(const ActiveEffect& active) {
+  const auto given = [&](const Effect::Amplitude& shape) {
+    return !is_estimated(shape) || std::any_of(active.parameters.begin(), active.parameters.end(),
+                                               [&](const auto& p) { return p.first == shape.name; });
+  };
+  const Effect* best = nullptr;
+  int best_fit = -1;
+  for (const Effect& e : catalogue()) {
+    if (e.name != active.effect) continue;
+    const int fit = 2 * (e.component == active.component) + std::all_of(e.shapes.begin(), e.shapes.end(), given);
+    if (fit > best_fit) best = &e, best_fit = fit;
+  }
+  return best;
+}
+
+}  // namespace odolab

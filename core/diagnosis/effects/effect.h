@@ -1,0 +1,160 @@
+// What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/calibration/innovations.h"
+#include "core/diagnosis/active_effect.h"
+#include "core/diagnosis/effects/motions.h"
+#include "core/diagnosis/found_parameter.h"
+
+namespace odolab {
+
+// One wheel interval as an effect sees it. Places and headings are those of the truth where there is one.
+struct EffectStep {
+  double time_s = 0.0, duration_s = 0.0;
+  double since_start_s = 0.0;
+  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;  // as the wheels say
+  double left_rad = 0.0, right_rad = 0.0;              // rotation since the start, at the middle
+  double left_by_rad = 0.0, right_by_rad = 0.0;        // rotation during the interval
+  double left_read_rad = 0.0, right_read_rad = 0.0;    // the same as it was read
+  double speed_mps = 0.0, yaw_rate_radps = 0.0;        // smoothed over a few intervals
+  double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
+  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
+  double left_mps2 = 0.0, right_mps2 = 0.0;  // acceleration of each rim
+  double heading_rad = 0.0;
+  double cos_heading = 1.0, sin_heading = 0.0;
+  Vec2 position;
+
+  double forward_m() const { return 0.5 * (left_m + right_m); }
+};
+
+struct DriveView {
+  int number = 0;  // of the recording
+  DifferentialDrive drive;
+  bool from_commands = false;
+  std::vector<EffectStep> steps;
+  double longest_step_m = 1e-9;  // that the axle's middle moves from one step to the next
+
+  // The first step whose middle is not before that time; steps.size() where there is none.
+  std::size_t step_at(double time_s) const;
+  // Calls `visit(i)` for each step whose place is within so far of another, in order. Looks at few of the others.
+  template <typename Visit>
+  void steps_near(Vec2 place, double within_m, Visit&& visit) const {
+    for (std::size_t i = 0; i < steps.size();) {
+      const double away_m = length(steps[i].position - place) - within_m;
+      if (away_m <= 0.0) visit(i);
+      i += away_m <= longest_step_m ? 1 : static_cast<std::size_t>(away_m / longest_step_m);
+    }
+  }
+};
+
+// How far the wheels went in an interval: as they were read, to say where the vehicle goes; smoothed, for derivatives,
+// which must not answer to what a reading was rounded by. Speeds and accelerations are of smoothed readings in both.
+enum class Way { as_read, smoothed };
+// `truth_poses`: the axle's poses at those times, from the filter; empty where the place is dead reckoned.
+DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
+                     const Track& truth_poses, Way way = Way::as_read);
+
+enum class Wheel { left, right, both };
+const char* component_of(Wheel wheel);
+// The motion of a body whose wheel goes `extra_m` further.
+BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m);
+
+// Moments {recording, at_s} of all recordings in which something may have happened, this far apart and more in long
+// ones, where `may_happen`. The first centimetres are left out: they take up whatever play there is.
+std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, double apart_s,
+                                         const std::function<bool(const EffectStep&)>& may_happen);
+
+// A shape that is given and not estimated: when the session of all recordings began.
+inline constexpr const char* kSessionStart = "session_start_s";
+
+struct Effect {
+  std::string name, component;
+  struct Amplitude {
+    std::string name, unit;
+    double medium = 0.0;            // a size that matters in practice: what "not testable" is judged by
+    double low = -1e9, high = 1e9;  // physical bounds
+  };
+  std::vector<Amplitude> amplitudes;  // the motion is linear in these
+  std::vector<Amplitude> shapes;      // and not in these
+  // Ways in which the same physics shows on different machines, the catalogue's own first. Where there are two or more,
+  // the number of one stands behind the shapes.
+  std::vector<std::string> forms;
+  int form_of_the_scan = 0;             // where many shapes are scanned in one form only
+  std::string sentence;                 // what it is, in words
+  std::string regime;                   // where it acts, in words
+  std::vector<std::string> looks_like;  // effects that it is easily taken for
+  std::string told_apart_by;            // and the drive that decides
+  // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
+  std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
+  // Whether such amplitudes are more than whole counts can feign, beside what holds for all that happens in one place
+  // or at one moment: that it carries a wheel by a count or more. Empty: anything is.
+  std::function<bool(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
+                     const std::vector<DriveView>& views)>
+      beyond_counts;
+  // How well a place can be known at best, by its form; empty: to a centimetre.
+  std::function<double(const std::vector<double>& shape)> place_known_to_m;
+  // Shapes to try; empty function: there is no shape.
+  std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
+  double tests_of_a_shape = 1.0;         // so many independent ones a scanned shape stands for, once it is refined
+  bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement
+  bool local = false;                    // acts at a moment or place: its evidence lies in few samples
+  bool of_one_recording = false;         // shape[0] is the recording's number
+  bool and_later_recordings = false;     // the same, but it lasts through those after it
+  bool clock_rate = false;               // acts on the wheels' clock instead of the motion
+  bool of_each_recording = false;        // an amplitude, or a set of them, for each recording in turn
+  // The amplitude that is the rate of a recording's clock.
+  std::size_t clock_amplitude(int recording) const {
+    return of_each_recording ? static_cast<std::size_t>(recording) : 0;
+  }
+  bool only_commands = false;  // needs a base that is driven from commands
+
+  // How the amplitudes read as the catalogue's parameters, with standard errors, and back. Left empty where they are
+  // the same.
+  std::function<std::vector<FoundParameter>(const std::vector<double>& value, const std::vector<double>& stderr_value)>
+      to_parameters;
+  std::function<std::vector<double>(const ActiveEffect&)> from_parameters;
+};
+
+// Whether a shape of that name is estimated: neither the number of a recording nor a time that is given.
+inline bool is_estimated(const Effect::Amplitude& shape) {
+  return shape.name != "recording" && shape.name != kSessionStart;
+}
+
+// Every entry, once for each component that it can act on.
+const std::vector<Effect>& catalogue();
+// The entry of that name and component, or of that name alone, whose shapes are among the parameters.
+const Effect* catalogue_entry(const ActiveEffect& active);
+
+// The entries, one file each.
+namespace effects {
+std::vector<Effect> wheel_eccentricity();
+// The same where the runs start at other angles of the wheel: a phase of its own in each. Lives as long as the program.
+const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs);
+std::vector<Effect> encoder_missed_counts();
+std::vector<Effect> drivetrain_backlash();
+std::vector<Effect> wheel_toe();
+std::vector<Effect> castor_reversal_kick();
+std::vector<Effect> radius_drift();
+std::vector<Effect> tyre_compression();
+std::vector<Effect> speed_dependent_radius();
+std::vector<Effect> payload_radius_change();
+std::vector<Effect> lateral_slip();
+std::vector<Effect> traction_slip();
+std::vector<Effect> turn_scrub();
+std::vector<Effect> one_sided_drag();
+std::vector<Effect> bump();
+std::vector<Effect> slip_zone();
+std::vector<Effect> floor_slope_creep();
+std::vector<Effect> collision();
+std::vector<Effect> turn_speed_loss();
+std::vector<Effect> clock_rate();
+// The same where each recording's clock has a rate of its own. Lives as long as the program.
+const std::vector<Effect>& clock_rate_of_each_run(int runs);
+std::vector<Effect> actuator_lag();
+}  // namespace effects
+
+}  // namespace odolab

@@ -1,0 +1,229 @@
+#include "core/diagnosis/generic/adequacy.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "core/base/chi_square.h"
+#include "core/diagnosis/naming/material.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
+constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
+constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
+constexpr std::size_t kMostTried = 4;
+
+// Lets a group of generic terms in; twice what the log-likelihood gains by it.
+double let_in(JointModel& joint, const GenericTest& group) {
+  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
+  return joint.fit(2);
+}
+
+std::vector<const GenericTest*> strongest_first(const std::vector<GenericTest>& generic, double error) {
+  std::vector<const GenericTest*> strong;
+  for (const GenericTest& g : generic)
+    if (g.p_value < error && g.test.cross_validated > 0.0) strong.push_back(&g);
+  std::stable_sort(strong.begin(), strong.end(),
+                   [](const GenericTest* a, const GenericTest* b) { return a->test.judged() > b->test.judged(); });
+  if (strong.size() > kMostTried) strong.resize(kMostTried);
+  return strong;
+}
+
+struct Left {
+  const GenericTest* group = nullptr;
+  std::vector<Response> shape;
+};
+
+// Of a model into which that group was let in last.
+std::vector<Response> shape_of(const GenericTest& group, const JointModel& with) {
+  std::vector<Response> shape;
+  if (group.curves.empty()) return shape;
+  const std::vector<double>& fitted = with.accepted.back().value;
+  const auto n = static_cast<Eigen::Index>(fitted.size());
+  const Eigen::Index first = with.first_column(static_cast<int>(with.accepted.size()) - 1);
+  const Eigen::MatrixXd covariance = group.test.inflation * with.covariance().block(first, first, n, n);
+  const Eigen::VectorXd value = Eigen::Map<const Eigen::VectorXd>(fitted.data(), n);
+  for (const GenericCurve& curve : group.curves) {
+    Response r;
+    r.variable = curve.variable;
+    r.channel = curve.channel;
+    r.at = curve.at;
+    for (const std::vector<double>& of_point : curve.basis) {
+      const Eigen::VectorXd basis = Eigen::Map<const Eigen::VectorXd>(of_point.data(), n);
+      const double at = basis.dot(value), band = 2.0 * std::sqrt(basis.dot(covariance * basis));
+      r.value.push_back(at);
+      r.low.push_back(at - band);
+      r.high.push_back(at + band);
+    }
+    shape.push_back(std::move(r));
+  }
+  return shape;
+}
+
+JointModel without_names(JointModel joint) {
+  std::erase_if(joint.accepted, std::mem_fn(&AcceptedEffect::acts_on_motion));
+  joint.fit(3);
+  return joint;
+}
+
+// The strongest group that is significant and keeps, once it is fitted, what its score promised: near what calibration
+// does anyway a score can promise without end.
+Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& generic, double error) {
+  for (const GenericTest* g : strongest_first(generic, error)) {
+    JointModel with = joint;
+    const double kept = let_in(with, *g);
+    const double p = scaled_chi_square_tail(kept / g->test.inflation, g->test.freedom, g->test.batches) * g->tests;
+    if (p >= error) continue;
+    if (g->curves.empty()) return {g, {}};
+    // Beside names it would be drawn without what these have taken of it.
+    JointModel alone = without_names(joint);
+    let_in(alone, *g);
+    return {g, shape_of(*g, alone)};
+  }
+  return {};
+}
+
+// Significant is not enough: where the innovations are correlated dead reckoning must be the better for it, and nowhere
+// may it be so good already that no floor or camera could tell.
+bool is_worth_saying(const JointModel& joint, const JointModel& calibrated, const GenericTest& left) {
+  const double distrust = joint.distrust();
+  if (distrust == 0.0) return !is_nothing(joint.gathered_error());
+  JointModel with = joint;
+  let_in(with, left);
+  const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
+                                  with_more = with.gathered_error();
+  if (!is_material(joint, named_only, with_more)) return false;
+  // And it counts against the names only by its share of what dead reckoning gains.
+  if (at_first.windows == 0 || at_first.position_m2 <= 0.0 || at_first.heading_rad2 <= 0.0) return true;
+  const auto share = [&](const JointModel::GatheredError& e) {
+    return 0.5 * (e.position_m2 / at_first.position_m2 + e.heading_rad2 / at_first.heading_rad2);
+  };
+  const double more = share(named_only) - share(with_more), in_all = 1.0 - share(with_more);
+  return in_all <= 0.0 || more >= distrust * kMostLeftOfError * in_all;
+}
+
+// Several causes that explain it only together are more likely one that has no name here.
+bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
+  std::vector<double> share;
+  double all = 0.0;
+  for (const ScoredCandidate& e : evidence) share.push_back(e.test.statistic), all += e.test.statistic;
+  std::sort(share.rbegin(), share.rend());
+  return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
+}
+
+Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain, double share) {
+  Unnamed u;
+  u.where.regime = group.channel + " that depends on " + group.variable;
+  u.gain = gain;
+  u.share = share;
+  u.p_value = group.p_value;
+  u.shape = std::move(shape);
+  return u;
+}
+
+// A group without a name that says more in the place of all names than they do, chance and a name's imperfect form
+// allowed for.
+std::optional<Unnamed> what_says_more(const JointModel& joint, double error) {
+  const JointModel bare = without_names(joint);
+  JointModel named = bare;
+  for (const AcceptedEffect& a : joint.accepted)
+    if (a.acts_on_motion()) named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0), {}});
+  const double by_names = named.fit(3);
+  const std::vector<GenericTest> generic = generic_tests(bare);
+  const auto beyond = [&](double gain) { return gain - (1.0 + kMostLeft) * by_names; };
+  const auto significant = [&](const GenericTest& g, double gain) {
+    return scaled_chi_square_tail(beyond(gain) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests < error;
+  };
+  const bool correlated = bare.distrust() > 0.0;
+  std::optional<Unnamed> best;
+  for (const GenericTest* g : strongest_first(generic, error)) {
+    if (!significant(*g, g->test.statistic)) continue;
+    JointModel with = bare;
+    const double kept = let_in(with, *g);
+    if (!significant(*g, kept) || (best && beyond(kept) < best->gain)) continue;
+    if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
+    best = unnamed_by(*g, shape_of(*g, with), beyond(kept), 1.0);
+  }
+  return best;
+}
+
+// Where the truth contradicts the wheels for so long that it is no outlier, with the noise of what does not: of each
+// recording the stretches of time.
+using Contradicted = std::vector<std::vector<std::pair<double, double>>>;
+
+Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
+  Contradicted of_run;
+  for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r) {
+    InnovationModel model = joint.model_of(r);
+    model.noise = noise;
+    const InnovationRun run = joint.prepared(r);
+    of_run.emplace_back();
+    for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
+      of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
+  }
+  return of_run;
+}
+
+int count(const Contradicted& of_run) {
+  int places = 0;
+  for (const auto& stretches : of_run) places += static_cast<int>(stretches.size());
+  return places;
+}
+
+// Once may be a truth that found itself elsewhere. What names mend three quarters of is theirs; and what acts all the
+// time, and lowers the squared error of dead reckoning by a tenth, is there whatever happened besides.
+std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
+                                        const FittedNoise& noise) {
+  constexpr int kFewest = 2;
+  constexpr double kLower = 0.9;
+  const Contradicted now = contradicted(joint, noise);
+  if (count(now) < kFewest) return std::nullopt;
+  const bool acts_all_the_time = std::any_of(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) {
+    return !a.effect->local && a.acts_on_motion();
+  });
+  if (!joint.accepted.empty() && 4 * count(now) < count(contradicted(calibrated, noise))) return std::nullopt;
+  if (acts_all_the_time && lowers(calibrated.gathered_error(), joint.gathered_error(), kLower)) return std::nullopt;
+  Unnamed u;
+  const auto most =
+      std::max_element(now.begin(), now.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  u.where.recording = joint.runs()[static_cast<std::size_t>(most - now.begin())].name;
+  u.where.time_s = *most;
+  u.where.regime = "what the truth says contradicts the wheels, time and again, at " + std::to_string(count(now)) +
+                   " places in all recordings";
+  return u;
+}
+
+bool names_physics(const JointModel& joint) {
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+}
+
+}  // namespace
+
+Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, const LeastSquaresCalibration& calibration,
+                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error) {
+  Adequacy out;
+  out.generic = generic_tests(joint);
+  double explained = of_mounting;
+  for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
+  if (const Left left = what_is_left(joint, out.generic, error); left.group) {
+    const CandidateTest& test = left.group->test;
+    const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
+    if (!is_worth_saying(joint, calibrated, *left.group))
+      out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
+    else if (gain > kMostLeft * explained || is_in_pieces(evidence))
+      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
+  }
+  // In the place of names a group says more than they by no more than it says beside them.
+  const bool may_say_more = std::any_of(out.generic.begin(), out.generic.end(),
+                                        [&](const GenericTest& g) { return g.test.statistic > kMostLeft * explained; });
+  if (!out.unnamed && may_say_more && names_physics(joint)) out.unnamed = what_says_more(joint, error);
+  if (!out.unnamed) out.unnamed = what_contradicts(joint, calibrated, calibration.noise);
+  return out;
+}
+
+}  // namespace odolab

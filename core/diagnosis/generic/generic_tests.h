@@ -1,0 +1,56 @@
+// Whether anything is left that the model does not describe, whatever its name: a generic basis in each channel.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+// Values of a group that are cosines and sines of an angle, of once, twice, ... that angle.
+struct GenericWave {
+  std::string variable;  // "left wheel angle [rad]"
+  std::vector<std::size_t> cosine, sine;
+};
+
+// What a group comes to along an axis of its own.
+struct GenericCurve {
+  std::string variable, channel;
+  std::vector<double> at;
+  std::vector<std::vector<double>> basis;  // of each point by each value of the group
+};
+
+struct GenericTest {
+  std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
+  CandidateTest test;             // beside all that was let in
+  CandidateTest instead;          // and in its place; the same where nothing was
+  double tests = 1.0;             // that it was chosen from
+  double p_value = 1.0;           // of `test`, over all of them
+  double p_value_of(const CandidateTest& of) const;
+  std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
+  std::vector<GenericWave> waves;  // where it is periodic instead
+  std::vector<GenericCurve> curves;
+  std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
+};
+
+// Of three channels: forward, sideways and turn, each for each metre of way. Their names, and the motion of one unit of
+// a channel in one step.
+constexpr int kGenericChannels = 3;
+const char* name_of_channel(int channel);
+BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
+
+// Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known
+// better than to a fifth where the vehicle speeds up: directions of which less than the square of that is left may be
+// its error, and are not tested.
+constexpr double kLeastSurvivingOfGeneric = 0.04;
+
+// Tests a group's term against the model, as one of so many that were looked at.
+void ask(GenericTest& test, const JointModel& joint, std::shared_ptr<const Effect> term, double looked_at);
+
+// Hats, harmonics and polynomials of what the vehicle does and where it is, waves (`waves.h`) and what bends the truth
+// (`bent_truth.h`). Best first.
+std::vector<GenericTest> generic_tests(const JointModel& joint);
+
+}  // namespace odolab

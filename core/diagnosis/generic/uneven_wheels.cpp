@@ -1,0 +1,56 @@
+#include "core/diagnosis/generic/uneven_wheels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+// Sine and cosine for each recording: the way that the wheel goes further, for each metre of its own.
+std::vector<Motions> motions_of(const DriveView& view, Wheel wheel, int times_a_turn, std::size_t runs) {
+  std::vector<Motions> out(2 * runs);
+  const auto run = static_cast<std::size_t>(view.number);
+  if (run >= runs) return out;  // one that was not fitted: its phase is not known
+  const bool left = wheel == Wheel::left;
+  Motions cosine(view.steps.size()), sine(view.steps.size());
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    const double angle = times_a_turn * (left ? s.left_rad : s.right_rad), way_m = left ? s.left_m : s.right_m;
+    cosine[i] = by_wheel(wheel, std::cos(angle) * way_m, view.drive.wheelbase_m);
+    sine[i] = by_wheel(wheel, std::sin(angle) * way_m, view.drive.wheelbase_m);
+  }
+  out[2 * run] = std::move(cosine);
+  out[2 * run + 1] = std::move(sine);
+  return out;
+}
+
+}  // namespace
+
+std::vector<GenericTest> uneven_wheel_tests(const JointModel& joint, double looked_at) {
+  const std::size_t runs = joint.views().size();
+  std::vector<GenericTest> tests(kUnevenWheelTests);
+  parallel_for(kUnevenWheelTests, [&](int i) {
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    const Wheel wheel = i % 2 == 0 ? Wheel::left : Wheel::right;
+    const int times_a_turn = i < 2 ? 2 : 3;
+    auto term = std::make_shared<Effect>();
+    term->name = t.variable = std::string("its angle, ") + (times_a_turn == 2 ? "twice" : "three times") + " a turn";
+    term->component = t.channel =
+        std::string("way of the ") + (wheel == Wheel::left ? "left" : "right") + " wheel per metre [1]";
+    term->amplitudes.resize(2 * runs);
+    term->motions = [=](const DriveView& view, const std::vector<double>&) {
+      return motions_of(view, wheel, times_a_turn, runs);
+    };
+    ask(t, joint, term, looked_at);
+    for (std::size_t r = 0; r < runs; ++r)
+      t.waves.push_back({"phase of " + t.variable + (runs > 1 ? ", recording " + std::to_string(r + 1) : "") + " [rad]",
+                         {2 * r},
+                         {2 * r + 1}});
+  });
+  return tests;
+}
+
+}  // namespace odolab

@@ -1,0 +1,300 @@
+// The efficient score of what the joint model does not hold yet, and how much wider than the model says it scatters.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/model/joint_model.h"
+#include "core/diagnosis/model/scanned_products.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kBatches = 60;
+constexpr double kFewestToValidate = 4.0;
+constexpr double kPriorBatches = 6.0;  // the weight of believing that the innovations are white
+
+// An inflation of one or more from the scatter of so many batches, relative to what it should be.
+double shrunk_inflation(double scatter, double count) {
+  const double own = count > 1.5 ? scatter * count / (count - 1.0) : 1.0;
+  return std::max(1.0, (kPriorBatches + count * own) / (kPriorBatches + count));
+}
+}  // namespace
+
+VectorXd JointModel::inflation_of_columns() const {
+  const MatrixXd cov = covariance();
+  const VectorXd left = cov * zr_;  // what the last step of the fit did not take
+  int samples = 0;
+  for (const LinearisedRun& l : now_->runs) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches), q = columns();
+  VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, left);
+    MatrixXd of_acting(now_->z[r].cols(), q);
+    for (Eigen::Index c = 0; c < of_acting.rows(); ++c)
+      of_acting.row(c) = cov.row(now_->columns[r][static_cast<std::size_t>(c)]);
+    const MatrixXd influence = now_->z[r] * of_acting;
+    const int n = now_->runs[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      const VectorXd u = influence.middleRows(3 * from, rows).transpose() * res.segment(3 * from, rows);
+      const VectorXd i = influence.middleRows(3 * from, rows).colwise().squaredNorm().transpose();
+      scatter += u.cwiseAbs2();
+      info += i;
+      square += i.cwiseAbs2();
+    }
+  }
+  VectorXd inflation = VectorXd::Ones(q);
+  for (int c = 0; c < q; ++c)
+    if (info(c) > 0.0 && square(c) > 0.0)
+      inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
+  return inflation;
+}
+
+MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
+  Eigen::Index k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, m.cols());
+  MatrixXd cross = MatrixXd::Zero(gram_.rows(), k);
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    if (c.of_run[r].size() > 0)
+      now_->add_products(r, now_->z[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()), c.of_run[r], cross);
+  return gram_.ldlt().solve(cross);
+}
+
+CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<double>& shape) const {
+  CandidateColumns out;
+  out.of_run.resize(runs_.size());
+  out.stretch.resize(runs_.size());
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
+    const int n = now_->runs[r].samples();
+    const auto k = static_cast<Eigen::Index>(effect.amplitudes.size());
+    MatrixXd& made = out.of_run[r];
+    if (effect.clock_rate) {
+      out.stretch[r] = {0, n};
+      made = MatrixXd::Zero(3 * n, k);
+      now_->runs[r].of_clock_rate(made.col(static_cast<Eigen::Index>(effect.clock_amplitude(numbers_[r]))).data());
+      continue;
+    }
+    const std::vector<Motions> motions = effect.motions(now_->views[r], shape);
+    made.resize(3 * n, k);
+    std::vector<Stretch> part(motions.size());
+    Stretch all{n, 0};
+    for (Eigen::Index j = 0; j < k; ++j) {
+      Stretch& p = part[static_cast<std::size_t>(j)];
+      p = now_->runs[r].of_motion(motions[static_cast<std::size_t>(j)], made.col(j).data());
+      if (p.last > p.first) all = {std::min(all.first, p.first), std::max(all.last, p.last)};
+    }
+    if (all.last <= all.first) {
+      made.resize(0, 0);
+      continue;
+    }
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const Stretch& p = part[static_cast<std::size_t>(j)];
+      const int first = p.last > p.first ? p.first : all.last, last = std::max(first, p.last);
+      made.col(j).segment(3 * all.first, 3 * (first - all.first)).setZero();
+      if (last < all.last) made.col(j).segment(3 * last, 3 * (all.last - last)).setZero();
+    }
+    out.stretch[r] = all;
+    if (all.last - all.first < n) made = made.middleRows(3 * all.first, 3 * (all.last - all.first)).eval();
+  }
+  return out;
+}
+
+JointModel::Absorbing JointModel::absorbing(int without) const {
+  Absorbing by;
+  by.taken = VectorXd::Zero(gram_.rows());
+  int at = first_amplitude();
+  for (int j = 0; j < at; ++j) by.kept.push_back(j);
+  for (std::size_t a = 0; a < accepted.size(); ++a)
+    for (double v : accepted[a].value) {
+      if (without == kAll || static_cast<int>(a) == without)
+        by.taken(at) = v;
+      else
+        by.kept.push_back(at);
+      ++at;
+    }
+  const VectorXd zr = zr_ + gram_ * by.taken;
+  MatrixXd gram(by.kept.size(), by.kept.size());
+  VectorXd zk(by.kept.size());
+  for (std::size_t i = 0; i < by.kept.size(); ++i) {
+    for (std::size_t j = 0; j < by.kept.size(); ++j) gram(i, j) = gram_(by.kept[i], by.kept[j]);
+    zk(i) = zr(by.kept[i]);
+  }
+  by.gram.compute(gram);
+  by.step = by.gram.solve(zk);
+  return by;
+}
+
+CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+                                 MatrixXd* absorbed) {
+  CandidateTest out;
+  const MatrixXd& info = products.with_itself;
+  const int k = static_cast<int>(info.rows());
+  out.freedom = k;
+  if (k == 0) return out;
+  VectorXd& score = products.with_residual;
+  score += products.with_model.transpose() * by.taken;
+  MatrixXd b(by.kept.size(), k);
+  for (std::size_t i = 0; i < by.kept.size(); ++i) b.row(i) = products.with_model.row(by.kept[i]);
+  const MatrixXd beta = by.gram.solve(b);  // the part that calibration absorbs
+  const MatrixXd effective = info - b.transpose() * beta;
+  const VectorXd s = score - b.transpose() * by.step;
+  if (absorbed) *absorbed = beta;
+  if (info.trace() <= 0.0) return out;
+  out.survives = 1.0;
+  for (int j = 0; j < k; ++j)
+    out.survives = std::min(out.survives, info(j, j) > 0.0 ? effective(j, j) / info(j, j) : 0.0);
+  // Directions that do not survive are left out of the test.
+  if (k == 1) {  // as below
+    const double share = effective(0, 0) / info(0, 0), scale = 1.0 / std::sqrt(info(0, 0));
+    const bool survives = share >= least_surviving;
+    out.statistic = survives ? scale * s(0) * (scale * s(0)) / share : 0.0;
+    out.freedom = 1;
+    out.value = {survives ? scale * (scale * s(0) / share) : 0.0};
+    out.stderr_value = {scale * std::sqrt(survives ? 1.0 / share : 1e6)};
+    return out;
+  }
+  VectorXd scale(k);
+  for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * effective * scale.asDiagonal());
+  const VectorXd su = eig.eigenvectors().transpose() * (scale.asDiagonal() * s);
+  VectorXd w = VectorXd::Zero(k);
+  MatrixXd cov = MatrixXd::Zero(k, k);
+  int freedom = 0;
+  for (int j = 0; j < k; ++j) {
+    const double e = eig.eigenvalues()(j);
+    if (e < least_surviving) {
+      cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
+      continue;
+    }
+    ++freedom;
+    w += su(j) / e * eig.eigenvectors().col(j);
+    cov += eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose() / e;
+    out.statistic += su(j) * su(j) / e;
+  }
+  out.freedom = std::max(1, freedom);
+  const VectorXd value = scale.asDiagonal() * w;
+  out.value.assign(value.data(), value.data() + k);
+  for (int j = 0; j < k; ++j) out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+  return out;
+}
+
+CandidateProducts JointModel::products_of(const CandidateColumns& c) const {
+  int k = 0;
+  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
+  const int q = static_cast<int>(gram_.rows());
+  CandidateProducts products{MatrixXd::Zero(k, k), MatrixXd::Zero(q, k), VectorXd::Zero(k)};
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (c.of_run[r].size() == 0) continue;
+    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
+    std::vector<Eigen::Index> acting;  // what belongs to one run each is zero in all others
+    for (Eigen::Index j = 0; j < c.of_run[r].cols(); ++j)
+      if (!c.of_run[r].col(j).isZero(0.0)) acting.push_back(j);
+    if (acting.empty()) continue;
+    const MatrixXd some = static_cast<Eigen::Index>(acting.size()) < c.of_run[r].cols()
+                              ? MatrixXd(c.of_run[r](Eigen::all, acting))
+                              : MatrixXd();
+    const MatrixXd& own = some.size() > 0 ? some : c.of_run[r];
+    const MatrixXd with_itself = own.transpose() * own;
+    const MatrixXd with_model = now_->z[r].middleRows(from, rows).transpose() * own;
+    const VectorXd with_residual = own.transpose() * now_->residual[r].segment(from, rows);
+    for (std::size_t i = 0; i < acting.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j < acting.size(); ++j)
+        products.with_itself(acting[i], acting[j]) += with_itself(at, static_cast<Eigen::Index>(j));
+      for (std::size_t m = 0; m < now_->columns[r].size(); ++m)
+        products.with_model(now_->columns[r][m], acting[i]) += with_model(static_cast<Eigen::Index>(m), at);
+      products.with_residual(acting[i]) += with_residual(at);
+    }
+  }
+  return products;
+}
+
+CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+  const Absorbing by = absorbing(without);
+  if (thorough) return tested_thoroughly(by, products_of(c), c);
+  return tested(by, products_of(c), c.least_surviving, nullptr);
+}
+
+std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c, std::initializer_list<int> without) const {
+  const CandidateProducts products = products_of(c);
+  std::vector<CandidateTest> out;
+  for (int effect : without) out.push_back(tested_thoroughly(absorbing(effect), products, c));
+  return out;
+}
+
+CandidateTest JointModel::tested_thoroughly(const Absorbing& by, CandidateProducts products,
+                                            const CandidateColumns& c) const {
+  const auto k = products.with_itself.rows(), q = gram_.rows();
+  MatrixXd beta;
+  CandidateTest out = tested(by, std::move(products), c.least_surviving, &beta);
+  if (out.statistic <= 0.0) return out;
+  const VectorXd value = Eigen::Map<const VectorXd>(out.value.data(), k), &taken = by.taken, &base = by.step;
+  const std::vector<int>& kept = by.kept;
+
+  // The score along the fitted direction, batch by batch.
+  const VectorXd on_z_kept = beta * value;
+  VectorXd on_z = VectorXd::Zero(q);
+  for (std::size_t i = 0; i < kept.size(); ++i) on_z(kept[i]) = on_z_kept(static_cast<Eigen::Index>(i));
+  VectorXd base_z = -taken;  // residual = r + Z taken - Z_kept base
+  for (std::size_t i = 0; i < kept.size(); ++i) base_z(kept[i]) += base(static_cast<Eigen::Index>(i));
+  int samples = 0;
+  for (const LinearisedRun& l : now_->runs) samples += l.samples();
+  const int batch = std::max(1, samples / kBatches);
+  std::vector<double> u, i;
+  double square_all = 0.0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    VectorXd column = -(now_->z[r] * now_->acting(r, on_z));
+    if (c.of_run[r].size() > 0)
+      column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
+    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, base_z);
+    const int n = now_->runs[r].samples();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
+      i.push_back(column.segment(3 * from, rows).squaredNorm());
+      square_all += i.back() * i.back();
+    }
+  }
+  double sum_u = 0.0, sum_i = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) sum_u += u[n], sum_i += i[n];
+  if (sum_i <= 0.0) return out;
+  const double a = sum_u / sum_i;
+  double scatter = 0.0;
+  for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
+  const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
+  out.inflation = shrunk_inflation(scatter / sum_i, count);
+  out.batches = kPriorBatches + count;
+  if (count < kFewestToValidate) {  // a single kick of a castor is not fitted on one half and tried on the other
+    out.cross_validated = out.statistic;
+    return out;
+  }
+  for (int half = 0; half < 2; ++half) {
+    double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
+    for (std::size_t n = 0; n < u.size(); ++n)
+      (static_cast<int>(n % 2) == half ? fu : tu) += u[n], (static_cast<int>(n % 2) == half ? fi : ti) += i[n];
+    if (fi <= 0.0) continue;
+    const double fitted = fu / fi;
+    out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
+  }
+  return out;
+}
+
+std::shared_ptr<ScannedProducts> JointModel::scanned_products() const {
+  if (!now_->scanned)
+    now_->scanned = std::make_shared<ScannedProducts>(now_->views, now_->runs, now_->columns, now_->z, now_->residual,
+                                                      static_cast<int>(gram_.rows()));
+  return now_->scanned;
+}
+
+std::vector<BodyMotion> JointModel::score_of_motions(int run) const {
+  const VectorXd left =
+      now_->residual[run] - now_->z[run] * now_->acting(static_cast<std::size_t>(run), gram_.ldlt().solve(zr_));
+  return now_->runs[run].score_of_motions(left.data());
+}
+
+}  // namespace odolab

@@ -1,0 +1,122 @@
+// What the joint model leaves over a metre or a radian of dead reckoning, and from one innovation to the next.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+namespace {
+
+// Over one window: the truth's error at both ends, that of its heading at the start swinging the way about, and the
+// wheels' errors, which turn the rest of the way.
+void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, const Track& guess,
+               double from_s, double to_s) {
+  double left_and_right_m = 0.0;
+  const auto from =
+      std::lower_bound(guess.begin(), guess.end(), from_s, [](const TimedPose& p, double t) { return p.time_s < t; });
+  const auto to = std::lower_bound(from, guess.end(), to_s, [](const TimedPose& p, double t) { return p.time_s < t; });
+  if (from == guess.end() || from == to) return;
+  for (auto i = from; i + 1 < guess.end() && i < to; ++i) {
+    const double way = length((i + 1)->pose.position() - i->pose.position());
+    const double turned = 0.5 * wheelbase_m * std::abs((i + 1)->pose.heading_rad - i->pose.heading_rad);
+    left_and_right_m += 2.0 * std::max(way, turned);
+  }
+  const Vec2 along = std::min(to, guess.end() - 1)->pose.position() - from->pose.position();
+  const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m,
+               p2 = noise.truth_position_m * noise.truth_position_m,
+               h2 = noise.truth_heading_rad * noise.truth_heading_rad,
+               body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
+               side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
+  const double turn2 = (q2 + 2.0 * body2) * left_and_right_m / (wheelbase_m * wheelbase_m), d2 = dot(along, along);
+  sum.noise_position_m2 +=
+      4.0 * p2 + h2 * d2 + (0.25 * q2 + 0.5 * (body2 + side2)) * left_and_right_m + turn2 * d2 / 3.0;
+  sum.noise_heading_rad2 += 2.0 * h2 + turn2;
+}
+}  // namespace
+
+JointModel::GatheredError JointModel::gathered_error() const {
+  std::vector<GatheredError> of(runs_.size());
+  parallel_for(static_cast<int>(runs_.size()), [&](int r) {
+    const InnovationRun& run = now_->runs[r].run();
+    if (!run.truth_has_heading) return;
+    Track guess, truth;
+    std::vector<char> anew;
+    Pose pose;
+    for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+      guess.push_back({run.wheels[i].time_s + clock_s[r], pose * model.truth.axle_T_tracked});
+      if (i + 1 == run.wheels.size()) break;
+      const double left = model.drive.wheel_radius_left_m * (run.wheels[i + 1].left_rad - run.wheels[i].left_rad);
+      const double right = model.drive.wheel_radius_right_m * (run.wheels[i + 1].right_rad - run.wheels[i].right_rad);
+      double f = 0.5 * (left + right), l = 0.0, w = (right - left) / model.drive.wheelbase_m;
+      for (const ExtraColumn& e : run.extra) {
+        f += e.per_step[i].forward_m;
+        l += e.per_step[i].sideways_m;
+        w += e.per_step[i].turn_rad;
+      }
+      const double h = pose.heading_rad + 0.5 * w, c = std::cos(h), s = std::sin(h);
+      pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
+    }
+    bool cut = false;
+    for (std::size_t i = 0; i < run.truth.size(); ++i) {
+      cut = cut || is_cut(run, i);
+      if (run.set_aside[i] || !run.truth[i].heading_rad) continue;
+      truth.push_back(
+          {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
+      anew.push_back(cut);
+      cut = false;
+    }
+    if (const std::optional<TrackError> e = track_error(guess, truth, anew); e && e->windows > 0) {
+      of[r].position_m2 = e->position_rms_m * e->position_rms_m;
+      of[r].heading_rad2 = e->heading_rms_rad * e->heading_rms_rad;
+      of[r].windows = e->windows;
+      of[r].of_window = e->window_error;
+      for (const auto& [from_s, to_s] : e->window_s)
+        add_noise(of[r], model.noise, model.drive.wheelbase_m, guess, from_s, to_s);
+      of[r].noise_position_m2 /= e->windows;
+      of[r].noise_heading_rad2 /= e->windows;
+    }
+  });
+  GatheredError sum;
+  for (const GatheredError& e : of) sum.add(e);
+  return sum;
+}
+
+void JointModel::GatheredError::add(const GatheredError& other) {
+  const int all = windows + other.windows;
+  if (all == 0) return;
+  const double mine = static_cast<double>(windows) / all, others = static_cast<double>(other.windows) / all;
+  for (auto mean : {&GatheredError::position_m2, &GatheredError::heading_rad2, &GatheredError::noise_position_m2,
+                    &GatheredError::noise_heading_rad2})
+    this->*mean = mine * this->*mean + others * other.*mean;
+  windows = all;
+  of_window.insert(of_window.end(), other.of_window.begin(), other.of_window.end());
+}
+
+// Correlation of each whitened innovation with that before, the largest of the three channels. That of a floor whose
+// unevenness has a length is negative, since the noise was fitted to what adds up. Samples between the same two
+// readings of the encoders share their rounding and say nothing of the model: "before" is a reading and a half ago.
+double JointModel::distrust() const {
+  if (truth_noise_lasts) return 1.0;
+  constexpr double kWhite = 0.04, kCorrelated = 0.12;  // of one channel: what chance and a rough floor make; not white
+  constexpr double kReadings = 1.5;
+  double product[3] = {}, square[3] = {};
+  for (std::size_t run = 0; run < now_->runs.size(); ++run) {
+    const Whitened& r = now_->runs[run].residual();
+    const auto period_s = [](const auto& samples) {
+      return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+    };
+    const double apart = kReadings * period_s(runs_[run].wheels) / period_s(runs_[run].truth);
+    const std::size_t lag = 3 * static_cast<std::size_t>(std::clamp(apart, 1.0, 100.0));
+    for (std::size_t i = lag; i < r.size(); ++i) {
+      product[i % 3] += r[i] * r[i - lag];
+      square[i % 3] += r[i] * r[i];
+    }
+  }
+  double most = 0.0;
+  for (int k = 0; k < 3; ++k)
+    if (square[k] > 0.0) most = std::max(most, product[k] / square[k]);
+  return std::clamp((most - kWhite) / (kCorrelated - kWhite), 0.0, 1.0);
+}
+}  // namespace odolab

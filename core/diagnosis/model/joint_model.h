@@ -1,0 +1,183 @@
+// All runs under one model: calibration, noise and the effects let in so far; and the tests of what is not in it yet.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <initializer_list>
+#include <memory>
+#include <vector>
+
+#include "core/calibration/least_squares.h"
+#include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/model/linearised.h"
+
+namespace odolab {
+
+struct AcceptedEffect {
+  const Effect* effect = nullptr;
+  std::vector<double> shape, value, stderr_value;
+  bool acts_on_motion() const { return !effect->clock_rate; }
+};
+
+// The efficient score of a candidate: its signature with everything that is in the model projected off.
+struct CandidateTest {
+  double statistic = 0.0;  // twice the gain of log-likelihood, chi-square with `freedom` under the null
+  int freedom = 0;
+  double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
+  double batches = 1e9;    // from so many it was found how the score scatters
+  double survives = 0.0;   // share of the signature's information that the projection leaves
+  std::vector<double> value, stderr_value;
+  double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
+  std::vector<double> shape;
+  double judged() const { return statistic / inflation; }
+};
+
+// Columns of a candidate over all runs: rows as the whitened innovations of that run, empty where it does not act.
+struct CandidateColumns {
+  std::vector<Eigen::MatrixXd> of_run;  // rows of the stretch only
+  std::vector<Stretch> stretch;
+  double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
+};
+
+// The same of one candidate: products of its columns with each other, with those of the model, and with what is left.
+struct CandidateProducts {
+  Eigen::MatrixXd with_itself, with_model;
+  Eigen::VectorXd with_residual;
+};
+
+class ScannedProducts;
+
+class JointModel {
+ public:
+  JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands, const LeastSquaresCalibration& start,
+             const Vehicle& nominal);
+
+  // Gauss-Newton on calibration and amplitudes, shapes that follow their amplitude with them. Returns twice what the
+  // log-likelihood gained on that way, from the scores at both ends of each step. Its own difference would not do: the
+  // model's covariance moves with the wheelbase, which it likes or dislikes as far as the noise is a little too large
+  // or small, and readings that are rounded pull at the radii.
+  double fit(int iterations = 4);
+  void fit_noise();
+  void gate();  // isolated contradictions only; longer ones are left to be explained
+  // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
+  // from both ends: what happens nearer cannot be told from a sample that errs.
+  bool is_well_inside(int run, double time_s) const;
+  // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted.
+  void linearise(bool with_columns = true);
+
+  std::vector<AcceptedEffect> accepted;
+  InnovationModel model;  // without the clocks
+  std::vector<double> clock_s;
+  std::vector<char> clock_active;
+  // Clocks and their rates stay where they are: they were found by the moments themselves (clocks_first). Their slope,
+  // of smoothed readings as all columns, is another one than that of the likelihood where a robot jitters.
+  bool clocks_are_held = false;
+  std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
+  std::vector<char> nuisance_active = std::vector<char>(6, 1);
+  // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
+  bool truth_noise_lasts = false;
+
+  const std::vector<DriveView>& views() const { return now_->views; }
+  const std::vector<InnovationRun>& runs() const { return runs_; }
+  const std::vector<LinearisedRun>& linearised() const { return now_->runs; }
+  double minus_two_log_likelihood_of(int run) const;  // of that run alone, as it is now
+  double chi2() const { return chi2_; }
+  double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
+  int scalars() const { return scalars_; }
+  Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, half counts, amplitudes
+  double stderr_of_nuisance(int c) const;
+  int first_column(int accepted) const;  // of an accepted effect's amplitudes
+  // How much wider than the curvature says each column's estimate scatters, from the scatter of the score over batches:
+  // 1 or more.
+  Eigen::VectorXd inflation_of_columns() const;
+  // By how much the columns together stand for a candidate's: a model without the candidate errs by this.
+  Eigen::MatrixXd absorbed(const CandidateColumns& columns) const;
+  // Mean square error of dead reckoning gathered over a metre or a radian, position and heading, over all runs; zero
+  // windows where the truth has no headings.
+  struct GatheredError {
+    double position_m2 = 0.0, heading_rad2 = 0.0;
+    double noise_position_m2 = 0.0, noise_heading_rad2 = 0.0;  // what the model's noise alone would leave
+    int windows = 0;
+    std::vector<Pose> of_window;  // in the order of the runs
+    void add(const GatheredError& of_other_runs);
+  };
+  GatheredError gathered_error() const;
+  // How little the likelihood is to be believed, since innovations are correlated from one sample to the next or that
+  // is known before: from 0, white, to 1.
+  double distrust() const;
+  Track poses(int run) const;  // corrected, at the wheels' times
+
+  CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
+  // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
+  static constexpr int kNone = -1, kAll = -2;
+  CandidateTest test(const CandidateColumns& columns, int without = kNone, bool thorough = false) const;
+  // Thoroughly, without each of these in turn: what they have in common is reckoned once.
+  std::vector<CandidateTest> tests(const CandidateColumns& columns, std::initializer_list<int> without) const;
+  // How fast the log-likelihood grows with the motion of each wheel interval of a run, everything in the model fitted
+  // anew: the score of any column is its product with this.
+  std::vector<BodyMotion> score_of_motions(int run) const;
+  // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
+  // what happened in it alone is unknown to the others.
+  JointModel left_out(int run) const;
+  InnovationModel model_of(int run) const;
+  double* clock_rate_of(int run);         // null where its clock has no rate of its own
+  InnovationRun prepared(int run) const;  // with the accepted effects put in
+
+ private:
+  friend class CandidateScan;
+  // About the model as it was when it was linearised last; shared by its copies, since it is large.
+  struct Linearisation {
+    std::vector<DriveView> views;       // smoothed, for columns
+    std::vector<DriveView> read_views;  // for what the accepted effects move
+    std::vector<LinearisedRun> runs;
+    std::vector<std::vector<int>> columns;  // those that act in a run
+    std::vector<Eigen::MatrixXd> z;         // of each run: only these
+    std::vector<Eigen::VectorXd> residual;
+    mutable std::shared_ptr<ScannedProducts> scanned;  // made when the first asks
+    // Of all columns, those that act in a run; and z' by, put where they belong.
+    Eigen::VectorXd acting(std::size_t run, const Eigen::VectorXd& of_all) const;
+    template <typename Rows, typename By>
+    void add_products(std::size_t run, const Rows& rows_of_z, const By& by, Eigen::MatrixXd& sum) const {
+      const Eigen::MatrixXd product = rows_of_z.transpose() * by;
+      for (std::size_t c = 0; c < columns[run].size(); ++c)
+        sum.row(columns[run][c]) += product.row(static_cast<Eigen::Index>(c));
+    }
+  };
+  // The model's columns but for an effect that is taken out for the question, ready to absorb a candidate.
+  struct Absorbing {
+    std::vector<int> kept;
+    Eigen::VectorXd taken;  // amplitudes of what is taken out, at its columns
+    Eigen::LDLT<Eigen::MatrixXd> gram;
+    Eigen::VectorXd step;  // of the kept columns, from here to their best
+  };
+  Absorbing absorbing(int without) const;
+  // The test without its thorough part; `absorbed`: what the kept columns take of each of the candidate's.
+  static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+                              Eigen::MatrixXd* absorbed);
+  CandidateTest tested_thoroughly(const Absorbing& by, CandidateProducts products, const CandidateColumns& c) const;
+  CandidateProducts products_of(const CandidateColumns& columns) const;
+  // Of the linearisation as it is. Not to be asked for the first time by several threads.
+  std::shared_ptr<ScannedProducts> scanned_products() const;
+  JointModel() = default;
+  void cut();  // the runs anew, where the clocks have them left out now
+  InnovationRun prepared(int run, const DriveView& view) const;
+  void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
+  int columns() const;
+  std::vector<int> held_columns() const;
+  int clock_column(int run) const { return 6 + run; }
+  int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }
+  int first_amplitude() const { return 6 + static_cast<int>(runs_.size()) + 2; }
+
+  std::vector<InnovationRun> runs_;
+  std::vector<int> numbers_;  // of the recordings, as the effects know them
+  std::vector<char> from_commands_;
+  std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
+  Vehicle nominal_;
+  std::shared_ptr<const Linearisation> now_;
+  Eigen::MatrixXd gram_;  // with priors
+  Eigen::VectorXd zr_;
+  double chi2_ = 0.0, log_determinant_ = 0.0;
+  int scalars_ = 0;
+};
+
+}  // namespace odolab

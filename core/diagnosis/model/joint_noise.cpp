@@ -1,0 +1,111 @@
+// Noise and outliers of the joint model: what the calibration and the effects leave is random, and how large it is.
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/calibration/noise_fit.h"
+#include "core/calibration/thinned_truth.h"
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kNoiseSamples = 5000;
+
+}  // namespace
+
+void JointModel::fit_noise() {
+  cut();
+  constexpr FittedNoise kUsual = {0.003, 0.002, 0.005, 0.0005, 0.0005};
+  // A model is not trusted to be truer sideways than this share of the wheels' noise.
+  constexpr double kUsualSideways = 0.1, kLeastSideways = 0.02;
+  constexpr double kWay_m = 0.1;
+  constexpr double kSampledWithin = 0.5;  // of logarithms: a factor of 1.6
+  struct Part {
+    const InnovationRun* run;
+    const SummedRun* summed;
+  };
+  // The noise that is likely on these runs, of which every so many stretches are used.
+  const auto fitted = [&](const std::vector<Part>& parts, const NoiseFit& fit) {
+    int samples = 0;
+    for (const Part& part : parts) samples += static_cast<int>(part.run->truth.size());
+    const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
+    const double parameters = columns();
+    const auto likelihood = [&](const FittedNoise& noise) {
+      std::vector<NoiseSlopes> of_run(parts.size());
+      const auto sum_run = [&](int r) {
+        const InnovationRun& run = *parts[r].run;
+        InnovationModel m = model_of(r);
+        m.noise = noise;
+        const int n = static_cast<int>(run.truth.size());
+        for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
+          if (number % every != 0) continue;
+          of_run[r].add(noise_slopes(run, *parts[r].summed, m, first, every == 1 ? n : std::min(n, first + stretch)));
+        }
+      };
+      if (samples > kNoiseSamples)
+        parallel_for(static_cast<int>(parts.size()), sum_run);
+      else  // not worth starting threads for
+        for (std::size_t r = 0; r < parts.size(); ++r) sum_run(static_cast<int>(r));
+      NoiseSlopes sum;
+      for (const NoiseSlopes& s : of_run) sum.add(s);
+      // The freedom that the parameters took, as an average: exact where all sizes move together.
+      if (every == 1 && sum.scalars > 2 * parameters)
+        for (int k = 0; k < 2; ++k) {
+          FittedNoise at = noise;
+          sum.value -= parameters * std::log(size_of(at, fit.free[k]));
+          sum.slope[fit.free[k]] -= parameters;
+        }
+      return sum;
+    };
+    return most_likely_noise(likelihood, model.noise, fit);
+  };
+  bool any_heading = false;
+  std::vector<Part> whole;
+  for (const LinearisedRun& l : now_->runs) {
+    whole.push_back({&l.run(), &l.summed()});
+    any_heading = any_heading || l.run().truth_has_heading;
+  }
+  NoiseFit of_samples{{noise_size::wheel, noise_size::position, noise_size::body, noise_size::sideways}, kUsual};
+  of_samples.usual_sideways = kUsualSideways;
+  of_samples.least_sideways = kLeastSideways;
+  if (any_heading) of_samples.free.push_back(noise_size::heading);
+  model.noise = fitted(whole, of_samples);
+  // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
+  // samples say: of a small sideways noise it says nothing.
+  std::vector<ThinnedTruth> thin(whole.size());
+  std::vector<Part> thinned;
+  int left = 0;
+  for (std::size_t r = 0; r < whole.size(); ++r) {
+    thin[r] = thinned_truth(*whole[r].run, *whole[r].summed, model_of(static_cast<int>(r)), kWay_m);
+    if (thin[r].run.truth.size() < 2) return;
+    thinned.push_back({&thin[r].run, &thin[r].summed});
+    left += static_cast<int>(thin[r].run.truth.size());
+  }
+  if (left <= 3 * columns()) return;
+  NoiseFit of_ways{{noise_size::wheel, noise_size::body, noise_size::sideways}, model.noise, kSampledWithin};
+  of_ways.least_sideways = kLeastSideways;
+  model.noise = fitted(thinned, of_ways);
+}
+
+void JointModel::gate() {
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const InnovationModel m = model_of(static_cast<int>(r));
+    const InnovationRun run = prepared(static_cast<int>(r));
+    std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
+    // More than a few in a row are no outliers: something happened there that is to be explained.
+    for (std::size_t i = 0; i < aside.size();) {
+      std::size_t j = i;
+      while (j < aside.size() && aside[j]) ++j;
+      if (j - i > 4) std::fill(aside.begin() + i, aside.begin() + j, 0);
+      i = std::max(j, i + 1);
+    }
+    for (std::size_t i = 0; i < aside.size(); ++i) aside[i] = std::max(aside[i] ? char{1} : char{0}, masked_[r][i]);
+    runs_[r].set_aside = std::move(aside);
+  }
+}
+}  // namespace odolab

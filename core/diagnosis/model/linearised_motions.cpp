@@ -1,0 +1,224 @@
+// What motions of the body do to a linearised run: README.md in this folder, Eqs. 3 and 15.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/model/linearised.h"
+
+namespace odolab {
+
+// The same pieces that summed_up walks through.
+void LinearisedRun::cut_into_pieces() {
+  const InnovationRun& run = *run_;
+  const auto& wheels = run.wheels;
+  const int n = samples();
+  const double b = model_.drive.wheelbase_m;
+  std::size_t i = 0;
+  double now_s = run.truth[0].time_s - model_.truth.time_offset_s;
+  pieces_.reserve(wheels.size() + run.truth.size());
+  first_piece_.reserve(run.truth.size());
+  for (int t = 0; t + 1 < n; ++t) {
+    const std::size_t first = pieces_.size();
+    first_piece_.push_back(static_cast<int>(first));
+    const double end_s = run.truth[t + 1].time_s - model_.truth.time_offset_s;
+    double heading_rad = 0.0;
+    while (now_s < end_s) {
+      while (i + 2 < wheels.size() && wheels[i + 1].time_s <= now_s) ++i;
+      const double until_s = i + 2 >= wheels.size() ? end_s : std::min(end_s, wheels[i + 1].time_s);
+      const double share = (until_s - now_s) / (wheels[i + 1].time_s - wheels[i].time_s);
+      const double left_m = model_.drive.wheel_radius_left_m * share * (wheels[i + 1].left_rad - wheels[i].left_rad);
+      const double right_m =
+          model_.drive.wheel_radius_right_m * share * (wheels[i + 1].right_rad - wheels[i].right_rad);
+      double forward = 0.5 * (left_m + right_m), sideways = 0.0, turn = (right_m - left_m) / b;
+      for (const ExtraColumn& e : run.extra) {
+        forward += share * e.value * e.per_step[i].forward_m;
+        sideways += share * e.value * e.per_step[i].sideways_m;
+        turn += share * e.value * e.per_step[i].turn_rad;
+      }
+      const Turn middle = turn_of(heading_rad + 0.5 * turn);
+      const double c = middle.c, s = middle.s;
+      const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
+      // In the frame of the truth interval's start, and so far where this piece ends.
+      pieces_.push_back({static_cast<int>(i), t, share, share * c, share * s, -0.5 * dy, 0.5 * dx});
+      for (std::size_t p = first; p + 1 < pieces_.size(); ++p) pieces_[p].turn_x -= dy, pieces_[p].turn_y += dx;
+      heading_rad += turn;
+      now_s = until_s;
+    }
+    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
+    const auto into_room = [&](double& x, double& y) {
+      const double ahead = x, aside = y;
+      x = carry.c * ahead - carry.s * aside;
+      y = carry.s * ahead + carry.c * aside;
+    };
+    for (std::size_t p = first; p < pieces_.size(); ++p) {
+      Piece& piece = pieces_[p];
+      piece.turn_x *= piece.share;
+      piece.turn_y *= piece.share;
+      into_room(piece.forward_x, piece.forward_y);
+      into_room(piece.turn_x, piece.turn_y);
+    }
+  }
+  first_piece_.push_back(static_cast<int>(pieces_.size()));
+  piece_of_wheels_.assign(wheels.size(), static_cast<int>(pieces_.size()));
+  for (int p = static_cast<int>(pieces_.size()); p-- > 0;)
+    piece_of_wheels_[static_cast<std::size_t>(pieces_[p].interval)] = p;
+  for (std::size_t k = wheels.size() - 1; k-- > 0;)
+    piece_of_wheels_[k] = std::min(piece_of_wheels_[k], piece_of_wheels_[k + 1]);
+}
+
+Stretch LinearisedRun::touched(std::size_t first, std::size_t end) const {
+  const int n = samples(), all = static_cast<int>(pieces_.size());
+  const auto truth_of = [&](int piece) { return piece < all ? pieces_[piece].truth : n - 1; };
+  return {std::clamp(truth_of(piece_of_wheels_[first]), 0, n - 1),
+          std::clamp(truth_of(piece_of_wheels_[end]) + 1, 0, n - 1)};
+}
+
+// `of_motion` the other way about: each line is the transpose of one there.
+std::vector<double> LinearisedRun::score_of_intervals(const double* whitened) const {
+  const int n = samples();
+  std::vector<double> score(3 * static_cast<std::size_t>(n - 1));
+  double a0 = 0.0, a1 = 0.0, a2 = 0.0;  // by the derivative of the pose behind sample t + 1
+  for (int t = n - 2; t >= 0; --t) {
+    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
+    const double* o = whitened + 3 * (t + 1);
+    double* e = &score[3 * static_cast<std::size_t>(t)];
+    for (int k = 0; k < 3; ++k)
+      e[k] = carry.out[k] * o[0] + carry.out[3 + k] * o[1] + carry.out[6 + k] * o[2] + carry.on[k] * a0 +
+             carry.on[3 + k] * a1 + carry.on[6 + k] * a2;
+    a0 = e[0];
+    a1 = e[1];
+    a2 = e[2] - carry.dy * e[0] + carry.dx * e[1];
+  }
+  return score;
+}
+
+std::vector<BodyMotion> LinearisedRun::score_of_motions(const double* whitened) const {
+  const std::vector<double> of_intervals = score_of_intervals(whitened);
+  std::vector<BodyMotion> score(run_->wheels.size() - 1);
+  for (std::size_t p = pieces_.size(); p-- > 0;) {
+    const Piece& piece = pieces_[p];
+    const double* e = &of_intervals[3 * static_cast<std::size_t>(piece.truth)];
+    BodyMotion& sum = score[static_cast<std::size_t>(piece.interval)];
+    sum.forward_m += piece.forward_x * e[0] + piece.forward_y * e[1];
+    sum.sideways_m += -piece.forward_y * e[0] + piece.forward_x * e[1];
+    sum.turn_rad += piece.turn_x * e[0] + piece.turn_y * e[1] + piece.share * e[2];
+  }
+  return score;
+}
+
+void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Moved& moved) const {
+  moved.abreast = candidates.size();
+  moved.columns.clear();
+  moved.first = samples();
+  moved.end = 0;
+  std::size_t most = 0;
+  for (const std::vector<Motions>& c : candidates) most = std::max(most, c.size());
+  for (std::size_t j = 0; j < most; ++j) {
+    bool acts = false;
+    for (const std::vector<Motions>& c : candidates) {
+      if (c.empty() || c[j].empty()) continue;
+      const Stretch stretch = touched(c[j].first(), c[j].end());
+      moved.first = std::min(moved.first, stretch.first);
+      moved.end = std::max(moved.end, stretch.last);
+      acts = true;
+    }
+    if (acts) moved.columns.push_back(j);
+  }
+  moved.end = std::max(moved.first, moved.end);
+  const std::size_t columns = moved.columns.size(), abreast = moved.abreast;
+  const auto intervals = static_cast<std::size_t>(moved.end - moved.first);
+  moved.by.assign(3 * columns * abreast * intervals, 0.0);
+  moved.any.assign(intervals, 0);
+  for (std::size_t l = 0; l < abreast; ++l)
+    for (std::size_t j = 0; j < columns; ++j) {
+      if (candidates[l].empty() || candidates[l][moved.columns[j]].empty()) continue;
+      const Motions& motions = candidates[l][moved.columns[j]];
+      const int last = piece_of_wheels_[motions.end()];
+      for (int p = piece_of_wheels_[motions.first()]; p < last;) {
+        const int truth = pieces_[p].truth;
+        double x = 0.0, y = 0.0, h = 0.0;
+        for (; p < last && pieces_[p].truth == truth; ++p) {
+          const Piece& piece = pieces_[p];
+          const BodyMotion& m = motions[static_cast<std::size_t>(piece.interval)];
+          x += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
+          y += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
+          h += piece.share * m.turn_rad;
+        }
+        if (x == 0.0 && y == 0.0 && h == 0.0) continue;
+        const auto t = static_cast<std::size_t>(truth - moved.first);
+        double* by = &moved.by[(t * columns + j) * 3 * abreast + l];
+        by[0] = x;
+        by[abreast] = y;
+        by[2 * abreast] = h;
+        moved.any[t] = 1;
+      }
+    }
+}
+
+// Of those columns of `moved` that `which` numbers.
+template <int columns, int abreast>
+void LinearisedRun::products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const {
+  using Lanes = Eigen::Array<double, abreast, 1>;
+  constexpr int k = columns, m = abreast;
+  Lanes d[3][k], sum[k][k];
+  for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
+  for (auto& row : sum) std::fill(row, row + k, Lanes::Zero());
+  const std::size_t stride = 3 * m * moved.columns.size();
+  const double* by = moved.by.data();
+  for (int t = moved.first; t < moved.end; ++t, by += stride) {
+    const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
+    Lanes o[3][k];
+    for (int j = 0; j < k; ++j) {
+      const double* u = by + 3 * m * which[j];
+      const Lanes e0 = d[0][j] - carry.dy * d[2][j] + Eigen::Map<const Lanes>(u);
+      const Lanes e1 = d[1][j] + carry.dx * d[2][j] + Eigen::Map<const Lanes>(u + m);
+      const Lanes e2 = d[2][j] + Eigen::Map<const Lanes>(u + 2 * m);
+      for (int r = 0; r < 3; ++r) {
+        o[r][j] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
+        d[r][j] = carry.on[3 * r] * e0 + carry.on[3 * r + 1] * e1 + carry.on[3 * r + 2] * e2;
+      }
+    }
+    for (int i = 0; i < k; ++i)
+      for (int j = i; j < k; ++j) sum[i][j] += o[0][i] * o[0][j] + o[1][i] * o[1][j] + o[2][i] * o[2][j];
+  }
+  const std::array<double, 6>& s = tails[static_cast<std::size_t>(moved.end)];
+  for (int i = 0; i < k; ++i)
+    for (int j = i; j < k; ++j) {
+      const Lanes x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];
+      const Lanes y = s[1] * d[0][j] + s[3] * d[1][j] + s[4] * d[2][j];
+      const Lanes h = s[2] * d[0][j] + s[4] * d[1][j] + s[5] * d[2][j];
+      const Lanes product = sum[i][j] + d[0][i] * x + d[1][i] * y + d[2][i] * h;
+      for (int l = 0; l < m; ++l) products[(i * k + j) * m + l] = products[(j * k + i) * m + l] = product(l);
+    }
+}
+
+template <int abreast>
+void LinearisedRun::products_of_all(const Moved& moved, const Tails& tails, double* out) const {
+  const std::size_t count = moved.columns.size();
+  const std::size_t in_order[3] = {0, 1, 2};
+  if (count == 1) return products<1, abreast>(moved, in_order, tails, out);
+  if (count == 2) return products<2, abreast>(moved, in_order, tails, out);
+  if (count == 3) return products<3, abreast>(moved, in_order, tails, out);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const std::size_t pair[2] = {i, j};
+      double made[4 * abreast];
+      products<2, abreast>(moved, pair, tails, made);
+      for (std::size_t l = 0; l < abreast; ++l) {
+        out[(i * count + i) * abreast + l] = made[l];
+        out[(j * count + j) * abreast + l] = made[3 * abreast + l];
+        out[(i * count + j) * abreast + l] = out[(j * count + i) * abreast + l] = made[abreast + l];
+      }
+    }
+}
+
+void LinearisedRun::products_of(const Moved& moved, const Tails& tails, std::vector<double>& products) const {
+  products.assign(moved.columns.size() * moved.columns.size() * moved.abreast, 0.0);
+  if (moved.columns.empty()) return;
+  if (moved.abreast == 1)
+    products_of_all<1>(moved, tails, products.data());
+  else
+    products_of_all<static_cast<int>(kAbreast)>(moved, tails, products.data());
+}
+
+}  // namespace odolab

@@ -1,0 +1,215 @@
+#include "core/diagnosis/naming/intervals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/naming/shape_likelihood.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A form is never quite that of the world, however long it is looked at: of a value, assumed.
+constexpr double kFormError = 0.01;
+constexpr double kErrorOfForms = 0.05;  // where machines show it in several forms, of which the nearest was taken
+
+constexpr double kWheelSample_s = 0.02;  // a time is not known better than to about the reading in which it lies
+
+// What the form itself cannot resolve. A speed above which counts are missed is seen in counts of which some are
+// missed.
+double resolution_of(const AcceptedEffect& a, int shape) {
+  const std::string& unit = a.effect->shapes[static_cast<std::size_t>(shape)].unit;
+  if (unit == "rad/s") return std::abs(a.value[0] * a.shape[static_cast<std::size_t>(shape)]);
+  return unit == "s" ? kWheelSample_s : 0.0;
+}
+
+// Beside what the recordings say of a place or a threshold: rims are not sharp, and speeds are known as smoothed.
+double known_to(const AcceptedEffect& a, int shape) {
+  constexpr double kPlace_m = 0.01, kOfThreshold = 0.05;
+  const std::string& unit = a.effect->shapes[static_cast<std::size_t>(shape)].unit;
+  if (unit == "rad/s") return kOfThreshold * std::abs(a.shape[static_cast<std::size_t>(shape)]);
+  if (unit != "m") return 0.0;
+  return a.effect->place_known_to_m ? a.effect->place_known_to_m(a.shape) : kPlace_m;
+}
+
+// The derivative of the motion by the free shapes, over the width within which they are known.
+Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const MatrixXd& covariance) {
+  Effect e;
+  e.name = a.effect->name;
+  e.component = a.effect->component;
+  e.of_one_recording = a.effect->of_one_recording;
+  e.local = a.effect->local;
+  e.amplitudes.resize(free.size());
+  const auto motions = a.effect->motions;
+  e.motions = [a, free, covariance, motions](const DriveView& view, const std::vector<double>&) {
+    std::vector<Motions> out(free.size(), Motions(view.steps.size()));
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const double by = std::sqrt(covariance(i, i));
+      if (by <= 0.0) continue;
+      for (double side : {-1.0, 1.0}) {
+        std::vector<double> shape = a.shape;
+        shape[free[k]] += side * by;
+        const std::vector<Motions> there = motions(view, shape);
+        for (std::size_t j = 0; j < there.size(); ++j)
+          for (std::size_t s = there[j].first(); s < there[j].end(); ++s) {
+            const double factor = side * a.value[j] / (2.0 * by);
+            out[k][s].forward_m += factor * there[j][s].forward_m;
+            out[k][s].sideways_m += factor * there[j][s].sideways_m;
+            out[k][s].turn_rad += factor * there[j][s].turn_rad;
+          }
+      }
+    }
+    return out;
+  };
+  return e;
+}
+
+}  // namespace
+
+double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, columns(c, c))); }
+
+std::vector<int> free_shapes(const Effect& effect) {
+  std::vector<int> free;
+  if (effect.shape_follows_amplitude) return free;
+  for (std::size_t k = 0; k < effect.shapes.size(); ++k)
+    if (is_estimated(effect.shapes[k])) free.push_back(static_cast<int>(k));
+  return free;
+}
+
+Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
+  const std::size_t count = joint.accepted.size();
+  std::vector<MatrixXd> of_shape(count);
+  bool moved = false;
+  for (std::size_t a = 0; a < count; ++a) {
+    if (free_shapes(*joint.accepted[a].effect).empty() || joint.accepted[a].shape.empty()) continue;
+    const ShapeLikelihood shape = shape_likelihood(joint, static_cast<int>(a), inflation[a]);
+    of_shape[a] = shape.covariance;
+    const bool mean_is_good = shape.lost < 2.0 * inflation[a];  // not so between two summits
+    joint.accepted[a].shape = mean_is_good ? shape.mean : shape.best;
+    const std::vector<int> free = free_shapes(*joint.accepted[a].effect);
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      of_shape[a](i, i) += std::pow(resolution_of(joint.accepted[a], free[k]), 2);
+    }
+    moved = true;
+  }
+  if (moved) joint.fit(3);
+
+  Intervals out;
+  const VectorXd wider = joint.inflation_of_columns().cwiseSqrt();
+  out.columns = wider.asDiagonal() * joint.covariance() * wider.asDiagonal();
+  std::vector<MatrixXd> moves(count);  // the columns by the shapes
+  for (std::size_t a = 0; a < count; ++a) {
+    if (of_shape[a].size() == 0) continue;
+    const Effect derivative = by_shape(joint.accepted[a], free_shapes(*joint.accepted[a].effect), of_shape[a]);
+    moves[a] = -joint.absorbed(joint.columns_of(derivative, joint.accepted[a].shape));
+    if (moves[a].cols() == of_shape[a].rows()) out.columns += moves[a] * of_shape[a] * moves[a].transpose();
+  }
+  for (std::size_t a = 0; a < count; ++a) {
+    const int first = joint.first_column(static_cast<int>(a)), n = static_cast<int>(joint.accepted[a].value.size());
+    const int m = static_cast<int>(of_shape[a].rows());
+    MatrixXd block = MatrixXd::Zero(n + m, n + m);
+    block.topLeftCorner(n, n) = out.columns.block(first, first, n, n);
+    double square = 0.0;
+    for (double v : joint.accepted[a].value) square += v * v / n;
+    const double form = joint.accepted[a].effect->forms.size() > 1 ? kErrorOfForms : kFormError;
+    for (int k = 0; k < n; ++k) block(k, k) += form * form * square;
+    if (m > 0) {
+      block.bottomRightCorner(m, m) = of_shape[a];
+      if (moves[a].cols() == m) {
+        block.topRightCorner(n, m) = moves[a].middleRows(first, n) * of_shape[a];
+        block.bottomLeftCorner(m, n) = block.topRightCorner(n, m).transpose();
+      }
+    }
+    out.of_effect.push_back(block);
+    for (int k = 0; k < n; ++k) joint.accepted[a].stderr_value[k] = std::sqrt(block(k, k));
+  }
+  return out;
+}
+
+std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixXd& covariance) {
+  const auto n = static_cast<Eigen::Index>(a.value.size());
+  const auto in_words = [&](const std::vector<double>& value) {
+    if (a.effect->to_parameters) return a.effect->to_parameters(value, std::vector<double>(value.size(), 0.0));
+    std::vector<FoundParameter> out;
+    for (std::size_t k = 0; k < value.size(); ++k)
+      out.push_back({a.effect->amplitudes[k].name, value[k], 0.0, a.effect->amplitudes[k].unit});
+    return out;
+  };
+  std::vector<FoundParameter> out = in_words(a.value);
+  MatrixXd by(out.size(), n);  // derivative of the parameters, by differences
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double step = std::max(0.01 * std::sqrt(covariance(k, k)), 1e-12);
+    std::vector<double> up = a.value, down = a.value;
+    up[static_cast<std::size_t>(k)] += step;
+    down[static_cast<std::size_t>(k)] -= step;
+    const std::vector<FoundParameter> high = in_words(up), low = in_words(down);
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      const double change = high[j].value - low[j].value;
+      by(static_cast<Eigen::Index>(j), k) = (out[j].unit == "rad" ? wrapped(change) : change) / (2.0 * step);
+    }
+  }
+  const MatrixXd cov = by * covariance.topLeftCorner(n, n) * by.transpose();
+  for (std::size_t j = 0; j < out.size(); ++j) {
+    const auto i = static_cast<Eigen::Index>(j);
+    out[j].stderr_value = std::sqrt(std::max(0.0, cov(i, i)));
+  }
+  Eigen::Index k = n;
+  for (int s : free_shapes(*a.effect)) {
+    const double se = k < covariance.rows() ? std::sqrt(std::max(0.0, covariance(k, k))) : 0.0;
+    out.push_back({a.effect->shapes[s].name, a.shape[s], std::hypot(se, known_to(a, s)), a.effect->shapes[s].unit});
+    ++k;
+  }
+  const bool in_another_form = a.effect->forms.size() > 1 && a.shape.back() > 0.0;
+  for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
+    if (in_another_form && a.effect->shapes[k].name == kSessionStart)
+      out.push_back({kSessionStart, a.shape[k], 0.0, a.effect->shapes[k].unit});
+  return out;
+}
+
+LeastSquaresCalibration calibration_with(const JointModel& joint, const Intervals& intervals,
+                                         const LeastSquaresCalibration& alone, const Vehicle& nominal) {
+  LeastSquaresCalibration out = alone;
+  out.vehicle = nominal;
+  out.vehicle.kind = joint.model.drive;
+  out.vehicle.truth = joint.model.truth;
+  out.time_offset_s = joint.clock_s;
+  const double runs = static_cast<double>(joint.clock_s.size());
+  out.vehicle.truth.time_offset_s = 0.0;
+  for (double c : joint.clock_s) out.vehicle.truth.time_offset_s += c / runs;
+  out.noise = joint.model.noise;
+  const TruthMounting& truth = out.vehicle.truth;
+  const struct {
+    const char* name;
+    double value;
+  } known[7] = {{"wheel_radius_left_m", joint.model.drive.wheel_radius_left_m},
+                {"wheel_radius_right_m", joint.model.drive.wheel_radius_right_m},
+                {"wheelbase_m", joint.model.drive.wheelbase_m},
+                {"truth_mounting.x_m", truth.axle_T_tracked.x_m},
+                {"truth_mounting.y_m", truth.axle_T_tracked.y_m},
+                {"truth_mounting.heading_rad", truth.axle_T_tracked.heading_rad},
+                {"truth_mounting.time_offset_s", truth.time_offset_s}};
+  std::vector<VectorXd> rows;  // the determined parameters by the model's columns
+  for (ParameterEstimate& p : out.parameters)
+    for (int c = 0; c < 7; ++c) {
+      if (p.name != known[c].name || !p.determined) continue;
+      VectorXd row = VectorXd::Zero(intervals.columns.rows());
+      if (c < 6)
+        row(c) = 1.0;
+      else
+        row.segment(6, static_cast<Eigen::Index>(joint.clock_s.size())).setConstant(1.0 / runs);
+      p.value = known[c].value;
+      p.stderr_value = std::sqrt(std::max(0.0, row.dot(intervals.columns * row)));
+      rows.push_back(row);
+    }
+  out.covariance.clear();
+  for (const VectorXd& a : rows)
+    for (const VectorXd& b : rows) out.covariance.push_back(a.dot(intervals.columns * b));
+  return out;
+}
+
+}  // namespace odolab

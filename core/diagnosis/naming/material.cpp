@@ -1,0 +1,71 @@
+#include "core/diagnosis/naming/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace odolab {
+
+namespace {
+
+constexpr double kMostLeftWhereSmoothed = 0.9;
+constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
+constexpr double kByChance = 2.5;   // standard deviations
+constexpr double kNoWorse = 1.05;   // where windows cannot be held against each other
+
+// Share of the squared error by which dead reckoning becomes worse, and by how much it may where the term is right:
+// what is taken away is independent of what stays, so the sum of squares should fall by its own, but for chance.
+struct Change {
+  double worse = 0.0, may_be_worse = 0.0;
+};
+
+Change change_of(const JointModel::GatheredError& before, const JointModel::GatheredError& after) {
+  const double n = static_cast<double>(before.of_window.size());
+  Change sum;
+  const auto add = [&](const auto& square) {
+    double was = n * kNothing, is = n * kNothing, by = 0.0;
+    for (std::size_t i = 0; i < before.of_window.size(); ++i) {
+      const Pose &e = before.of_window[i], &f = after.of_window[i];
+      was += square(e);
+      is += square(f);
+      by += square({f.x_m - e.x_m, f.y_m - e.y_m, f.heading_rad - e.heading_rad});
+    }
+    sum.worse += 0.5 * (is - was) / was;
+    sum.may_be_worse += 0.5 * (kByChance * 2.0 * std::sqrt(by / was / n) - by / was);
+  };
+  add([](const Pose& e) { return dot(e.position(), e.position()); });
+  add([](const Pose& e) { return e.heading_rad * e.heading_rad; });
+  return sum;
+}
+
+}  // namespace
+
+bool is_nothing(const JointModel::GatheredError& error) {
+  return error.windows > 0 && error.position_m2 < kNothing && error.heading_rad2 < kNothing;
+}
+
+bool lowers(const JointModel::GatheredError& before, const JointModel::GatheredError& after, double most_left) {
+  if (is_nothing(before)) return false;
+  if (before.windows == 0 || after.windows == 0) return true;
+  const double left = 0.5 * ((after.position_m2 + kNothing) / (before.position_m2 + kNothing) +
+                             (after.heading_rad2 + kNothing) / (before.heading_rad2 + kNothing));
+  return left < most_left;
+}
+
+double worse_than_chance(const JointModel::GatheredError& before, const JointModel::GatheredError& after) {
+  if (before.windows == 0 || before.windows != after.windows || is_nothing(after)) return 0.0;
+  const Change change = change_of(before, after);
+  return change.worse - std::max(change.may_be_worse, 0.0);
+}
+
+bool is_material(const JointModel& joint, const JointModel::GatheredError& before,
+                 const JointModel::GatheredError& after, std::size_t numbers) {
+  const double distrust = joint.distrust();
+  const double lower = std::min(0.5, (1.0 - kMaterial) * static_cast<double>(numbers));
+  if (joint.truth_noise_lasts) return lowers(before, after, std::min(kMostLeftWhereSmoothed, 1.0 - lower));
+  if (before.windows == 0 || before.windows != after.windows)
+    return lowers(before, after, std::lerp(kNoWorse, 1.0 - lower, distrust));
+  const Change change = change_of(before, after);
+  return !is_nothing(before) && change.worse < std::lerp(change.may_be_worse, -lower, distrust);
+}
+
+}  // namespace odolab

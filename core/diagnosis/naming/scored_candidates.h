@@ -1,0 +1,32 @@
+// Every entry of the catalogue at the shape that fits best, judged against a model that does not hold it.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/model/candidate_scan.h"
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+struct ScoredCandidate {
+  const Effect* effect = nullptr;
+  CandidateTest test;
+  double p_value = 1.0;       // family-wise
+  double log_tests = 0.0;     // logarithm of how many it was chosen from
+  bool beyond_counts = true;  // more than whole counts can feign
+};
+
+// Best first. `without`: an accepted effect that is taken out for the question.
+std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int without = -1);
+
+// The best shape of one entry, which is one of so many `tests`; `scan` is of the same question.
+ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& effect, int without,
+                                 int tests);
+
+// Its p value, from its test.
+void judge(ScoredCandidate& candidate);
+
+// The same cause in each recording on its own.
+bool is_finer(const Effect& own, const Effect& shared);
+
+}  // namespace odolab

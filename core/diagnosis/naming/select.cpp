@@ -1,0 +1,274 @@
+#include "core/diagnosis/naming/select.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/chi_square.h"
+#include "core/diagnosis/naming/clocks_first.h"
+#include "core/diagnosis/naming/material.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kMostEffects = 4;
+// A form is never quite that of the world: what is left of a strong effect is not another one.
+constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
+
+// Share of the evidence that a right name may lose since its form is not quite the world's.
+constexpr double kFormError = 0.1;
+
+// Where innovations are correlated a small share is believed as little as an event's.
+double least_share(const Effect& effect, double distrust) {
+  return effect.local ? kLeastShareOfEvents : std::lerp(kLeastShare, kLeastShareOfEvents, distrust);
+}
+
+// An accepted effect as it stands, held against nothing else.
+ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
+  const AcceptedEffect& a = joint.accepted[accepted];
+  ScoredCandidate c;
+  c.effect = a.effect;
+  c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
+  c.test.shape = a.shape;
+  judge(c);
+  return c;
+}
+
+// What happens in one place or at one moment is judged by how large it seems in all others. While it is left out of the
+// model it shows in all that comes behind it, the more so the smaller the noise is: others' scatter is then taken from
+// the model that has it.
+void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<ScoredCandidate>& left_out) {
+  for (ScoredCandidate& c : left_out) {
+    if (!c.effect->local) continue;
+    for (const ScoredCandidate& other : with_all)
+      if (other.effect == c.effect) c.test.inflation = other.test.inflation;
+    judge(c);
+  }
+}
+
+bool stands(const ScoredCandidate& c, double family_wise_error) {
+  return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
+}
+
+bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
+  return a.effect->of_one_recording && b.effect->of_one_recording && a.test.shape[0] == b.test.shape[0] &&
+         std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
+}
+
+// What is left of something that was already let in belongs to its shape.
+bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
+  for (const AcceptedEffect& a : joint.accepted)
+    if (!is_finer(*c.effect, *a.effect) && !a.effect->local && a.effect->name == c.effect->name &&
+        a.effect->component == c.effect->component)
+      return true;
+  if (!c.effect->local) return false;
+  for (const AcceptedEffect& a : joint.accepted) {
+    if (a.effect->name == "slip_zone") {
+      if (!c.effect->of_one_recording) return true;  // one patch at a time: a disc is only nearly its shape
+      const DriveView& view = joint.views()[static_cast<std::size_t>(c.test.shape[0])];
+      for (const EffectStep& s : view.steps)
+        if (std::abs(s.time_s - c.test.shape[1]) < 0.5 &&
+            length(s.position - Vec2{a.shape[0], a.shape[1]}) < a.shape[2] + view.drive.wheelbase_m)
+          return true;
+    }
+    if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&
+        std::abs(a.shape[1] - c.test.shape[1]) < 1.0)
+      return true;
+  }
+  return false;
+}
+
+// Twice what the log-likelihood gains by it under the noise as it is.
+double let_in(JointModel& joint, const ScoredCandidate& c) {
+  AcceptedEffect a;
+  a.effect = c.effect;
+  a.shape = c.test.shape;
+  if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
+  a.value.assign(c.test.value.size(), 0.0);
+  const auto coarser = std::find_if(joint.accepted.begin(), joint.accepted.end(),
+                                    [&](const AcceptedEffect& other) { return is_finer(*a.effect, *other.effect); });
+  if (coarser != joint.accepted.end()) {
+    for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = coarser->value[k % coarser->value.size()];
+    joint.accepted.erase(coarser);
+  }
+  joint.accepted.push_back(a);
+  return joint.fit(3);
+}
+
+void fit_noise_too(JointModel& joint) {
+  joint.fit_noise();
+  joint.fit(2);
+}
+
+}  // namespace
+
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
+  Selected out;
+  std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
+  double share = 0.3;
+  let_clocks_in(joint);
+  const Effect* clocks = joint.accepted.empty() ? nullptr : joint.accepted.front().effect;  // known beyond doubt
+  for (int step = 0; step < kMostEffects; ++step) {
+    double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
+    for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+      explained += joint.test(joint.columns_of(*joint.accepted[k].effect, joint.accepted[k].shape), static_cast<int>(k))
+                       .statistic;
+    std::vector<ScoredCandidate> scored = scored_candidates(joint);
+    if (step == 0) out.first_look = scored;
+    const double distrust = joint.distrust();
+    std::vector<const ScoredCandidate*> standing;
+    for (const ScoredCandidate& c : scored)
+      if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
+          c.test.statistic > explained * least_share(*c.effect, distrust))
+        standing.push_back(&c);
+    std::stable_sort(standing.begin(), standing.end(),
+                     [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
+    // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
+    // much it is the better name.
+    for (std::size_t k = 1; k < standing.size(); ++k)
+      if (standing[k]->test.freedom < standing[0]->test.freedom && of_one_moment(*standing[k], *standing[0]) &&
+          standing[k]->test.judged() > (1.0 - kFormError) * standing[0]->test.judged()) {
+        std::rotate(standing.begin(), standing.begin() + static_cast<std::ptrdiff_t>(k),
+                    standing.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        break;
+      }
+    const JointModel before = joint;
+    struct Fitted {
+      const ScoredCandidate* candidate;
+      JointModel model;
+      double gained;
+    };
+    std::vector<Fitted> fitted;
+    // A score is what one step promises, and its scatter is that of what it does not explain yet: where another
+    // promises more before that is allowed for, what both come to decides.
+    const auto strongest = std::max_element(
+        standing.begin(), standing.end(),
+        [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });
+    if (strongest != standing.end() && strongest != standing.begin() &&
+        !of_one_moment(**strongest, *standing.front())) {
+      for (const ScoredCandidate* c : {standing.front(), *strongest}) {
+        fitted.push_back({c, joint, 0.0});
+        fitted.back().gained = let_in(fitted.back().model, *c);
+      }
+      if (fitted[1].gained > fitted[0].gained + 2.0 * kClearlyBeaten)
+        std::rotate(standing.begin(), strongest, strongest + 1);
+    }
+    bool accepted = false;
+    // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.
+    for (std::size_t tried = 0; tried < std::min<std::size_t>(standing.size(), 3) && !accepted; ++tried) {
+      const auto known =
+          std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
+      if (known != fitted.end()) joint = known->model;
+      const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
+      fit_noise_too(joint);
+      accepted = kept > 8.0 && is_material(before, before.gathered_error(), joint.gathered_error(),
+                                           standing[tried]->test.value.size());
+      if (!accepted) joint = before;
+    }
+    if (!accepted) {
+      with_all = std::move(scored);
+      break;
+    }
+    if (joint.clocks_are_held) {
+      align_clocks(joint);
+      joint.fit(2);
+    }
+    // Its place and time were found under the noise that it made itself.
+    for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+      AcceptedEffect& a = joint.accepted[k];
+      if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
+      const double now = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+      const ScoredCandidate again =
+          scored_candidate(joint, CandidateScan(joint, static_cast<int>(k)), *a.effect, static_cast<int>(k), 1);
+      if (again.test.statistic < now + 1.0) continue;
+      a.shape = again.test.shape;
+      a.value = again.test.value;
+      joint.fit(2);
+      joint.fit_noise();
+      joint.fit(2);
+    }
+    if (!goes_on(progress, share += 0.08)) return out;
+    // A name may have been the best only while another was missing.
+    if (joint.accepted.size() > 1)
+      for (std::size_t k = 0; k + 1 < joint.accepted.size(); ++k) {
+        if (joint.accepted[k].effect == clocks) continue;
+        const std::vector<ScoredCandidate> instead = scored_candidates(joint, static_cast<int>(k));
+        const ScoredCandidate* own = nullptr;
+        for (const ScoredCandidate& c : instead)
+          if (c.effect == joint.accepted[k].effect) own = &c;
+        const ScoredCandidate& top = instead.front();
+        const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                                       [&](const AcceptedEffect& a) { return a.effect == top.effect; });
+        if (own && !taken && stands(top, family_wise_error) &&
+            top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
+          joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+          let_in(joint, top);
+          fit_noise_too(joint);
+        }
+      }
+  }
+  // Backward, and what else could have been said in the place of each.
+  const auto share_of = [&](std::size_t k) {
+    double all = 0.0, own = 0.0;
+    for (std::size_t j = 0; j < joint.accepted.size(); ++j) {
+      const double t =
+          joint.test(joint.columns_of(*joint.accepted[j].effect, joint.accepted[j].shape), static_cast<int>(j))
+              .statistic;
+      all += t;
+      if (j == k) own = t;
+    }
+    return all > 0.0 ? own / all : 1.0;
+  };
+  for (std::size_t k = 0; k < joint.accepted.size();) {
+    if (with_all.empty()) with_all = scored_candidates(joint);
+    std::vector<ScoredCandidate> instead;
+    if (joint.accepted[k].effect == clocks)
+      instead.push_back(tested_alone(joint, k));
+    else
+      instead = scored_candidates(joint, static_cast<int>(k));
+    judge_locals_by(with_all, instead);
+    ScoredCandidate own;
+    for (const ScoredCandidate& c : instead)
+      if (c.effect == joint.accepted[k].effect) own = c;
+    const double least = least_share(*joint.accepted[k].effect, joint.distrust());
+    if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
+      // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
+      JointModel without = joint;
+      without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+      without.fit(4);
+      const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
+      without.fit_noise();
+      without.fit(2);
+      const bool needed =
+          lost > 100.0 && share_of(k) > least && lowers(without.gathered_error(), joint.gathered_error(), kMaterial);
+      if (!needed) {
+        joint = without;
+        with_all.clear();
+        out.evidence.clear();
+        out.alternatives.clear();
+        k = 0;
+        continue;
+      }
+      own.effect = joint.accepted[k].effect;
+      own.test.shape = joint.accepted[k].shape;
+      own.test.statistic = lost;
+      own.test.inflation = std::max(1.0, own.test.inflation);
+      own.p_value = chi_square_tail(lost / own.test.inflation, static_cast<int>(joint.accepted[k].value.size()));
+    }
+    std::vector<ScoredCandidate> alternatives;
+    for (const ScoredCandidate& c : instead) {
+      const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                                     [&](const AcceptedEffect& a) { return a.effect == c.effect; });
+      if (taken || c.p_value > family_wise_error || !c.beyond_counts || c.effect->name == own.effect->name) continue;
+      const bool same_moment = of_one_moment(own, c);
+      const double beaten_by = std::max(2.0 * kClearlyBeaten, same_moment ? kFormError * own.test.judged() : 0.0);
+      if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);
+    }
+    out.evidence.push_back(own);
+    out.alternatives.push_back(alternatives);
+    ++k;
+  }
+  return out;
+}
+
+}  // namespace odolab

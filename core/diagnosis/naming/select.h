@@ -1,0 +1,25 @@
+// Which effects of the catalogue are missing: forward with refit, swapped, backward, with what is not clearly beaten
+// kept beside each.
+#pragma once
+
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/diagnosis/naming/scored_candidates.h"
+
+namespace odolab {
+
+struct Selected {
+  std::vector<ScoredCandidate> evidence;                   // of each accepted effect of the model, in its order
+  std::vector<std::vector<ScoredCandidate>> alternatives;  // not clearly beaten
+  std::vector<ScoredCandidate> first_look;                 // all candidates before any was let in
+};
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress);
+
+// Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
+constexpr double kDecisive = 200.0;
+
+// A log-likelihood ratio below which two names are not told apart.
+constexpr double kClearlyBeaten = 5.0;
+
+}  // namespace odolab
