@@ -213,8 +213,18 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   double of_toe = 0.0;
   for (const Finding& f : named)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  const Adequacy adequacy =
-      adequacy_of(joint, calibrated, d.calibration_alone, selected.evidence, of_toe, 0.25 * options.family_wise_error);
+  // Whether names suffice is asked of what was held out too.
+  const std::optional<JointModel> all_named = predictor.fitted_to_all(joint);
+  const std::optional<JointModel> all_calibrated = all_named ? predictor.fitted_to_all(calibrated) : std::nullopt;
+  std::vector<ScoredCandidate> evidence = selected.evidence;
+  for (std::size_t k = 0; all_named && k < joint.accepted.size(); ++k) {
+    const AcceptedEffect& a = all_named->accepted[k];
+    const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+    evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
+  }
+  Adequacy adequacy = adequacy_of(all_named ? *all_named : joint, all_named ? *all_calibrated : calibrated, evidence,
+                                  of_toe, 0.25 * options.family_wise_error);
+  if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(joint, calibrated, d.calibration_alone.noise);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
@@ -225,6 +235,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
   std::sort(named.begin(), named.end(),
             [](const Finding& a, const Finding& b) { return a.log_likelihood_gain > b.log_likelihood_gain; });
+  if (adequacy.as_likely && !named.empty())
+    named.front().alternatives.push_back(
+        {"unknown", "vehicle", 0.5 * std::max(0.0, adequacy.as_likely->gain + explained),
+         "a recording in which what it depends on, here " + adequacy.as_likely->where.regime + ", goes otherwise"});
   bool ambiguous = false;
   for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
 

@@ -140,6 +140,15 @@ Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit f
   return p;
 }
 
+std::optional<JointModel> Predictor::fitted_to_all(const JointModel& model) const {
+  if (runs_.empty()) return std::nullopt;
+  for (const AcceptedEffect& a : model.accepted)
+    if (a.effect->and_later_recordings || (a.effect->of_each_recording && a.acts_on_motion())) return std::nullopt;
+  JointModel all = model.together_with(frozen(model, runs_, commands_, calibration_, nominal_, model.model.noise));
+  all.fit(2);
+  return all;
+}
+
 void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
            const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
            const std::vector<Recording>& train) {

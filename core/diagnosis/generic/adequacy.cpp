@@ -126,30 +126,63 @@ Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double
   return u;
 }
 
-// A group without a name that says more in the place of all names than they do, chance and a name's imperfect form
-// allowed for.
-std::optional<Unnamed> what_says_more(const JointModel& joint, double error) {
+// By how much chance alone makes terms seem to explain that were chosen from so many.
+double by_chance(double freedom, double log_tests) { return freedom + 2.0 * log_tests; }
+
+// What names explain beyond what so many tries, places and times do by chance.
+double beyond_chance(const std::vector<ScoredCandidate>& evidence) {
+  double sum = 0.0;
+  for (const ScoredCandidate& e : evidence) sum += e.test.judged() - by_chance(e.test.freedom, e.log_tests);
+  return sum;
+}
+
+// Whether the strongest name is but one form of a group: with the group let in little of it is left to be seen.
+bool names_its_form(const JointModel& bare, const JointModel& with_group,
+                    const std::vector<ScoredCandidate>& evidence) {
+  constexpr double kLeft = 0.3;
+  const auto& name = *std::max_element(evidence.begin(), evidence.end(), [](const auto& a, const auto& b) {
+    return a.test.statistic < b.test.statistic;
+  });
+  const auto survives = [&](const JointModel& j) {
+    return j.test(j.columns_of(*name.effect, name.test.shape)).survives;
+  };
+  return survives(with_group) < kLeft * survives(bare);
+}
+
+struct InPlaceOfNames {
+  std::optional<Unnamed> says_more, as_much;
+};
+
+// What groups without a name say in the place of all names. One says more than they, chance and a name's imperfect form
+// allowed for; or so nearly as much that neither beats the other, and is not the same in other words.
+InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<ScoredCandidate>& evidence, double error) {
   const JointModel bare = without_names(joint);
   JointModel named = bare;
   for (const AcceptedEffect& a : joint.accepted)
     if (a.acts_on_motion()) named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0), {}});
-  const double by_names = named.fit(3);
+  double looked_for = 0.0;
+  for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
+  const double by_names = std::max(0.0, named.fit(3) - looked_for), fair = beyond_chance(evidence);
   const std::vector<GenericTest> generic = generic_tests(bare);
   const auto beyond = [&](double gain) { return gain - (1.0 + kMostLeft) * by_names; };
-  const auto significant = [&](const GenericTest& g, double gain) {
+  const auto is_more = [&](const GenericTest& g, double gain) {
     return scaled_chi_square_tail(beyond(gain) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests < error;
   };
+  const auto is_as_much = [&](const GenericTest& g, double gain) {
+    return gain / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
+  };
   const bool correlated = bare.distrust() > 0.0;
-  std::optional<Unnamed> best;
+  InPlaceOfNames out;
   for (const GenericTest* g : strongest_first(generic, error)) {
-    if (!significant(*g, g->test.statistic)) continue;
+    if (!is_more(*g, g->test.statistic) && !is_as_much(*g, g->test.statistic)) continue;
     JointModel with = bare;
     const double kept = let_in(with, *g);
-    if (!significant(*g, kept) || (best && beyond(kept) < best->gain)) continue;
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
-    best = unnamed_by(*g, shape_of(*g, with), beyond(kept), 1.0);
+    std::optional<Unnamed>& which = is_more(*g, kept) ? out.says_more : out.as_much;
+    if (!is_more(*g, kept) && (!is_as_much(*g, kept) || names_its_form(bare, with, evidence))) continue;
+    if (!which || beyond(kept) > which->gain) which = unnamed_by(*g, shape_of(*g, with), beyond(kept), 1.0);
   }
-  return best;
+  return out;
 }
 
 // Where the truth contradicts the wheels for so long that it is no outlier, with the noise of what does not: of each
@@ -175,6 +208,39 @@ int count(const Contradicted& of_run) {
   return places;
 }
 
+bool names_physics(const JointModel& joint) {
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+}
+
+}  // namespace
+
+Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
+                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error) {
+  Adequacy out;
+  out.generic = generic_tests(joint);
+  double explained = of_mounting;
+  for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
+  if (const Left left = what_is_left(joint, out.generic, error); left.group) {
+    const CandidateTest& test = left.group->test;
+    const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
+    if (!is_worth_saying(joint, calibrated, *left.group))
+      out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
+    else if (gain > kMostLeft * explained || is_in_pieces(evidence))
+      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
+  }
+  const double fair = beyond_chance(evidence);
+  const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {
+    return g.test.statistic > kMostLeft * explained ||
+           g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
+  });
+  if (!out.unnamed && worth_asking && names_physics(joint)) {
+    InPlaceOfNames instead = in_place_of_names(joint, evidence, error);
+    out.unnamed = std::move(instead.says_more);
+    out.as_likely = std::move(instead.as_much);
+  }
+  return out;
+}
+
 // Once may be a truth that found itself elsewhere. What names mend three quarters of is theirs; and what acts all the
 // time, and lowers the squared error of dead reckoning by a tenth, is there whatever happened besides.
 std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
@@ -196,34 +262,6 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
   u.where.regime = "what the truth says contradicts the wheels, time and again, at " + std::to_string(count(now)) +
                    " places in all recordings";
   return u;
-}
-
-bool names_physics(const JointModel& joint) {
-  return std::any_of(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
-}
-
-}  // namespace
-
-Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, const LeastSquaresCalibration& calibration,
-                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error) {
-  Adequacy out;
-  out.generic = generic_tests(joint);
-  double explained = of_mounting;
-  for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
-  if (const Left left = what_is_left(joint, out.generic, error); left.group) {
-    const CandidateTest& test = left.group->test;
-    const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
-    if (!is_worth_saying(joint, calibrated, *left.group))
-      out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
-    else if (gain > kMostLeft * explained || is_in_pieces(evidence))
-      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
-  }
-  // In the place of names a group says more than they by no more than it says beside them.
-  const bool may_say_more = std::any_of(out.generic.begin(), out.generic.end(),
-                                        [&](const GenericTest& g) { return g.test.statistic > kMostLeft * explained; });
-  if (!out.unnamed && may_say_more && names_physics(joint)) out.unnamed = what_says_more(joint, error);
-  if (!out.unnamed) out.unnamed = what_contradicts(joint, calibrated, calibration.noise);
-  return out;
 }
 
 }  // namespace odolab

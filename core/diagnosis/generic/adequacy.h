@@ -22,12 +22,17 @@ struct Unnamed {
 struct Adequacy {
   std::vector<GenericTest> generic;  // of what the names leave, best first
   std::optional<Unnamed> unnamed;    // where the names are not enough
+  std::optional<Unnamed> as_likely;  // where they may be, but something without a name is not beaten by them either
   bool something_small_is_left = false;
 };
 
-// `calibrated`: without any name; `calibration`: its noise, that of samples which do not contradict it. `of_mounting`:
-// twice the log-likelihood that a turned mounting or a toe explains, which slips in turns besides.
-Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated, const LeastSquaresCalibration& calibration,
+// Of all recordings that there are; `calibrated`: without any name. `of_mounting`: twice the log-likelihood that a
+// turned mounting or a toe explains, which slips in turns besides.
+Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double of_mounting, double error);
+
+// Where the truth contradicts the wheels time and again, names or no names. `noise`: that of samples which do not.
+std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
+                                        const FittedNoise& noise);
 
 }  // namespace odolab

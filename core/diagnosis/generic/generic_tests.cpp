@@ -22,6 +22,7 @@ struct Group {
   std::vector<double> at;
   std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
   std::vector<GenericWave> waves;
+  bool is_memory = false;  // of what was done before
 };
 
 Group hats_of(const std::string& name, const std::vector<DriveView>& views,
@@ -169,6 +170,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   }
   Group memory;
   memory.variable = "turn before, forgotten over metres";
+  memory.is_memory = true;
   memory.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     out.assign(2, std::vector<double>(view.steps.size()));
     for (int k = 0; k < 2; ++k) {
@@ -184,6 +186,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.push_back(memory);
   Group heat;
   heat.variable = "turning before, forgotten over seconds";
+  heat.is_memory = true;
   heat.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     out.assign(2, std::vector<double>(view.steps.size()));
     for (int k = 0; k < 2; ++k) {
@@ -210,38 +213,51 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.push_back(phases);
   groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
 
-  const int count = static_cast<int>(groups.size()) * kGenericChannels;
+  // Each in each channel alone; what is remembered, which may show in all of them at once, in all together too.
+  struct Asked {
+    const Group* group;
+    std::vector<int> channels;
+  };
+  std::vector<Asked> asked;
+  for (const Group& g : groups) {
+    for (int channel = 0; channel < kGenericChannels; ++channel) asked.push_back({&g, {channel}});
+    if (g.is_memory) asked.push_back({&g, {0, 1, 2}});
+  }
+  const auto count = static_cast<int>(asked.size());
   const double n = count + kUnevenWheelTests + kBentTruthTests;
-  std::vector<GenericTest> tests(static_cast<std::size_t>(count));
+  std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
-    const Group& g = groups[i / kGenericChannels];
-    const int channel = i % kGenericChannels;
-    auto term = std::make_shared<Effect>();
-    term->name = g.variable;
-    term->component = name_of_channel(channel);
-    const auto values_of = g.values;
-    term->motions = [values_of, channel](const DriveView& view, const std::vector<double>&) {
-      std::vector<std::vector<double>> values;
-      values_of(view, values);
-      std::vector<Motions> out(values.size());
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        out[k] = Motions(view.steps.size());
-        for (std::size_t j = 0; j < values[k].size(); ++j) {
-          const BodyMotion m = unit_of_channel(view.steps[j], view.drive.wheelbase_m, channel);
-          const double value = values[k][j];
-          out[k][j] = {value * m.forward_m, value * m.sideways_m, value * m.turn_rad};
-        }
-      }
-      return out;
-    };
+    const Group& g = *asked[i].group;
+    const std::vector<int>& channels = asked[i].channels;
     std::vector<std::vector<double>> one;
     g.values(DriveView{}, one);
-    term->amplitudes.resize(one.size());
+    auto term = std::make_shared<Effect>();
+    term->amplitudes.resize(one.size() * channels.size());
+    term->motions = [values_of = g.values, channels](const DriveView& view, const std::vector<double>&) {
+      std::vector<std::vector<double>> values;
+      values_of(view, values);
+      std::vector<Motions> out;
+      for (int channel : channels)
+        for (const std::vector<double>& of_function : values) {
+          Motions motions(view.steps.size());
+          for (std::size_t j = 0; j < of_function.size(); ++j) {
+            const BodyMotion m = unit_of_channel(view.steps[j], view.drive.wheelbase_m, channel);
+            const double value = of_function[j];
+            motions[j] = {value * m.forward_m, value * m.sideways_m, value * m.turn_rad};
+          }
+          out.push_back(std::move(motions));
+        }
+      return out;
+    };
     tests[i].variable = g.variable;
-    tests[i].channel = name_of_channel(channel);
-    tests[i].at = g.at;
-    tests[i].waves = g.waves;
-    ask(tests[i], joint, term, n);
+    tests[i].channel = channels.size() == 1 ? name_of_channel(channels[0]) : "forward, sideways and turn, per metre";
+    if (channels.size() == 1) {
+      tests[i].at = g.at;
+      tests[i].waves = g.waves;
+    }
+    term->name = tests[i].variable;
+    term->component = tests[i].channel;
+    ask(tests[i], joint, std::move(term), n);
   });
   for (const std::vector<GenericTest>& more :
        {uneven_wheel_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})

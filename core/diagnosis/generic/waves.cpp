@@ -1,9 +1,10 @@
 #include "core/diagnosis/generic/waves.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
-#include <span>
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/floor.h"
@@ -12,11 +13,11 @@ namespace odolab {
 
 namespace {
 
-constexpr double kBin_s = 0.1;
+constexpr double kBin_s = 0.1, kBin_m = 0.1;
 constexpr double kShortestPeriod_s = 3.0, kShortestLength_m = 0.6;
 // Neighbours stand so close, in turns over the whole, that what lies between two loses an eighth of its power at most.
 constexpr double kTurnsApart = 0.4;
-constexpr std::size_t kMostWaves = 500;
+constexpr std::size_t kMostInTime = 500, kMostOnTheFloor = 4000;
 constexpr int kBands = 3;
 
 // What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
@@ -72,63 +73,129 @@ double product(const BodyMotion& a, const BodyMotion& b) {
 // A stretch of a run so short that no wave turns far within it.
 struct Bin {
   double since_start_s = 0.0;
-  Vec2 at;
+  Vec2 at;  // in the middle
   double score[kSlots] = {};
 };
 
-std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
+enum class Cut { by_time, by_way };
+
+std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score, Cut cut) {
   std::vector<Bin> bins;
   const double b = view.drive.wheelbase_m;
+  double way_m = 0.0, steps = 0.0;
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     const EffectStep& s = view.steps[i];
-    if (bins.empty() || s.since_start_s > bins.back().since_start_s + kBin_s) {
+    const bool full =
+        bins.empty() || (cut == Cut::by_time ? s.since_start_s > bins.back().since_start_s + kBin_s : way_m > kBin_m);
+    if (full) {
       bins.emplace_back();
       bins.back().since_start_s = s.since_start_s;
-      bins.back().at = s.position;
+      way_m = steps = 0.0;
     }
-    double* sum = bins.back().score;
+    Bin& bin = bins.back();
+    way_m += std::abs(s.forward_m());
+    steps += 1.0;
+    bin.at = bin.at + (1.0 / steps) * (s.position - bin.at);
     for (int channel = 0; channel < kGenericChannels; ++channel)
-      sum[channel] += product(unit_of(s, b, channel, false).of[0], score[i]);
+      bin.score[channel] += product(unit_of(s, b, channel, false).of[0], score[i]);
     for (const bool in_time : {false, true}) {
       const Unit u = unit_of(s, b, kAcross, in_time);
-      for (int axis = 0; axis < 2; ++axis) sum[(in_time ? across_s : across_m) + axis] += product(u.of[axis], score[i]);
+      for (int axis = 0; axis < 2; ++axis)
+        bin.score[(in_time ? across_s : across_m) + axis] += product(u.of[axis], score[i]);
     }
-    sum[of_pace] += product(unit_of(s, b, kPace, true).of[0], score[i]);
+    bin.score[of_pace] += product(unit_of(s, b, kPace, true).of[0], score[i]);
   }
   return bins;
 }
 
-std::vector<Wave> waves_in_time(double duration_s) {
-  std::vector<Wave> waves;
+// A wave and the square of its score in every channel.
+struct Heard {
+  Wave wave;
+  std::array<double, kChannels> power{};
+};
+
+std::vector<Heard> heard_in_time(const std::vector<std::vector<Bin>>& bins) {
+  double duration_s = 0.0;
+  for (const std::vector<Bin>& of_run : bins)
+    for (const Bin& b : of_run) duration_s = std::max(duration_s, b.since_start_s);
+  std::vector<Heard> heard;
+  if (duration_s < 2.0 * kShortestPeriod_s) return heard;
   const double step = kTurnsApart / duration_s, most = 1.0 / kShortestPeriod_s;
-  for (double f = 2.0 * step; f <= most && waves.size() < kMostWaves; f += step) {
+  for (double f = 2.0 * step; f <= most && heard.size() < kMostInTime; f += step) {
     Wave w;
     w.in_time = true;
     w.per_s = f;
-    waves.push_back(w);
+    w.band = std::clamp(static_cast<int>(std::log(f / step) / std::log(most / step) * kBands), 0, kBands - 1);
+    heard.push_back({w, {}});
   }
-  for (std::size_t k = 0; k < waves.size(); ++k)
-    waves[k].band =
-        std::clamp(static_cast<int>(std::log(waves[k].per_s / step) / std::log(most / step) * kBands), 0, kBands - 1);
-  return waves;
+  parallel_for(static_cast<int>(heard.size()), [&](int k) {
+    Heard& h = heard[static_cast<std::size_t>(k)];
+    for (const std::vector<Bin>& of_run : bins) {
+      double part[kSlots][2] = {};
+      for (const Bin& b : of_run) {
+        const double angle = 2.0 * kPi * h.wave.turns(b.since_start_s, b.at), c = std::cos(angle), s = std::sin(angle);
+        for (const Modulated& m : kInTime) {
+          part[m.slot][0] += c * b.score[m.slot];
+          part[m.slot][1] += s * b.score[m.slot];
+        }
+      }
+      for (const Modulated& m : kInTime)
+        h.power[static_cast<std::size_t>(m.channel)] +=
+            part[m.slot][0] * part[m.slot][0] + part[m.slot][1] * part[m.slot][1];
+    }
+  });
+  return heard;
 }
 
-std::vector<Wave> waves_on_the_floor(double width_m, double height_m) {
-  std::vector<Wave> waves;
-  const double dx = kTurnsApart / std::max(width_m, 0.5), dy = kTurnsApart / std::max(height_m, 0.5);
-  double most = 1.0 / kShortestLength_m;
-  most = std::min(most, std::sqrt(2.0 * static_cast<double>(kMostWaves) * dx * dy / kPi));  // half a disc of so many
-  for (int i = 0; i * dx <= most; ++i)
-    for (int j = -static_cast<int>(most / dy); j * dy <= most; ++j) {
-      if (i == 0 && j <= 0) continue;
-      Wave w;
-      w.per_m = {i * dx, j * dy};
-      const double k = length(w.per_m);
-      if (k > most) continue;
-      w.band = std::min(kBands - 1, static_cast<int>(kBands * k / most));
-      waves.push_back(w);
+// Wave vectors stand on a grid, so that the angle of each is one of x plus one of y, and all scores of a slot are the
+// product of two matrices.
+std::vector<Heard> heard_on_the_floor(const std::vector<std::vector<Bin>>& bins, const Floor& floor) {
+  const double dx = kTurnsApart / std::max(floor.width_m(), 0.5), dy = kTurnsApart / std::max(floor.height_m(), 0.5);
+  const double most = std::min(1.0 / kShortestLength_m,  // half a disc of so many at most
+                               std::sqrt(2.0 * static_cast<double>(kMostOnTheFloor) * dx * dy / kPi));
+  const auto nx = static_cast<Eigen::Index>(most / dx) + 1, ny = static_cast<Eigen::Index>(most / dy) + 1;
+  std::vector<const Bin*> all;
+  for (const std::vector<Bin>& of_run : bins)
+    for (const Bin& b : of_run) all.push_back(&b);
+  const auto n = static_cast<Eigen::Index>(all.size());
+  Eigen::MatrixXd of_x(n, 2 * nx), of_y(n, 2 * ny);  // cosines, then sines
+  for (Eigen::Index b = 0; b < n; ++b) {
+    const Vec2 at = all[static_cast<std::size_t>(b)]->at - floor.low;
+    for (Eigen::Index i = 0; i < nx; ++i) {
+      const double angle = 2.0 * kPi * dx * static_cast<double>(i) * at.x_m;
+      of_x(b, i) = std::cos(angle), of_x(b, nx + i) = std::sin(angle);
     }
-  return waves;
+    for (Eigen::Index j = 0; j < ny; ++j) {
+      const double angle = 2.0 * kPi * dy * static_cast<double>(j) * at.y_m;
+      of_y(b, j) = std::cos(angle), of_y(b, ny + j) = std::sin(angle);
+    }
+  }
+  constexpr std::size_t kMany = std::size(kOnTheFloor);
+  std::array<Eigen::MatrixXd, kMany> sums;
+  parallel_for(static_cast<int>(kMany), [&](int m) {
+    Eigen::VectorXd score(n);
+    for (Eigen::Index b = 0; b < n; ++b) score(b) = all[static_cast<std::size_t>(b)]->score[kOnTheFloor[m].slot];
+    sums[static_cast<std::size_t>(m)].noalias() = (score.asDiagonal() * of_x).transpose() * of_y;
+  });
+  std::vector<Heard> heard;
+  for (Eigen::Index i = 0; i < nx; ++i)
+    for (Eigen::Index j = 0; j < ny; ++j)
+      for (const double side : {1.0, -1.0}) {
+        if ((i == 0 || j == 0) && side < 0.0) continue;  // the same again
+        Wave w;
+        w.per_m = {static_cast<double>(i) * dx, side * static_cast<double>(j) * dy};
+        const double k = length(w.per_m);
+        if (k == 0.0 || k > most) continue;
+        w.band = std::min(kBands - 1, static_cast<int>(kBands * k / most));
+        Heard h{w, {}};
+        for (std::size_t m = 0; m < kMany; ++m) {
+          const Eigen::MatrixXd& of = sums[m];
+          const double c = of(i, j) - side * of(nx + i, ny + j), s = of(nx + i, j) + side * of(i, ny + j);
+          h.power[static_cast<std::size_t>(kOnTheFloor[m].channel)] += c * c + s * s;
+        }
+        heard.push_back(h);
+      }
+  return heard;
 }
 
 std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size_t runs) {
@@ -171,52 +238,22 @@ std::string name_of(const Wave& wave) {
 std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests) {
   const std::vector<DriveView>& views = joint.views();
   const std::size_t runs = views.size();
-  std::vector<std::vector<Bin>> bins(runs);
-  parallel_for(static_cast<int>(runs), [&](int r) {
-    bins[static_cast<std::size_t>(r)] = bins_of(views[static_cast<std::size_t>(r)], joint.score_of_motions(r));
+  std::vector<std::vector<Bin>> by_time(runs), by_way(runs);
+  parallel_for(static_cast<int>(runs), [&](int run) {
+    const auto r = static_cast<std::size_t>(run);
+    const std::vector<BodyMotion> score = joint.score_of_motions(run);
+    by_time[r] = bins_of(views[r], score, Cut::by_time);
+    by_way[r] = bins_of(views[r], score, Cut::by_way);
   });
-  double duration_s = 0.0;
-  for (const std::vector<Bin>& of_run : bins)
-    for (const Bin& b : of_run) duration_s = std::max(duration_s, b.since_start_s);
-  if (duration_s < 2.0 * kShortestPeriod_s) return {};
-  std::vector<Wave> waves = waves_in_time(duration_s);
-  const Floor floor = floor_of(views);
-  const std::vector<Wave> on_it = waves_on_the_floor(floor.width_m(), floor.height_m());
-  waves.insert(waves.end(), on_it.begin(), on_it.end());
-
-  // The square of the score of every wave in every channel.
-  std::vector<std::array<double, kChannels>> power(waves.size());
-  parallel_for(static_cast<int>(waves.size()), [&](int k) {
-    const Wave& wave = waves[static_cast<std::size_t>(k)];
-    std::array<double, kChannels> sum{};
-    const std::span<const Modulated> modulated =
-        wave.in_time ? std::span<const Modulated>(kInTime) : std::span<const Modulated>(kOnTheFloor);
-    double part[kSlots][2] = {};
-    const auto close = [&] {
-      for (const Modulated& m : modulated) {
-        double* p = part[m.slot];
-        sum[static_cast<std::size_t>(m.channel)] += p[0] * p[0] + p[1] * p[1];
-        p[0] = p[1] = 0.0;
-      }
-    };
-    for (const std::vector<Bin>& of_run : bins) {
-      for (const Bin& b : of_run) {
-        const double angle = 2.0 * kPi * wave.turns(b.since_start_s, b.at), c = std::cos(angle), s = std::sin(angle);
-        for (const Modulated& m : modulated) {
-          part[m.slot][0] += c * b.score[m.slot];
-          part[m.slot][1] += s * b.score[m.slot];
-        }
-      }
-      if (wave.in_time) close();
-    }
-    if (!wave.in_time) close();
-    power[static_cast<std::size_t>(k)] = sum;
-  });
+  std::vector<Heard> heard = heard_in_time(by_time);
+  if (heard.empty()) return {};
+  const std::vector<Heard> floor = heard_on_the_floor(by_way, floor_of(views));
+  heard.insert(heard.end(), floor.begin(), floor.end());
 
   // The strongest of each band: shorter waves are seen less well, so that scores of one band alone can be held
   // together.
   struct Chosen {
-    std::size_t wave;
+    const Wave* wave;
     int channel;
   };
   std::vector<Chosen> chosen;
@@ -224,18 +261,17 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests)
     for (int band = 0; band < kBands; ++band)
       for (int channel = 0; channel < kChannels; ++channel) {
         double best = 0.0;
-        std::size_t at = waves.size();
-        for (std::size_t k = 0; k < waves.size(); ++k)
-          if (waves[k].in_time == in_time && waves[k].band == band &&
-              power[k][static_cast<std::size_t>(channel)] > best)
-            best = power[k][static_cast<std::size_t>(channel)], at = k;
-        if (at < waves.size()) chosen.push_back({at, channel});
+        const Wave* strongest = nullptr;
+        for (const Heard& h : heard)
+          if (h.wave.in_time == in_time && h.wave.band == band && h.power[static_cast<std::size_t>(channel)] > best)
+            best = h.power[static_cast<std::size_t>(channel)], strongest = &h.wave;
+        if (strongest) chosen.push_back({strongest, channel});
       }
-  const double looked_at = static_cast<double>(kChannels * waves.size()) + other_tests;
+  const double looked_at = static_cast<double>(kChannels * heard.size()) + other_tests;
   std::vector<GenericTest> tests(chosen.size());
   parallel_for(static_cast<int>(chosen.size()), [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    const Wave& wave = waves[chosen[static_cast<std::size_t>(i)].wave];
+    const Wave& wave = *chosen[static_cast<std::size_t>(i)].wave;
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     t.variable = name_of(wave);
     t.channel = channel == kPace ? "pace of its clock [1]"

@@ -397,6 +397,28 @@ JointModel JointModel::left_out(int run) const {
   return one;
 }
 
+JointModel JointModel::together_with(const JointModel& others) const {
+  JointModel all = *this;
+  const auto append = [](auto& to, const auto& of) { to.insert(to.end(), of.begin(), of.end()); };
+  append(all.runs_, others.runs_);
+  append(all.from_commands_, others.from_commands_);
+  append(all.masked_, others.masked_);
+  append(all.clock_s, others.clock_s);
+  append(all.clock_active, others.clock_active);
+  for (std::size_t r = numbers_.size(); r < all.runs_.size(); ++r) all.numbers_.push_back(static_cast<int>(r));
+  for (std::size_t k = 0; k < accepted.size(); ++k) {
+    AcceptedEffect& a = all.accepted[k];
+    if (!a.effect->clock_rate || !a.effect->of_each_recording) continue;
+    a.effect = &effects::clock_rate_of_each_run(static_cast<int>(all.runs_.size())).front();
+    append(a.value, others.accepted[k].value);
+  }
+  const auto where_they_are = std::make_shared<Linearisation>();
+  where_they_are->runs = now_->runs;
+  append(where_they_are->runs, others.now_->runs);
+  all.now_ = where_they_are;
+  return all;
+}
+
 Track JointModel::poses(int run) const {
   Track track;
   for (const FilterStep& s : now_->runs[run].steps())
