@@ -38,8 +38,8 @@ Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive
 
 }  // namespace
 
-std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, const std::vector<int>& active,
-                                             const MatrixXd& information, const std::vector<InnovationRun>& runs,
+std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, bool scale_is_open,
+                                             const std::vector<int>& active, const std::vector<InnovationRun>& runs,
                                              const DifferentialDrive& drive, bool any_heading) {
   const Driven driven = driven_in(runs, drive);
   std::vector<std::string> sentences;
@@ -48,25 +48,17 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   for (int c : active) some_clock_is_open = some_clock_is_open || (c >= column::shared && !determined[c]);
   const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right),
              base = open(column::wheelbase);
-  // The direction in the space of radii and wheelbase along which all of them grow together.
-  bool scale_is_open = false;
-  if (left && right && base) {
-    VectorXd together = VectorXd::Zero(information.rows());
-    for (std::size_t k = 0; k < active.size(); ++k)
-      if (active[k] <= column::wheelbase) together(static_cast<Eigen::Index>(k)) = 1.0;
-    scale_is_open = together.dot(information * together) < 1.0 / (kDetermined * kDetermined);
-  }
   const std::string so_far = text(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
   if (scale_is_open)
     sentences.push_back("wheel radii and wheelbase: only their ratios show here, not the scale" + so_far +
-                        "; drive a straight of a few metres");
-  else if (left || right)
+                        ": the mean radius is as it was given; drive a straight of a few metres");
+  if (left || right)
     sentences.push_back(std::string(left && right ? "wheel_radius_left_m and wheel_radius_right_m"
                                     : left        ? "wheel_radius_left_m"
                                                   : "wheel_radius_right_m") +
                         ": too little travel against the truth's noise" + so_far +
                         "; drive a straight of a few metres");
-  if (base && !scale_is_open)
+  if (base)
     sentences.push_back("wheelbase_m: the robot hardly turned" + so_far +
                         "; drive a full turn on the spot each way, or arcs");
   if (open(column::mounting_x) || open(column::mounting_y))

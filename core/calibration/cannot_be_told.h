@@ -12,9 +12,10 @@ namespace odolab {
 // Share of its prior that a determined parameter's standard error stays below.
 constexpr double kDetermined = 0.1;
 
-// `determined`: of each column. `information`: of the columns in `active`, in units of their priors.
-std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, const std::vector<int>& active,
-                                             const Eigen::MatrixXd& information, const std::vector<InnovationRun>& runs,
+// `determined`: of each column. `scale_is_open`: of radii and wheelbase only ratios show, and the mean
+// radius is as it was given.
+std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, bool scale_is_open,
+                                             const std::vector<int>& active, const std::vector<InnovationRun>& runs,
                                              const DifferentialDrive& drive, bool any_heading);
 
 }  // namespace odolab

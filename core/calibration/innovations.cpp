@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/calibration/noise_carry.h"
 #include "core/calibration/pose_covariance.h"
@@ -402,7 +403,11 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
 }
 
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
-                        const FilterOptions& options) {
+                        const FilterOptions& given) {
+  // Nothing says which of a few samples errs, as of the poses at both ends of a run.
+  constexpr std::size_t kFewestToGate = 5;
+  FilterOptions options = given;
+  if (options.gate > 0.0 && run.truth.size() < kFewestToGate) options.gate = std::numeric_limits<double>::infinity();
   if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
   if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
   return PoseFilter<kAnyColumns>(run, summed, model, options).run();

@@ -153,18 +153,31 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
       for (int c = 0; c < n; ++c) a(r, c) = s.information(active[r], active[c]);
     return a;
   };
-  fit.fit_parameters(active, 1.0, options.most_iterations);
-  const MatrixXd information = information_of(fit.sums(fit.now(), true));
-  const MatrixXd posterior = (information + MatrixXd::Identity(n, n)).inverse();
   std::vector<char> determined(start.size(), 0);
-  std::vector<int> kept;
-  for (int k = 0; k < n; ++k) {
-    determined[active[k]] = std::sqrt(posterior(k, k)) < kDetermined;
-    if (determined[active[k]])
-      kept.push_back(active[k]);
-    else
-      fit.hold_at_nominal(active[k]);
+  MatrixXd posterior;
+  const auto determine = [&] {
+    fit.fit_parameters(active, 1.0, options.most_iterations);
+    const MatrixXd information = information_of(fit.sums(fit.now(), true));
+    posterior = (information + fit.information_held(active) + MatrixXd::Identity(n, n)).inverse();
+    for (int k = 0; k < n; ++k) determined[active[k]] = std::sqrt(posterior(k, k)) < kDetermined;
+  };
+  const auto some_of_drive = [&] {
+    return determined[column::wheel_radius_left] || determined[column::wheel_radius_right] ||
+           determined[column::wheelbase];
+  };
+  determine();
+  bool scale_is_open = false;  // while ratios show
+  if (!some_of_drive()) {
+    fit.hold_mean_radius();
+    determine();
+    scale_is_open = some_of_drive();
   }
+  std::vector<int> kept;
+  for (int c : active)
+    if (determined[c])
+      kept.push_back(c);
+    else
+      fit.hold_at_nominal(c);
   fit.fit_parameters(kept, 0.0, options.most_iterations);
   if (!goes_on(progress, 1.0)) return stopped;
 
@@ -181,7 +194,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   result.innovations = final_sums.scalars;
 
   // Standard errors: what is held at its nominal value stays uncertain by its prior.
-  MatrixXd precision = information_of(final_sums);
+  MatrixXd precision = information_of(final_sums) + fit.information_held(active);
   for (int k = 0; k < n; ++k) precision(k, k) += determined[active[k]] ? 1e-12 : 1.0;
   MatrixXd covariance = precision.inverse();
 
@@ -260,7 +273,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   result.vehicle.truth.time_offset_s = clock_s;
   result.noise = model.noise;
   if (!any_heading) result.noise.truth_heading_rad = 0.0;
-  result.cannot_tell = what_cannot_be_told(determined, active, information, fit.runs(), model.drive, any_heading);
+  result.cannot_tell = what_cannot_be_told(determined, scale_is_open, active, fit.runs(), model.drive, any_heading);
   if (clock_hides_in_place)
     result.cannot_tell.push_back(
         "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a "

@@ -83,8 +83,28 @@ void LikelihoodFit::each(int count, const std::function<void(int)>& work) const 
     for (int i = 0; i < count; ++i) work(i);
 }
 
+MatrixXd LikelihoodFit::information_held(const std::vector<int>& active) const {
+  constexpr double kHeld = 1e8;  // to a ten-thousandth of its prior
+  const auto n = static_cast<Eigen::Index>(active.size());
+  VectorXd mean = VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int c = active[static_cast<std::size_t>(k)];
+    if (c == column::wheel_radius_left || c == column::wheel_radius_right) mean(k) = 0.5;
+  }
+  return mean_radius_is_held_ ? MatrixXd(kHeld * mean * mean.transpose()) : MatrixXd::Zero(n, n);
+}
+
 void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight, int most_iterations) {
-  const auto objective = [&](const Sums& s, const FitParameters& at) { return s.chi2 + weight * prior_of(at, active); };
+  const MatrixXd held = information_held(active);
+  const auto away = [&](const FitParameters& at) {
+    VectorXd of(static_cast<Eigen::Index>(active.size()));
+    for (std::size_t k = 0; k < active.size(); ++k) of(static_cast<Eigen::Index>(k)) = deviation(at, active[k]);
+    return of;
+  };
+  const auto objective = [&](const Sums& s, const FitParameters& at) {
+    const VectorXd from_nominal = away(at);
+    return s.chi2 + weight * from_nominal.squaredNorm() + from_nominal.dot(held * from_nominal);
+  };
   Sums now = sums(now_, true);
   double value = objective(now, now_);
   double damping = 1e-6;
@@ -94,10 +114,11 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
     MatrixXd a(n, n);
     VectorXd g(n);
     for (int r = 0; r < n; ++r) {
-      for (int c = 0; c < n; ++c) a(r, c) = now.information(active[r], active[c]);
+      for (int c = 0; c < n; ++c) a(r, c) = now.information(active[r], active[c]) + held(r, c);
       a(r, r) += weight;
       g(r) = now.score(active[r]) - weight * deviation(now_, active[r]);
     }
+    g -= held * away(now_);
     bool accepted = false;
     double size = 0.0;
     for (int attempt = 0; attempt < 8 && !accepted; ++attempt) {
@@ -284,12 +305,6 @@ void LikelihoodFit::add(Sums& total, int recording, const InnovationSums& s) con
     }
   }
   total.batches += static_cast<int>(s.batch_scores.size());
-}
-
-double LikelihoodFit::prior_of(const FitParameters& at, const std::vector<int>& active) const {
-  double sum = 0.0;
-  for (int c : active) sum += deviation(at, c) * deviation(at, c);
-  return sum;
 }
 
 std::vector<LikelihoodFit::Stretch> LikelihoodFit::noise_stretches() const {

@@ -60,6 +60,11 @@ class LikelihoodFit {
   // `batches` above 0: also the scatter of the score over about so many batches.
   Sums sums(const FitParameters& parameters, bool derivatives, int batches = 0) const;
 
+  // Holds the mean of both wheel radii where it was given, as where only ratios show: in the fit, and what that adds to
+  // the information of these columns.
+  void hold_mean_radius() { mean_radius_is_held_ = true; }
+  Eigen::MatrixXd information_held(const std::vector<int>& active) const;
+
   // On all cores where that is worth starting threads for.
   void each(int count, const std::function<void(int)>& work) const;
 
@@ -107,8 +112,6 @@ class LikelihoodFit {
 
   void add(Sums& total, int recording, const InnovationSums& s) const;
 
-  double prior_of(const FitParameters& at, const std::vector<int>& active) const;
-
   // All truth, or stretches spread evenly where there is more than the noise needs.
   std::vector<Stretch> noise_stretches() const;
 
@@ -122,6 +125,7 @@ class LikelihoodFit {
     bool body_is_noisy = false;
     SummedRun summed;
   };
+  bool mean_radius_is_held_ = false;
   std::vector<InnovationRun> runs_;
   mutable std::vector<Kept> kept_;  // of each run; without motions where there is none yet
   FitParameters nominal_;

@@ -1,5 +1,6 @@
 // The wheels between two truth samples, summed up: README.md in this folder, Eqs. 2 to 6.
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 #include "core/calibration/innovations.h"
@@ -154,6 +155,19 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
              Vector3d(e.per_step[interval].forward_m, e.per_step[interval].sideways_m, e.per_step[interval].turn_rad);
     return v;
   };
+  // Of what turns on a long way from one reading to the next, where the next piece of the interval begins: wheels that
+  // speed up leave the arc that both ends would say. Read at 10 Hz, a wheelbase came out 0.1 % too small without.
+  const auto next_piece = [&](std::size_t interval, double at_s) {
+    constexpr double kPiece_rad = 0.01, kPiece_s = 0.02;
+    const WheelSample &a = run.wheels[interval], &b = run.wheels[interval + 1];
+    const double turn =
+        (right_radius_m * (b.right_rad - a.right_rad) - left_radius_m * (b.left_rad - a.left_rad)) * inverse_base;
+    const double pieces = std::ceil(std::min(std::abs(turn) / kPiece_rad, (b.time_s - a.time_s) / kPiece_s));
+    if (!(pieces > 1.0) || run.speeds_are_held) return b.time_s;
+    const double piece_s = (b.time_s - a.time_s) / pieces;
+    const double next_s = a.time_s + piece_s * (std::floor((at_s - a.time_s) / piece_s + 1e-6) + 1.0);
+    return next_s < b.time_s - 0.5 * piece_s ? next_s : b.time_s;
+  };
   double now_s = time_of(0);
   std::size_t i = 0;
 
@@ -173,7 +187,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     while (now_s < end_s) {
       i = rotations.interval_at(now_s);
       const bool last_interval = i + 2 >= run.wheels.size();
-      const double until_s = last_interval ? end_s : std::min(end_s, run.wheels[i + 1].time_s);
+      const double until_s = last_interval ? end_s : std::min({end_s, run.wheels[i + 1].time_s, next_piece(i, now_s)});
       const Rotation rad = rotations.between(i, now_s, until_s);
       const double left_m = left_radius_m * rad.left, right_m = right_radius_m * rad.right;
 
@@ -187,7 +201,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         turn += share * e.value * e.per_step[i].turn_rad;
       }
       const Turn middle = turn_of(pose.heading_rad + 0.5 * turn);
-      const double c = middle.c, s = middle.s;
+      const double chord = chord_share(turn), c = chord * middle.c, s = chord * middle.s;
       const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
 
       // Derivatives, Eq. 4: of the old pose by its own heading, and of the step by forward and turn; and sideways.
@@ -196,15 +210,16 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
       const Columns by_turn(-left_turn, right_turn,
                             -(right_radius_m * right_turn - left_radius_m * left_turn) * inverse_base, 0.0);
       const Columns by_middle = by_heading + 0.5 * by_turn;
-      by_x += c * by_forward - dy * by_middle;
-      by_y += s * by_forward + dx * by_middle;
+      const double slope = chord_share_slope(turn);
+      by_x += c * by_forward - dy * by_middle + slope * dx * by_turn;
+      by_y += s * by_forward + dx * by_middle + slope * dy * by_turn;
       by_heading += by_turn;
       for (int e = 0; e < extras; ++e) {
         const BodyMotion& m = run.extra[e].per_step[i];
         const double f = share * m.forward_m, l = share * m.sideways_m, w = share * m.turn_rad;
         double* const d = jac + 3 * (column::first_extra + e);
-        d[0] += -dy * d[2] + c * f - s * l - 0.5 * dy * w;
-        d[1] += dx * d[2] + s * f + c * l + 0.5 * dx * w;
+        d[0] += -dy * d[2] + c * f - s * l + (slope * dx - 0.5 * dy) * w;
+        d[1] += dx * d[2] + s * f + c * l + (slope * dy + 0.5 * dx) * w;
         d[2] += w;
       }
 

@@ -9,6 +9,7 @@
 #include "core/diagnosis/quality.h"
 #include "core/diagnosis/units/prediction.h"
 #include "core/diagnosis/units/vehicle_units.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
@@ -58,7 +59,8 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     for (std::size_t i = 0; i < sum.size(); ++i) {
       const EffectStep& s = view.steps[i];
       const double turn = s.turn_rad + sum[i].turn_rad, middle = pose.heading_rad + 0.5 * turn;
-      const double f = s.forward_m() + sum[i].forward_m, l = sum[i].sideways_m;
+      const double chord = chord_share(turn), f = chord * (s.forward_m() + sum[i].forward_m),
+                   l = chord * sum[i].sideways_m;
       pose = {pose.x_m + f * std::cos(middle) - l * std::sin(middle),
               pose.y_m + f * std::sin(middle) + l * std::cos(middle), pose.heading_rad + turn};
       track.push_back({run.wheels[i + 1].time_s, pose});

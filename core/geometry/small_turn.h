@@ -21,4 +21,17 @@ inline Turn turn_of(double angle_rad) {
   return {1.0 - xx * (0.5 - xx * c), x - x * xx * (1.0 / 6.0 - xx * s)};
 }
 
+// The chord of an arc that turns by so much, for each metre along it: sin(a/2) / (a/2).
+inline double chord_share(double turn_rad) {
+  const double x = 0.5 * turn_rad, xx = x * x;
+  if (!(xx < 0.0625)) return std::sin(x) / x;
+  return 1.0 - xx / 6.0 * (1.0 - xx / 20.0 * (1.0 - xx / 42.0 * (1.0 - xx / 72.0)));
+}
+
+// How fast the logarithm of that grows with the turn; of turns below a radian.
+inline double chord_share_slope(double turn_rad) {
+  const double xx = turn_rad * turn_rad;
+  return -turn_rad / 12.0 * (1.0 + xx / 60.0 * (1.0 + xx / 42.0));
+}
+
 }  // namespace odolab

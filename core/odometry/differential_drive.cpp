@@ -23,7 +23,8 @@ Track dead_reckoned(const std::vector<CommandSample>& commands, const Pose& star
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (i > 0) {
       const double held_s = commands[i].time_s - commands[i - 1].time_s;
-      pose = advanced(pose, commands[i - 1].speed_mps * held_s, commands[i - 1].yaw_rate_radps * held_s);
+      const double turn_rad = commands[i - 1].yaw_rate_radps * held_s;
+      pose = advanced(pose, chord_share(turn_rad) * commands[i - 1].speed_mps * held_s, turn_rad);
     }
     track.push_back({commands[i].time_s, pose});
   }

@@ -1,6 +1,7 @@
 // Dead reckoning of a differential drive from its encoders alone: UMBmark report, Eqs. 2.1 to 2.6.
 #pragma once
 
+#include "core/geometry/small_turn.h"
 #include "core/geometry/track.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/differential_drive.h"
@@ -10,6 +11,7 @@ namespace odolab {
 // The heading at which an increment of travel is laid down.
 enum class HeadingRule {
   middle,          // of the interval: exact on arcs to second order
+  arc,             // the same with the arc's chord in the place of its length: exact where both wheels turn evenly
   end_as_printed,  // Eq. 2.6 to the letter: the heading after the increment
 };
 
@@ -21,6 +23,7 @@ inline Pose dead_reckoned(const Pose& pose, double left_rad, double right_rad, c
   const double travel_m = 0.5 * (right_m + left_m);                // Eq. 2.3
   const double turn_rad = (right_m - left_m) / drive.wheelbase_m;  // Eq. 2.4
   if (rule == HeadingRule::middle) return advanced(pose, travel_m, turn_rad);
+  if (rule == HeadingRule::arc) return advanced(pose, chord_share(turn_rad) * travel_m, turn_rad);
   const double heading_rad = pose.heading_rad + turn_rad;  // Eq. 2.5
   return {pose.x_m + travel_m * std::cos(heading_rad),     // Eq. 2.6a
           pose.y_m + travel_m * std::sin(heading_rad),     // Eq. 2.6b

@@ -220,10 +220,10 @@ std::vector<Estimator> of_two_trucks(const IpecTrucks& trucks, const LinkedReadi
                                    Wheels{0}, HeadingRule::middle),
           estimator<RearTruckReckoning>(rear, "Dead reckoning of the rear wheels alone, carried over by the joints.",
                                         trucks.b, read),
-          estimator<Ipec>("no composite", "IPEC without the correction of the position, Eqs. 14 and 15.", trucks,
-                          read, without),
-          estimator<Ipec>("IPEC printed", "IPEC with the paper's rules for heading, resolution and position.",
-                          trucks, read, printed)};
+          estimator<Ipec>("no composite", "IPEC without the correction of the position, Eqs. 14 and 15.", trucks, read,
+                          without),
+          estimator<Ipec>("IPEC printed", "IPEC with the paper's rules for heading, resolution and position.", trucks,
+                          read, printed)};
 }
 
 struct ListOf {
@@ -265,8 +265,7 @@ struct ListOf {
         "CAST-0", "Least squares over the ways of all pivots: multi-castor paper, Eqs. 15 to 21.", v, CastOptions{})};
     if (n >= 3)
       list.push_back(estimator<Rejecting>(
-          "CAST-reject", "Least squares that finds a castor which slips or climbs, and leaves it out meanwhile.",
-          v));
+          "CAST-reject", "Least squares that finds a castor which slips or climbs, and leaves it out meanwhile.", v));
     for (const CastorMethod method : {CastorMethod::cast, CastorMethod::ipec})
       for (int out = n > 2 ? 1 : 0; out <= (n > 2 ? n : 0); ++out) {
         CastOptions options;

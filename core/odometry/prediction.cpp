@@ -29,7 +29,7 @@ struct ReckonedTrack {
   const Recording& recording;
 
   Track operator()(const DifferentialDrive& drive) const {
-    return dead_reckoned(wheel_samples(recording, drive), drive, Pose{});
+    return dead_reckoned(wheel_samples(recording, drive), drive, Pose{}, HeadingRule::arc);
   }
   Track operator()(const Tracked& vehicle) const { return (*this)(as_differential_drive(vehicle)); }
   Track operator()(const SynchroDrive& drive) const {

@@ -4,6 +4,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/model/joint_model.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
@@ -13,27 +14,46 @@ namespace {
 // wheels' errors, which turn the rest of the way.
 void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, const Track& guess,
                double from_s, double to_s) {
-  double left_and_right_m = 0.0;
   const auto from =
       std::lower_bound(guess.begin(), guess.end(), from_s, [](const TimedPose& p, double t) { return p.time_s < t; });
   const auto to = std::lower_bound(from, guess.end(), to_s, [](const TimedPose& p, double t) { return p.time_s < t; });
   if (from == guess.end() || from == to) return;
+  const Vec2 end = std::min(to, guess.end() - 1)->pose.position();
+  double left_and_right_m = 0.0, swung_m3 = 0.0;  // swung: by how much a turn on the way moves the end, squared
   for (auto i = from; i + 1 < guess.end() && i < to; ++i) {
     const double way = length((i + 1)->pose.position() - i->pose.position());
     const double turned = 0.5 * wheelbase_m * std::abs((i + 1)->pose.heading_rad - i->pose.heading_rad);
-    left_and_right_m += 2.0 * std::max(way, turned);
+    const double of_both_m = 2.0 * std::max(way, turned);
+    const Vec2 to_go = end - i->pose.position();
+    left_and_right_m += of_both_m;
+    swung_m3 += of_both_m * dot(to_go, to_go);
   }
-  const Vec2 along = std::min(to, guess.end() - 1)->pose.position() - from->pose.position();
+  const Vec2 along = end - from->pose.position();
   const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m,
                p2 = noise.truth_position_m * noise.truth_position_m,
                h2 = noise.truth_heading_rad * noise.truth_heading_rad,
                body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
-  const double turn2 = (q2 + 2.0 * body2) * left_and_right_m / (wheelbase_m * wheelbase_m), d2 = dot(along, along);
-  sum.noise_position_m2 +=
-      4.0 * p2 + h2 * d2 + (0.25 * q2 + 0.5 * (body2 + side2)) * left_and_right_m + turn2 * d2 / 3.0;
-  sum.noise_heading_rad2 += 2.0 * h2 + turn2;
+  const double turn2_per_m = (q2 + 2.0 * body2) / (wheelbase_m * wheelbase_m);
+  sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (body2 + side2)) * left_and_right_m +
+                           turn2_per_m * swung_m3;
+  sum.noise_heading_rad2 += 2.0 * h2 + turn2_per_m * left_and_right_m;
 }
+
+// Where it stands at an end it stood there longer than it was read: a pose that is taken there belongs to it, however
+// the clock is put.
+void stand_longer(Track& track) {
+  constexpr double kLonger_s = 0.2;
+  const auto stands = [](const TimedPose& a, const TimedPose& b) {
+    return length(a.pose.position() - b.pose.position()) < 1e-4 &&
+           std::abs(a.pose.heading_rad - b.pose.heading_rad) < 1e-3;
+  };
+  if (track.size() < 3) return;
+  if (stands(track[0], track[1])) track.insert(track.begin(), {track[0].time_s - kLonger_s, track[0].pose});
+  const TimedPose last = track.back();
+  if (stands(track[track.size() - 2], last)) track.push_back({last.time_s + kLonger_s, last.pose});
+}
+
 }  // namespace
 
 JointModel::GatheredError JointModel::gathered_error() const {
@@ -55,9 +75,12 @@ JointModel::GatheredError JointModel::gathered_error() const {
         l += e.per_step[i].sideways_m;
         w += e.per_step[i].turn_rad;
       }
-      const double h = pose.heading_rad + 0.5 * w, c = std::cos(h), s = std::sin(h);
+      const double h = pose.heading_rad + 0.5 * w, chord = chord_share(w), c = chord * std::cos(h),
+                   s = chord * std::sin(h);
       pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
     }
+    constexpr std::size_t kFew = 5;
+    if (run.truth.size() < kFew) stand_longer(guess);
     bool cut = false;
     for (std::size_t i = 0; i < run.truth.size(); ++i) {
       cut = cut || is_cut(run, i);

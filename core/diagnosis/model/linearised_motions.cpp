@@ -36,10 +36,12 @@ void LinearisedRun::cut_into_pieces() {
         turn += share * e.value * e.per_step[i].turn_rad;
       }
       const Turn middle = turn_of(heading_rad + 0.5 * turn);
-      const double c = middle.c, s = middle.s;
+      const double chord = chord_share(turn), c = chord * middle.c, s = chord * middle.s;
       const double dx = forward * c - sideways * s, dy = forward * s + sideways * c;
       // In the frame of the truth interval's start, and so far where this piece ends.
-      pieces_.push_back({static_cast<int>(i), t, share, share * c, share * s, -0.5 * dy, 0.5 * dx});
+      const double slope = chord_share_slope(turn);
+      pieces_.push_back(
+          {static_cast<int>(i), t, share, share * c, share * s, slope * dx - 0.5 * dy, slope * dy + 0.5 * dx});
       for (std::size_t p = first; p + 1 < pieces_.size(); ++p) pieces_[p].turn_x -= dy, pieces_[p].turn_y += dx;
       heading_rad += turn;
       now_s = until_s;

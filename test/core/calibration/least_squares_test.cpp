@@ -158,15 +158,21 @@ TEST(LeastSquares, SaysThatAStraightCannotTellTheWheelbase) {
   EXPECT_NEAR(mean, 0.5 * 0.075 * (1.02 + 1.015), 4 * named(*result, "wheel_radius_left_m").stderr_value);
 }
 
-TEST(LeastSquares, SaysThatASpinCannotTellTheScale) {
+TEST(LeastSquares, TellsOfASpinTheRatioOfWheelbaseToRadiusAndNotTheScale) {
   Random random(3);
-  const auto result = calibrate_least_squares({generated(off_the_drawing(), spin, random)}, labmate());
+  const GeneratorSettings g = off_the_drawing();
+  const auto result = calibrate_least_squares({generated(g, spin, random)}, labmate());
   ASSERT_TRUE(result.ok());
-  for (const char* name :
-       {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m", "truth_mounting.heading_rad"}) {
+  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "truth_mounting.heading_rad"}) {
     EXPECT_FALSE(named(*result, name).determined) << name;
     EXPECT_EQ(named(*result, name).value, named(*result, name).nominal) << name;
   }
+  const ParameterEstimate& wheelbase = named(*result, "wheelbase_m");
+  EXPECT_TRUE(wheelbase.determined);
+  std::map<std::string, double> truth = true_values(g);
+  const double true_ratio =
+      truth["wheelbase_m"] / (0.5 * (truth["wheel_radius_left_m"] + truth["wheel_radius_right_m"]));
+  EXPECT_NEAR(wheelbase.value / 0.075, true_ratio, 4 * wheelbase.stderr_value / 0.075);
   EXPECT_TRUE(says(result->cannot_tell, "only their ratios show here, not the scale"));
   EXPECT_TRUE(says(result->cannot_tell, "drive a straight"));
 }
