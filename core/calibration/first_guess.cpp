@@ -45,16 +45,21 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
       if (std::abs(s.left_rad) + std::abs(s.right_rad) > 0.0) stretches.push_back(s);
     }
   }
-  // A single jump of a counter would outweigh all the rest.
-  std::vector<double> sizes;
-  for (const Stretch& s : stretches) sizes.push_back(std::abs(s.left_rad) + std::abs(s.right_rad));
-  if (sizes.empty()) return stretches;
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-  const double largest = 20.0 * sizes[sizes.size() / 2];
-  stretches.erase(
-      std::remove_if(stretches.begin(), stretches.end(),
-                     [&](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad) > largest; }),
-      stretches.end());
+  // A robot that crawls is lost in the truth's noise; a single jump of a counter would outweigh all the rest.
+  constexpr double kCrawls = 0.02, kJumps = 20.0;
+  const auto size = [](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad); };
+  const auto quantile = [&](double share) {
+    std::vector<double> sizes;
+    for (const Stretch& s : stretches) sizes.push_back(size(s));
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size() - 1));
+    std::nth_element(sizes.begin(), at, sizes.end());
+    return *at;
+  };
+  if (stretches.empty()) return stretches;
+  const double least = kCrawls * quantile(0.9);
+  std::erase_if(stretches, [&](const Stretch& s) { return size(s) < least; });
+  const double largest = kJumps * quantile(0.5);
+  std::erase_if(stretches, [&](const Stretch& s) { return size(s) > largest; });
   return stretches;
 }
 

@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 // taken for another.
 constexpr double kShortest_s = 0.5, kLongEnough_s = 2.0, kLongest_s = 5.0;
 constexpr double kLongEnough_m = 0.2, kLongEnough_rad = 0.6;
+constexpr double kMoves_m = 0.02, kMoves_rad = 0.06;  // what moves less is lost in the truth's noise
 constexpr std::size_t kFewest = 8;
 constexpr double kLeastDriven_m = 0.5, kLeastTurned_rad = 2.0;  // in all, by the wheels
 constexpr int kRounds = 4;
@@ -66,7 +67,8 @@ std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nom
         s.middle_rad = *from->heading_rad + 0.5 * s.turn_rad;
         s.moved = rotated(way, -s.middle_rad);
       }
-      if (s.duration_s <= kLongest_s && (left_m != 0.0 || right_m != 0.0)) stretches.push_back(s);
+      const bool moves = std::abs(s.rolled_m) > kMoves_m || std::abs(s.rolled_rad) > kMoves_rad;
+      if (s.duration_s <= kLongest_s && moves) stretches.push_back(s);
     }
     from = to;
     from_wheels = now;

@@ -72,6 +72,24 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen
   return f;
 }
 
+// Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
+Adequacy judged_adequacy(const JointModel& joint, const JointModel& calibrated, const Predictor& predictor,
+                         std::vector<ScoredCandidate> evidence, double of_mounting, double error) {
+  const std::optional<JointModel> all_named = predictor.fitted_to_all(joint);
+  Adequacy adequacy = adequacy_of(joint, calibrated, evidence, of_mounting, all_named ? 0.5 * error : error);
+  if (adequacy.unnamed || !all_named) return adequacy;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const AcceptedEffect& a = all_named->accepted[k];
+    const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+    evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
+  }
+  const Adequacy of_all =
+      adequacy_of(*all_named, *predictor.fitted_to_all(calibrated), evidence, of_mounting, 0.5 * error);
+  adequacy.unnamed = of_all.unnamed;
+  if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
+  return adequacy;
+}
+
 std::string of_refuted(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -213,18 +231,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   double of_toe = 0.0;
   for (const Finding& f : named)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  // Whether names suffice is asked of what was held out too.
-  const std::optional<JointModel> all_named = predictor.fitted_to_all(joint);
-  const std::optional<JointModel> all_calibrated = all_named ? predictor.fitted_to_all(calibrated) : std::nullopt;
-  std::vector<ScoredCandidate> evidence = selected.evidence;
-  for (std::size_t k = 0; all_named && k < joint.accepted.size(); ++k) {
-    const AcceptedEffect& a = all_named->accepted[k];
-    const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
-    evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
-  }
-  Adequacy adequacy = adequacy_of(all_named ? *all_named : joint, all_named ? *all_calibrated : calibrated, evidence,
-                                  of_toe, 0.25 * options.family_wise_error);
+  Adequacy adequacy =
+      judged_adequacy(joint, calibrated, predictor, selected.evidence, of_toe, 0.25 * options.family_wise_error);
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(joint, calibrated, d.calibration_alone.noise);
+  if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(joint);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");

@@ -153,6 +153,9 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     const auto rad = [&](std::size_t i) { return wheel == 0 ? wheels[i].left_rad : wheels[i].right_rad; };
     const double radius = wheel == 0 ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
     DataFault fault{"encoder_data_fault", wheel == 0 ? "left_wheel" : "right_wheel", recording.name, {}, ""};
+    double count_rad = 1e9;
+    for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
+      if (const double by = std::abs(rad(i + 1) - rad(i)); by > 0.0) count_rad = std::min(count_rad, by);
     for (std::size_t i = 0; i + 1 < wheels.size();) {
       std::size_t j = i + 1;
       while (j < wheels.size() && rad(j) == rad(i)) ++j;
@@ -176,15 +179,12 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
         const std::size_t i0 = at(wheels[i].time_s - 0.3);
         const double before =
             radius * std::abs(rad(i) - rad(i0)) / std::max(wheels[i].time_s - wheels[i0].time_s, 1e-3);
-        if (std::abs(way) > least && before > 0.4 * std::abs(way) / span)
+        if (std::abs(way) > least + 2.0 * count_rad * radius && before > 0.4 * std::abs(way) / span)
           fault.time_s.push_back({wheels[i].time_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
       }
       i = j > i ? j : i + 1;
     }
     // Readings that hold and then catch up at once: no wheel does that, whatever the truth says.
-    double count_rad = 1e9;
-    for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
-      if (const double by = std::abs(rad(i + 1) - rad(i)); by > 0.0) count_rad = std::min(count_rad, by);
     for (std::size_t i = 5; i + 1 < wheels.size();) {
       std::size_t j = i;
       while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
@@ -210,7 +210,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       const bool against = i > 0 && i + 2 < wheels.size() && by * (rad(i) - rad(i - 1)) < 0.0 &&
                            by * (rad(i + 2) - rad(i + 1)) < 0.0;  // back and on again
       const double gap = wheels[i + 1].time_s - wheels[i].time_s;
-      if (std::abs(by) * radius > 0.02 && rates[i] > (against ? 1.0 : 4.0) * usual && gap < 0.5)
+      if (std::abs(by) * radius > 0.02 && std::abs(by) > 1.5 * count_rad && rates[i] > (against ? 1.0 : 4.0) * usual && gap < 0.5)
         fault.time_s.push_back({wheels[i].time_s, wheels[i + 1].time_s});
     }
     if (fault.time_s.empty()) continue;

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <optional>
 
@@ -261,6 +262,19 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
   u.where.time_s = *most;
   u.where.regime = "what the truth says contradicts the wheels, time and again, at " + std::to_string(count(now)) +
                    " places in all recordings";
+  return u;
+}
+
+std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
+  constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
+  const double scatter = joint.model.noise.wheel_m_per_sqrt_m;
+  if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls",
+                1e3 * scatter);
+  Unnamed u;
+  u.where.regime = text;
   return u;
 }
 

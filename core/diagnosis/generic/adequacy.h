@@ -35,4 +35,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
 std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
                                         const FittedNoise& noise);
 
+// Where what the wheels say scatters more than any wheel rolls, as if that were noise.
+std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);
+
 }  // namespace odolab
