@@ -83,9 +83,11 @@ Adequacy judged_adequacy(const JointModel& joint, const JointModel& calibrated, 
     const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
     evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
   }
-  const Adequacy of_all =
-      adequacy_of(*all_named, *predictor.fitted_to_all(calibrated), evidence, of_mounting, 0.5 * error);
+  const JointModel all_calibrated = *predictor.fitted_to_all(calibrated);
+  const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, of_mounting, 0.5 * error);
   adequacy.unnamed = of_all.unnamed;
+  if (!adequacy.unnamed)
+    adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, static_cast<int>(joint.runs().size()));
   if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
   return adequacy;
 }

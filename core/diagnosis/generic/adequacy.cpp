@@ -265,6 +265,27 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
   return u;
 }
 
+std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run) {
+  constexpr int kFewestWindows = 5;            // of so many noise makes twice itself once in 60 000
+  constexpr double kTwice = 4.0, kHalf = 0.5;  // of squares
+  const JointModel::GatheredError error = named.gathered_error(first_run);
+  if (error.windows < kFewestWindows || is_nothing(error)) return std::nullopt;
+  if (error.position_m2 < kTwice * error.noise_position_m2 && error.heading_rad2 < kTwice * error.noise_heading_rad2)
+    return std::nullopt;
+  if (names_physics(named) && lowers(calibrated.gathered_error(first_run), error, kHalf)) return std::nullopt;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "what was held out is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f "
+      "mm and %.3f",
+      1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
+      1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
+  Unnamed u;
+  u.where.recording = named.runs()[static_cast<std::size_t>(first_run)].name;
+  u.where.regime = text;
+  return u;
+}
+
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
   const double scatter = joint.model.noise.wheel_m_per_sqrt_m;

@@ -35,6 +35,10 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
 std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
                                         const FittedNoise& noise);
 
+// Where recordings from that one on, which names were not looked for in, err by more than twice the noise although all
+// is fitted to them too, and names mend less than half of that.
+std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
+
 // Where what the wheels say scatters more than any wheel rolls, as if that were noise.
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);
 

@@ -56,11 +56,11 @@ void stand_longer(Track& track) {
 
 }  // namespace
 
-JointModel::GatheredError JointModel::gathered_error() const {
+JointModel::GatheredError JointModel::gathered_error(int first_run) const {
   std::vector<GatheredError> of(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
     const InnovationRun& run = now_->runs[r].run();
-    if (!run.truth_has_heading) return;
+    if (!run.truth_has_heading || r < first_run) return;
     Track guess, truth;
     std::vector<char> anew;
     Pose pose;

@@ -101,7 +101,7 @@ class JointModel {
     std::vector<Pose> of_window;  // in the order of the runs
     void add(const GatheredError& of_other_runs);
   };
-  GatheredError gathered_error() const;
+  GatheredError gathered_error(int first_run = 0) const;  // of the runs from that one on
   // How little the likelihood is to be believed, since innovations are correlated from one sample to the next or that
   // is known before: from 0, white, to 1.
   double distrust() const;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/base/random.h"
+
 namespace odolab {
 namespace {
 
@@ -71,6 +73,24 @@ TEST(FirstGuess, NamesWhatNoCalibrationMends) {
   says(one, "one wheel");
   says(degrees_run, "degrees");
   says(millimetres, "other units");
+}
+
+TEST(FirstGuess, ExplainsADriveThatCrawlsMostOfTheTime) {
+  InnovationRun run = winding_arcs(0.05, 0.2);
+  const WheelSample wheels = run.wheels.back();
+  const TruthSample truth = run.truth.back();
+  Random random(6);
+  for (int k = 1; k <= 4000; ++k) {  // 80 s at 0.7 mm/s under a millimetre of noise
+    const double t = 0.02 * k, way_m = 0.0007 * t;
+    run.wheels.push_back({wheels.time_s + t, wheels.left_rad + way_m / 0.05, wheels.right_rad + way_m / 0.05});
+    const Vec2 on = rotated({way_m, 0.0}, *truth.heading_rad);
+    run.truth.push_back({truth.time_s + t, truth.position + on + Vec2{0.001 * random.normal(), 0.001 * random.normal()},
+                         *truth.heading_rad + 0.002 * random.normal()});
+  }
+  EXPECT_EQ(contradiction_in({run}, drive(0.05, 0.2)), "");
+  const FirstGuess guess = first_guess({run}, drive(0.05, 0.2));
+  ASSERT_TRUE(guess.trusted);
+  EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
 }
 
 }  // namespace

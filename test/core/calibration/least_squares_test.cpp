@@ -6,6 +6,7 @@
 #include <map>
 
 #include "test/support/drive_generator.h"
+#include "test/support/missing_physics.h"
 
 namespace odolab {
 namespace {
@@ -371,6 +372,55 @@ TEST(LeastSquares, RefusesWhatItCannotUse) {
             std::string::npos);
   Recording good = generated(g, test::rich_driving, random);
   EXPECT_EQ(calibrate_least_squares({good}, labmate(), {}, [](double) { return false; }).error().where, "calibration");
+}
+
+// Squares both ways of which only the poses at both ends are known, measured with a ruler.
+TEST(LeastSquares, KeepsTheRatiosThatPosesAtBothEndsShow) {
+  GeneratorSettings g;
+  g.drive.wheel_radius_left_m = 0.075 * 0.99;
+  g.drive.wheel_radius_right_m = 0.075 * 0.994;
+  g.drive.wheelbase_m = 0.340 * 0.97;
+  g.truth_period_s = 0.0;
+  g.wheel_noise = 0.0003;
+  g.truth_position_noise_m = 0.002;
+  g.truth_heading_noise_rad = 0.005;
+  Random random(9);
+  std::vector<Recording> recordings;
+  for (int run = 0; run < 8; ++run) {
+    const test::SpeedProfile square = test::square_driving(DifferentialDrive{}, 3.0, run % 2 == 0, &g.duration_s);
+    recordings.push_back(generated(g, square, random));
+  }
+  const auto result = calibrate_least_squares(recordings, labmate());
+  ASSERT_TRUE(result.ok());
+  const ParameterEstimate &left = named(*result, "wheel_radius_left_m"),
+                          &right = named(*result, "wheel_radius_right_m"), &base = named(*result, "wheelbase_m");
+  EXPECT_TRUE(left.determined && right.determined && base.determined);
+  EXPECT_NEAR(0.5 * (left.value + right.value), 0.075, 1e-6);                               // as it was given
+  EXPECT_NEAR(right.value / left.value, 0.994 / 0.99, 8 * left.stderr_value / left.value);  // both move apart: 4 sigma
+  EXPECT_NEAR(base.value / 0.075, g.drive.wheelbase_m / (0.075 * 0.992), 4 * base.stderr_value / 0.075);
+  EXPECT_TRUE(says(result->cannot_tell, "only their ratios show here, not the scale"));
+}
+
+TEST(LeastSquares, IsNotBiasedByWheelsThatAreReadTenTimesASecond) {
+  GeneratorSettings g = off_the_drawing();
+  g.truth.time_offset_s = 0.002;
+  g.wheel_noise = 0.0003;
+  g.wheel_period_s = g.truth_period_s = 0.1;
+  g.truth_phase_s = 0.0;
+  g.truth_position_noise_m = 0.0007;
+  g.truth_heading_noise_rad = 0.0015;
+  g.duration_s = 60.0;
+  Random random(21);
+  std::vector<Recording> recordings;
+  for (int run = 0; run < 4; ++run) {
+    Random drive(100 + static_cast<std::uint64_t>(run));
+    recordings.push_back(generated(g, test::varied_driving(drive, g.duration_s), random));
+  }
+  const auto result = calibrate_least_squares(recordings, labmate());
+  ASSERT_TRUE(result.ok());
+  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m"})
+    EXPECT_NEAR(named(*result, name).value, true_values(g)[name], 4 * named(*result, name).stderr_value) << name;
+  EXPECT_LT(named(*result, "wheelbase_m").stderr_value, 2e-4);  // a thousandth, as much as chords would err by
 }
 
 }  // namespace

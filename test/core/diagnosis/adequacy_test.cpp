@@ -103,6 +103,17 @@ TEST(Adequacy, CallsItUnknownWhereTheTruthContradictsTheWheelsTimeAndAgain) {
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
 }
 
+TEST(Adequacy, CallsUnknownWhatOnlyRunsShowThatWereNotFitted) {
+  const test::Case odd = case_of("memory", 8.0, 4, 7), sound = case_of("", 1.0, 4, 7);
+  const std::vector<Recording> fitted(sound.recordings.begin(), sound.recordings.begin() + 3);
+  const Result<Diagnosis> nothing = diagnose(fitted, {sound.recordings[3]}, sound.nominal);
+  ASSERT_TRUE(nothing);
+  EXPECT_EQ(nothing->verdict, Verdict::nothing_missing);
+  const Result<Diagnosis> d = diagnose(fitted, {odd.recordings[3]}, sound.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+}
+
 TEST(Refuted, NameIsWithdrawnAndSaidWhereARunThatWasNotFittedContradictsIt) {
   test::Case slippery = case_of("slip_zone", 3.0, 4, 7), sound = case_of("", 1.0, 4, 7);
   const std::vector<Recording> fitted(slippery.recordings.begin(), slippery.recordings.begin() + 3);

@@ -54,5 +54,25 @@ TEST(Checked, LeavesItOutAtRestTooWhereItDoesSoOnTheWay) {
   EXPECT_NEAR(c.faults[0].time_s[1].second, 14.6, 0.06);
 }
 
+TEST(Checked, TakesAnEncoderOfTwelveCountsForSoundWhereOneOfThemLasts) {
+  Recording r;
+  test::GeneratorSettings g;
+  g.drive.encoder_counts_per_revolution = 12.0;
+  g.drive.gear_ratio = 1.0;
+  g.duration_s = 40.0;
+  g.truth_position_noise_m = 0.001;
+  g.truth_heading_noise_rad = 0.002;
+  Random random(4);
+  r = generated(
+      g,
+      [](double t) {
+        return test::WheelSpeedsAt{3.0 + 2.8 * std::sin(0.5 * t), 3.0 - 2.8 * std::sin(0.5 * t)};
+      },
+      random);
+  Vehicle vehicle;
+  vehicle.kind = g.drive;
+  EXPECT_TRUE(checked(r, vehicle).faults.empty());
+}
+
 }  // namespace
 }  // namespace odolab

@@ -74,6 +74,20 @@ TEST(Waves, OfTheFloorAreFoundWithTheirLengthAndDirection) {
   EXPECT_NEAR(degrees, 0.0, 15.0);
 }
 
+TEST(Waves, OfTheFloorAreFoundInALargeHallToo) {
+  test::Case c = short_case("waves");
+  for (Channel& channel : c.recordings[1].channels)
+    if (channel.name == "truth_x_m" || channel.name == "truth_y_m")
+      for (double& v : channel.values) v += 13.5;  // nine waves further on
+  const std::vector<GenericTest> tests = wave_tests(calibrated(c), 0);
+  double length_m = 0.0, degrees = 90.0;
+  ASSERT_EQ(std::sscanf(strongest(tests).variable.c_str(), "place, in waves of %lf m towards %lf", &length_m, &degrees),
+            2)
+      << strongest(tests).variable;
+  EXPECT_NEAR(length_m, 1.5, 0.15);  // neighbours are 0.4 turns in 16 m apart, and a tenth is said
+  EXPECT_NEAR(degrees, 0.0, 5.0);
+}
+
 TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   const JointModel joint = calibrated(short_case("gusts"));
   const std::vector<GenericTest> tests = wave_tests(joint, 0);

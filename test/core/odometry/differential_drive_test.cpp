@@ -48,5 +48,17 @@ TEST(DeadReckoning, HoldsEachCommandUntilTheNext) {
   EXPECT_NEAR(t[2].pose.x_m, 2.0, 1e-15);
 }
 
+TEST(DeadReckoning, OfAnArcIsExactInOneStep) {
+  DifferentialDrive drive;
+  // A quarter of a circle of radius R about the left: the wheels go (R -+ b/2) pi/2.
+  const double radius_m = 0.8, quarter = 0.5 * kPi;
+  const double left = (radius_m - 0.5 * drive.wheelbase_m) * quarter / drive.wheel_radius_left_m,
+               right = (radius_m + 0.5 * drive.wheelbase_m) * quarter / drive.wheel_radius_right_m;
+  const Pose end = dead_reckoned(Pose{}, left, right, drive, HeadingRule::arc);
+  EXPECT_NEAR(end.x_m, radius_m, 1e-12);
+  EXPECT_NEAR(end.y_m, radius_m, 1e-12);
+  EXPECT_NEAR(end.heading_rad, quarter, 1e-12);
+}
+
 }  // namespace
 }  // namespace odolab
