@@ -402,15 +402,47 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
   return noise;
 }
 
+namespace {
+
+InnovationSums passed(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                      const FilterOptions& options) {
+  if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
+  if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
+  return PoseFilter<kAnyColumns>(run, summed, model, options).run();
+}
+
+// By the gate. What comes behind an outlier at the very start contradicts it: then the filter starts at the first
+// sample with which nearly all that follow agree.
+InnovationSums gated(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                     const FilterOptions& options) {
+  constexpr int kFollow = 5, kDisagree = 4, kMostSkipped = 3;
+  const auto refused_behind = [&](const InnovationSums& sums, int first) {
+    const auto from = sums.set_aside.begin() + first + 1;
+    return std::count_if(from, std::min(from + kFollow, sums.set_aside.end()), [](char aside) { return aside != 0; });
+  };
+  InnovationSums as_given = passed(run, summed, model, options);
+  const int samples = static_cast<int>(run.truth.size());
+  for (int skipped = 1; skipped <= kMostSkipped && options.first + skipped + kFollow < samples; ++skipped) {
+    if (refused_behind(as_given, options.first) < kDisagree) break;
+    FilterOptions later = options;
+    later.first += skipped;
+    InnovationSums sums = passed(run, summed, model, later);
+    if (refused_behind(sums, later.first) > kFollow - kDisagree) continue;
+    std::fill(sums.set_aside.begin() + options.first, sums.set_aside.begin() + later.first, char{1});
+    return sums;
+  }
+  return as_given;
+}
+
+}  // namespace
+
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& given) {
   // Nothing says which of a few samples errs, as of the poses at both ends of a run.
   constexpr std::size_t kFewestToGate = 5;
   FilterOptions options = given;
   if (options.gate > 0.0 && run.truth.size() < kFewestToGate) options.gate = std::numeric_limits<double>::infinity();
-  if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
-  if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
-  return PoseFilter<kAnyColumns>(run, summed, model, options).run();
+  return options.gate > 0.0 ? gated(run, summed, model, options) : passed(run, summed, model, options);
 }
 
 std::vector<std::pair<int, int>> contradictions(const InnovationRun& run, const SummedRun& summed,

@@ -18,22 +18,28 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double least[3] = {0.004, 0.004, 0.003};
+  const double base_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
+  const double least_m = std::min(0.004, 0.02 * base_m);
+  const double least[3] = {least_m, least_m, 0.003};
   Finding mounting;
   double gain = 0.0;
-  bool material = false;
+  bool material = false, moved = false;
   for (int k = 0; k < 3; ++k) {
     const ParameterEstimate* p = determined(keys[k]);
     if (!p) continue;
     const double se = intervals.stderr_of_nuisance(3 + k);
     const double z = by[k] / std::max(p->stderr_value, se);
     mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
-    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) material = true, gain += 0.5 * z * z;
+    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) {
+      material = true, gain += 0.5 * z * z;
+      moved = moved || k < 2;
+    }
   }
-  // A heading of the mounting alone is what wheels that are not square to the axle do too.
+  // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
+  // besides is the simpler cause of both.
   const double turned = now.heading_rad - then.heading_rad;
   const double shifted = std::hypot(by[0], by[1]);
-  if (material && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
+  if (material && !moved && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
       !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
     const FoundParameter heading = mounting.parameters.back();
     Finding toe;

@@ -115,7 +115,7 @@ std::string fit_line(const char* name, const FitTable& table) {
     if (f) line += (line.empty() ? "" : "  ->  ") + std::string(what) + " " + figures_text(*f);
   };
   if (table.with_findings && !table.with_findings->gathered())
-    return std::string(name) + "not to be had: it takes the truth's headings";
+    return std::string(name) + "not to be had: it takes a metre of truth with headings";
   add("nominal", table.nominal);
   add("calibrated", table.calibrated);
   add("with findings", table.with_findings);
@@ -275,9 +275,14 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
        {fit_line("   fitted on: ", diagnosis.train),
         fit_line(diagnosis.left_out_in_turn ? "   left out:  " : "   held out:  ", diagnosis.held_out)})
     if (!line.empty()) end.push_back(line);
-  if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings)
-    end.push_back("   simulator:  before " + figures_text(*diagnosis.simulation.calibrated) + "  ->  after " +
-                  figures_text(*diagnosis.simulation.with_findings));
+  if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings) {
+    const FitFigures &before = *diagnosis.simulation.calibrated, &after = *diagnosis.simulation.with_findings;
+    constexpr double kWorse = 1.1;
+    const bool worse = after.position_rms_m > kWorse * before.position_rms_m &&
+                       after.heading_rms_rad > kWorse * before.heading_rms_rad;
+    end.push_back("   simulator:  before " + figures_text(before) + "  ->  after " + figures_text(after) +
+                  (worse ? ": it does not confirm this" : ""));
+  }
   if (!diagnosis.not_testable.empty()) {
     std::vector<std::string> names;
     for (const NotTestable& n : diagnosis.not_testable) names.push_back(effect_words(n.effect));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/calibration/left_out.h"
@@ -221,6 +222,31 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
   ASSERT_TRUE(run.ok());
   EXPECT_EQ(run->truth.size(), 2u);
   EXPECT_FALSE(run->truth_has_heading);
+}
+
+TEST(Innovations, GateSetsAnOutlierAsideWithWhichARunBegins) {
+  InnovationRun run = a_run(0.05);
+  const InnovationModel m = model_off_nominal();
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  const std::vector<char> sound = filtered(run, summed_up(run, m), m, options).set_aside;
+  EXPECT_EQ(std::count(sound.begin(), sound.begin() + 10, 1), 0);
+  run.truth[0].position.x_m += 0.2;
+  const std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
+  EXPECT_EQ(aside[0], 1);
+  EXPECT_EQ(std::count(aside.begin() + 1, aside.begin() + 10, 1), 0);
+}
+
+TEST(Innovations, GateLeavesPosesAtBothEndsOfARunAlone) {
+  InnovationRun run = a_run(0.0);
+  const InnovationModel m = model_off_nominal();
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  ASSERT_LT(run.truth.size(), 5u);
+  run.truth.back().position.x_m += 1.0;
+  EXPECT_EQ(filtered(run, summed_up(run, m), m, options).set_aside.back(), 0);
 }
 
 }  // namespace
