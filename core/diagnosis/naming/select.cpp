@@ -92,7 +92,17 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
     joint.accepted.erase(coarser);
   }
   joint.accepted.push_back(a);
-  return joint.fit(3);
+  double gained = joint.fit(3);
+  // A shape that is the amplitude itself follows it by halves, and a lag goes a long way against the clock's offset.
+  constexpr int kMostRounds = 8;
+  constexpr double kSettled = 0.02;
+  const auto settled = [&] {
+    const AcceptedEffect& now = joint.accepted.back();
+    return !now.effect->shape_follows_amplitude ||
+           std::abs(now.shape[0] - now.value[0]) < kSettled * std::max(now.shape[0], 1e-3);
+  };
+  for (int round = 0; round < kMostRounds && !settled(); ++round) gained += joint.fit(3);
+  return gained;
 }
 
 void fit_noise_too(JointModel& joint) {
