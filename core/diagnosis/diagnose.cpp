@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "core/base/chi_square.h"
 #include "core/calibration/correlated_truth.h"
@@ -9,6 +10,7 @@
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/adequacy.h"
+#include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/model/ready_run.h"
@@ -70,6 +72,63 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen
   for (const ScoredCandidate& c : alternatives)
     f.alternatives.push_back({c.effect->name, c.effect->component, 0.5 * c.test.statistic, c.effect->told_apart_by});
   return f;
+}
+
+// Names that did not suffice are said as what it resembles, not as what it is.
+Finding unknown_of(const Unnamed& more, double explained, const JointModel& joint,
+                   const std::vector<ScoredCandidate>& evidence) {
+  Finding unknown;
+  unknown.effect = "unknown";
+  unknown.component = "vehicle";
+  unknown.where = more.where;
+  unknown.log_likelihood_gain = 0.5 * (explained + more.gain);
+  unknown.p_value = more.p_value;
+  unknown.share_of_mismatch = more.share;
+  unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+    unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
+                                    0.5 * evidence[k].test.statistic, joint.accepted[k].effect->told_apart_by});
+  return unknown;
+}
+
+// Names that are not told apart, for the drive that would. Beaten in the form that fits best, a name would come back in
+// another.
+std::vector<Confusion> confusions(const JointModel& joint, const Selected& selected) {
+  std::vector<Confusion> confused;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+    for (const ScoredCandidate& c : selected.alternatives[k]) {
+      const std::size_t forms = std::max<std::size_t>(1, c.effect->forms.size());
+      for (std::size_t form = 0; form < forms; ++form) {
+        std::vector<double> shape = c.test.shape;
+        if (forms > 1) shape.back() = static_cast<double>(form);
+        confused.push_back({static_cast<int>(k), c.effect, shape, c.test.value, selected.evidence[k].test.inflation});
+      }
+    }
+  return confused;
+}
+
+// How many names the catalogue has for a vehicle that has encoders.
+int entries_for_encoders() {
+  std::set<std::string> names;
+  for (const Effect& e : catalogue())
+    if (!e.only_commands) names.insert(e.name);
+  return static_cast<int>(names.size());
+}
+
+const char* headline(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::found:
+      return "Something is missing from the model, and it has a name:";
+    case Verdict::nothing_missing:
+      return "Nothing is missing: calibration leaves nothing but noise.";
+    case Verdict::unknown_effect:
+      return "Something is missing that no entry of the catalogue describes.";
+    case Verdict::ambiguous:
+      return "Something is missing; these recordings do not decide between the names given.";
+    case Verdict::cannot_say:
+      break;
+  }
+  return "These recordings are too poor to judge whether anything is missing.";
 }
 
 // Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
@@ -250,25 +309,13 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (adequacy.as_likely && !named.empty())
     named.front().alternatives.push_back(
         {"unknown", "vehicle", 0.5 * std::max(0.0, adequacy.as_likely->gain + explained),
-         "a recording in which what it depends on, here " + adequacy.as_likely->where.regime + ", goes otherwise"});
+         "the same ways driven in another order (it may be " + adequacy.as_likely->where.regime + ")"});
   bool ambiguous = false;
   for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
 
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
-    Finding unknown;
-    unknown.effect = "unknown";
-    unknown.component = "vehicle";
-    unknown.where = more->where;
-    unknown.log_likelihood_gain = 0.5 * (explained + more->gain);
-    unknown.p_value = more->p_value;
-    unknown.share_of_mismatch = more->share;
-    unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
-    // Names that did not suffice are said as what it resembles, not as what it is.
-    for (std::size_t k = 0; k < joint.accepted.size(); ++k)
-      unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
-                                      0.5 * selected.evidence[k].test.statistic,
-                                      joint.accepted[k].effect->told_apart_by});
+    const Finding unknown = unknown_of(*more, explained, joint, selected.evidence);
     named.erase(std::remove_if(
                     named.begin(), named.end(),
                     [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
@@ -295,28 +342,13 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     }
   for (const MovedMounting& m : put_right.moved) d.findings.push_back(finding_of(m));
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
-  std::vector<Confusion> confused;
-  for (std::size_t k = 0; k < joint.accepted.size() && d.verdict == Verdict::ambiguous; ++k)
-    for (const ScoredCandidate& c : selected.alternatives[k]) {
-      // Beaten in the form that fits best, it would come back in another.
-      const std::size_t forms = std::max<std::size_t>(1, c.effect->forms.size());
-      for (std::size_t form = 0; form < forms; ++form) {
-        std::vector<double> shape = c.test.shape;
-        if (forms > 1) shape.back() = static_cast<double>(form);
-        confused.push_back({static_cast<int>(k), c.effect, shape, c.test.value, selected.evidence[k].test.inflation});
-      }
-    }
+  const std::vector<Confusion> confused =
+      d.verdict == Verdict::ambiguous ? confusions(joint, selected) : std::vector<Confusion>{};
   const Advice next = advice(joint, confused, options.family_wise_error);
   d.not_testable = next.not_testable;
-  int testable = 0, entries = 0;
-  {
-    std::vector<std::string> seen;
-    for (const Effect& e : catalogue())
-      if (!e.only_commands && std::find(seen.begin(), seen.end(), e.name) == seen.end()) seen.push_back(e.name);
-    entries = static_cast<int>(seen.size());
-    testable = entries - static_cast<int>(d.not_testable.size());
-  }
-  if (d.verdict == Verdict::nothing_missing && 3 * testable < entries) d.verdict = Verdict::cannot_say;
+  const auto entries = static_cast<std::size_t>(entries_for_encoders());
+  if (d.verdict == Verdict::nothing_missing && 3 * (entries - d.not_testable.size()) < entries)
+    d.verdict = Verdict::cannot_say;
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
@@ -342,23 +374,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     d.next_legs = next.next_legs;
   }
 
-  switch (d.verdict) {
-    case Verdict::found:
-      d.sentences.push_back("Something is missing from the model, and it has a name:");
-      break;
-    case Verdict::nothing_missing:
-      d.sentences.push_back("Nothing is missing: calibration leaves nothing but noise.");
-      break;
-    case Verdict::unknown_effect:
-      d.sentences.push_back("Something is missing that no entry of the catalogue describes.");
-      break;
-    case Verdict::ambiguous:
-      d.sentences.push_back("Something is missing; these recordings do not decide between the names given.");
-      break;
-    case Verdict::cannot_say:
-      d.sentences.push_back("These recordings are too poor to judge whether anything is missing.");
-      break;
-  }
+  d.sentences.push_back(headline(d.verdict));
   for (const Finding& f : d.findings) {
     d.sentences.push_back(in_words(f));
     for (const Alternative& a : f.alternatives)

@@ -4,20 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/generic/unnamed.h"
 #include "core/diagnosis/naming/select.h"
 
 namespace odolab {
-
-// What no name describes.
-struct Unnamed {
-  WhereFound where;
-  double gain = 0.0;   // twice the log-likelihood that it explains beyond the names and beyond chance
-  double share = 1.0;  // of all that calibration leaves
-  double p_value = 0.0;
-  std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
-};
 
 struct Adequacy {
   std::vector<GenericTest> generic;  // of what the names leave, best first
@@ -30,16 +21,5 @@ struct Adequacy {
 // turned mounting or a toe explains, which slips in turns besides.
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double of_mounting, double error);
-
-// Where the truth contradicts the wheels time and again, names or no names. `noise`: that of samples which do not.
-std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
-                                        const FittedNoise& noise);
-
-// Where recordings from that one on, which names were not looked for in, err by more than twice the noise although all
-// is fitted to them too, and names mend less than half of that.
-std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
-
-// Where what the wheels say scatters more than any wheel rolls, as if that were noise.
-std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);
 
 }  // namespace odolab

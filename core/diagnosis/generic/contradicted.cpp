@@ -1,0 +1,98 @@
+#include "core/diagnosis/generic/contradicted.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "core/diagnosis/naming/material.h"
+
+namespace odolab {
+
+namespace {
+
+// Where the truth contradicts the wheels for so long that it is no outlier, with the noise of what does not: of each
+// recording the stretches of time.
+using Contradicted = std::vector<std::vector<std::pair<double, double>>>;
+
+Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
+  Contradicted of_run;
+  for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r) {
+    InnovationModel model = joint.model_of(r);
+    model.noise = noise;
+    const InnovationRun run = joint.prepared(r);
+    of_run.emplace_back();
+    for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
+      of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
+  }
+  return of_run;
+}
+
+int count(const Contradicted& of_run) {
+  int places = 0;
+  for (const auto& stretches : of_run) places += static_cast<int>(stretches.size());
+  return places;
+}
+
+}  // namespace
+
+// Once may be a truth that found itself elsewhere. What names mend three quarters of is theirs; and what acts all the
+// time, and lowers the squared error of dead reckoning by a tenth, is there whatever happened besides.
+std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
+                                        const FittedNoise& noise) {
+  constexpr int kFewest = 2;
+  constexpr double kLower = 0.9;
+  const Contradicted now = contradicted(joint, noise);
+  if (count(now) < kFewest) return std::nullopt;
+  const bool acts_all_the_time = std::any_of(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) {
+    return !a.effect->local && a.acts_on_motion();
+  });
+  if (!joint.accepted.empty() && 4 * count(now) < count(contradicted(calibrated, noise))) return std::nullopt;
+  if (acts_all_the_time && lowers(calibrated.gathered_error(), joint.gathered_error(), kLower)) return std::nullopt;
+  Unnamed u;
+  const auto most =
+      std::max_element(now.begin(), now.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  u.where.recording = joint.runs()[static_cast<std::size_t>(most - now.begin())].name;
+  u.where.time_s = *most;
+  u.where.regime = "what the truth says contradicts the wheels, time and again, at " + std::to_string(count(now)) +
+                   " places in all recordings";
+  return u;
+}
+
+std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run) {
+  constexpr int kFewestWindows = 5;            // of so many noise makes twice itself once in 60 000
+  constexpr double kTwice = 4.0, kHalf = 0.5;  // of squares
+  const JointModel::GatheredError error = named.gathered_error(first_run);
+  if (error.windows < kFewestWindows || is_nothing(error)) return std::nullopt;
+  if (error.position_m2 < kTwice * error.noise_position_m2 && error.heading_rad2 < kTwice * error.noise_heading_rad2)
+    return std::nullopt;
+  const bool names_physics =
+      std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+  if (names_physics && lowers(calibrated.gathered_error(first_run), error, kHalf)) return std::nullopt;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "what was held out is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f "
+      "mm and %.3f",
+      1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
+      1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
+  Unnamed u;
+  u.where.recording = named.runs()[static_cast<std::size_t>(first_run)].name;
+  u.where.regime = text;
+  return u;
+}
+
+std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
+  constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
+  const double scatter = joint.model.noise.wheel_m_per_sqrt_m;
+  if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls",
+                1e3 * scatter);
+  Unnamed u;
+  u.where.regime = text;
+  return u;
+}
+
+}  // namespace odolab

@@ -1,0 +1,22 @@
+// What contradicts the names, or that there are none, without a group of terms that would describe it.
+#pragma once
+
+#include <optional>
+
+#include "core/diagnosis/generic/unnamed.h"
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+// Where the truth contradicts the wheels time and again, names or no names. `noise`: that of samples which do not.
+std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointModel& calibrated,
+                                        const FittedNoise& noise);
+
+// Where recordings from that one on, which names were not looked for in, err by more than twice the noise although all
+// is fitted to them too, and names mend less than half of that.
+std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
+
+// Where what the wheels say scatters more than any wheel rolls, as if that were noise.
+std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);
+
+}  // namespace odolab
