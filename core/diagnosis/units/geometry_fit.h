@@ -13,6 +13,7 @@ struct JointEstimate {
   JointParameter parameter;
   double nominal = 0.0, value = 0.0, stderr_value = 0.0;
   bool determined = false;  // else the value is the nominal one
+  double feigned = 0.0;     // how far from the file what these recordings cannot tell may put it
 };
 
 // One recording's samples, and the outside truth or what stands in its place; with headings, on the truth's clock.

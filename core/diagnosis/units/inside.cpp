@@ -100,6 +100,13 @@ std::vector<LinkedSample> as_linked(const std::vector<UnitSample>& samples, cons
   return linked;
 }
 
+// What wheels that are all larger or smaller than in the file by one share make of the link's length at most: from the
+// inside lengths are shares of the wheels'.
+double length_by_scale_m(const Vehicle& nominal) {
+  constexpr double kScale = 0.03;  // as core/calibration/linked.cpp expects of a truck's wheels
+  return kScale / (1.0 - kScale) * length_of_joint_m(nominal);
+}
+
 // The trucks' estimates in the words of the vehicle.
 JointEstimate joint_from(const JointParameter& p, const InternalCalibration& calibration, const Vehicle& nominal) {
   const bool of_trailer = std::holds_alternative<SmartEncoderTrailer>(nominal.kind);
@@ -115,6 +122,7 @@ JointEstimate joint_from(const JointParameter& p, const InternalCalibration& cal
     estimate.stderr_value = e.stderr_value;
     estimate.determined = e.determined;
     if (e.determined) estimate.value += (p.name == "drawbar_length_m" ? -1.0 : 1.0) * (e.value - e.nominal);
+    if (e.name == "link_length_offset_m") estimate.feigned = length_by_scale_m(nominal);
   }
   return estimate;
 }

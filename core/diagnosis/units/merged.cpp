@@ -107,7 +107,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
       d.truth_clock_s.emplace_back(recordings[r].name, nominal.truth.time_offset_s + geometry.clock_s[r]);
   if (!from_outside)
     d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
-  add_biases(geometry, units, d.findings);
+  for (std::string& sentence : add_biases(geometry, units, d.findings)) d.warnings.push_back(std::move(sentence));
   if (leave_out_small_rest(d.findings))
     d.warnings.push_back("beside the names given something small is left that no name describes");
   std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {

@@ -1,5 +1,6 @@
 #include "core/diagnosis/units/merged_calibration.h"
 
+#include <cmath>
 #include <utility>
 
 #include "core/vehicle/key_words.h"
@@ -76,7 +77,8 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
   for (const JointEstimate& e : geometry.joints) {
     const bool of_truth = e.parameter.component == "truth";
     if (of_truth && truth_is_carried) continue;
-    sum.parameters.push_back({e.parameter.name, e.parameter.unit, e.nominal, e.value, e.stderr_value, e.determined});
+    sum.parameters.push_back(
+        {e.parameter.name, e.parameter.unit, e.nominal, e.value, std::hypot(e.stderr_value, e.feigned), e.determined});
   }
   if (!truth_is_carried)
     for (double clock_s : geometry.clock_s) sum.time_offset_s.push_back(nominal.truth.time_offset_s + clock_s);

@@ -1,6 +1,7 @@
 // What the units found, as findings of the vehicle: README.md in this folder, 4.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -20,8 +21,10 @@ void put_events_into_their_zones(std::vector<Finding>& all);
 // Whether something was taken out.
 bool leave_out_small_rest(std::vector<Finding>& all);
 
-// Biased encoders by the geometry's fit.
-void add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units, std::vector<Finding>& all);
+// Biased encoders by the geometry's fit. What something else may feign is no finding, but said in the sentences
+// returned.
+std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units,
+                                    std::vector<Finding>& all);
 
 // Mounting and clock of the truth where no unit carries it.
 void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);

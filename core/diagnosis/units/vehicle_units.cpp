@@ -199,6 +199,13 @@ JointRounding rounding_of_joints(const Vehicle& vehicle, std::size_t unit) {
   return {};
 }
 
+double length_of_joint_m(const Vehicle& vehicle) {
+  if (const LinkedTrucks* trucks = linked(vehicle)) return trucks->link_length_m;
+  if (const auto* train = std::get_if<EncoderTrailer>(&vehicle.kind)) return train->drawbar_length_m;
+  if (const auto* train = std::get_if<SmartEncoderTrailer>(&vehicle.kind)) return train->drawbar_length_m;
+  return 0.0;
+}
+
 std::vector<JointParameter> joint_parameters(const Vehicle& vehicle) {
   std::vector<JointParameter> list;
   const auto truth = [&](bool heading_too) {
@@ -216,7 +223,7 @@ std::vector<JointParameter> joint_parameters(const Vehicle& vehicle) {
         "link_angle_b_offset_rad", [](Vehicle& v) -> double& { return linked(v).link_angle_b_offset_rad; }, "truck_b"));
     list.push_back({"link_length_offset_m", "m", kLengthPrior_m,
                     [](Vehicle& v) -> double& { return linked(v).link_length_offset_m; }, "link_length_bias", "link",
-                    kLeastLength_m, "bias_m"});
+                    kLeastAngle_rad* linked(vehicle)->link_length_m, "bias_m"});
   } else if (std::holds_alternative<EncoderTrailer>(vehicle.kind)) {
     // A hitch further back is the same as a tracked point further forward, and a turned mounting as a biased hitch.
     truth(false);

@@ -54,6 +54,9 @@ struct JointRounding {
 };
 JointRounding rounding_of_joints(const Vehicle& vehicle, std::size_t unit);
 
+// How far a link or drawbar holds two units apart; 0 where there is none.
+double length_of_joint_m(const Vehicle& vehicle);
+
 // A number of the vehicle's geometry that its units find out together.
 struct JointParameter {
   std::string name, unit;               // the vehicle file's key

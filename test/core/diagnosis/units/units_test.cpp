@@ -159,6 +159,57 @@ TEST(DiagnoseUnits, TellABiasedLinkEncoderFromTheTrucks) {
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.012, 4.0 * d.findings[0].parameters[0].stderr_value);
 }
 
+// All lengths as shares of the wheels': a link 2.5 % longer, in its file, than wheels 2.5 % too small in theirs.
+TEST(DiagnoseUnits, TakeWheelsThatAreAllTooSmallFromTheInsideForNoBiasOfTheLink) {
+  Clapper file;
+  file.link_angle_resolution_rad = 0.0005;
+  file.link_length_resolution_m = 0.0001;
+  const Clapper actual = file;
+  for (DifferentialDrive* truck : {&file.truck_a, &file.truck_b}) {
+    truck->wheel_radius_left_m *= 0.975;
+    truck->wheel_radius_right_m *= 0.975;
+  }
+  std::vector<Recording> runs = clapper_runs(actual, {}, 211);
+  for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
+  const Diagnosis d = diagnosed(runs, file);
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
+    return w.find("a straight measured with a tape") != std::string::npos;
+  }));
+}
+
+TEST(DiagnoseUnits, NameABiasOfTheLinkFromTheInsideOnlyBesideTheScaleOfTheWheels) {
+  Clapper actual;
+  actual.link_angle_resolution_rad = 0.0005;
+  actual.link_length_resolution_m = 0.0001;
+  const Clapper file = actual;
+  actual.link_length_offset_m = 0.06 * actual.link_length_m;  // twice what wheels of 3 % would make of it
+  std::vector<Recording> runs = clapper_runs(actual, {}, 221);
+  for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
+  const Diagnosis d = diagnosed(runs, file);
+  const auto bias = std::find_if(d.findings.begin(), d.findings.end(),
+                                 [](const Finding& f) { return f.effect == "link_length_bias"; });
+  ASSERT_NE(bias, d.findings.end()) << said(d);
+  EXPECT_NEAR(bias->parameters[0].value, actual.link_length_offset_m, 6.0 * bias->parameters[0].stderr_value);
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  ASSERT_EQ(bias->alternatives.size(), 1u);
+  EXPECT_EQ(bias->alternatives[0].effect, "wheel_scale");
+}
+
+TEST(DiagnoseUnits, FindALinkThatIsFourMillimetresLongerThanItReadsWithAnOutsideTruth) {
+  Clapper actual = crooked_clapper();
+  actual.link_angle_resolution_rad = 0.0005;
+  actual.link_length_resolution_m = 0.0001;
+  Clapper file;
+  file.link_angle_resolution_rad = 0.0005;
+  file.link_length_resolution_m = 0.0001;
+  actual.link_length_offset_m = -0.004;
+  const Diagnosis d = diagnosed(clapper_runs(actual, {}, 231), file);
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "link_length_bias");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, -0.004, 4.0 * d.findings[0].parameters[0].stderr_value);
+}
+
 TEST(DiagnoseUnits, FindABiasedPivotAndSayThatToeWouldLookTheSame) {
   MultiCastor actual = crooked_castors();
   actual.castors[1].pivot_encoder_offset_rad = 0.015;
