@@ -223,17 +223,6 @@ void keep_names_of_wheels(Diagnosis& d, const VehicleUnit& unit, const JointRoun
   if (d.findings.empty() && d.verdict != Verdict::cannot_say) d.verdict = Verdict::nothing_missing;
 }
 
-// The joint moves whichever side is judged, and twice: the other unit's place is told by it too.
-JointRounding rounding_on_either_side(const Vehicle& vehicle) {
-  JointRounding largest;
-  for (std::size_t u = 0; u < units_of(vehicle).size(); ++u) {
-    const JointRounding one = rounding_of_joints(vehicle, u);
-    largest = {std::max(largest.position_m, 2.0 * one.position_m),
-               std::max(largest.heading_rad, 2.0 * one.heading_rad)};
-  }
-  return largest;
-}
-
 const std::vector<std::string>& common_effects() {
   static const std::vector<std::string> names = {"clock_rate",     "floor_slope_creep",     "truth_time_offset",
                                                  "truth_frozen",   "truth_mounting_offset", "speed_dependent_radius",
@@ -305,7 +294,7 @@ class Judge {
     if (!one) return one;
     leave_out_standing(*one, train, units_[u].drive);
     leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal_.kind));
-    keep_names_of_wheels(*one, units_[u], rounding_on_either_side(nominal_));
+    keep_names_of_wheels(*one, units_[u], rounding_from_inside(nominal_));
     return one;
   }
 

@@ -45,6 +45,24 @@ bool may_be_rounding(const Finding& f, const VehicleUnit& unit, const JointRound
   return 0.5 * extra_m <= rounding.position_m && extra_m / unit.drive.wheelbase_m <= rounding.heading_rad;
 }
 
+JointRounding rounding_from_inside(const Vehicle& vehicle) {
+  constexpr double kCounts = 1.5;  // as core/diagnosis/naming/scored_candidates.cpp asks of a drive's own
+  const std::vector<VehicleUnit> units = units_of(vehicle);
+  JointRounding joints, counts;
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    const JointRounding one = rounding_of_joints(vehicle, u);
+    joints = {std::max(joints.position_m, 2.0 * one.position_m), std::max(joints.heading_rad, 2.0 * one.heading_rad)};
+    const DifferentialDrive& drive = units[u].drive;
+    const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+    const double count_m = 2.0 * kPi / drive.counts_per_wheel_turn() * radius_m;
+    const double turn_rad = count_m / drive.wheelbase_m;
+    counts = {std::max(counts.position_m, kCounts * (count_m + turn_rad * length_of_joint_m(vehicle))),
+              std::max(counts.heading_rad, kCounts * turn_rad)};
+  }
+  if (units.size() > 2) return joints;  // several units together are what one of them is held against
+  return {joints.position_m + counts.position_m, joints.heading_rad + counts.heading_rad};
+}
+
 void leave_out_standing(Diagnosis& d, const std::vector<Recording>& recordings, const DifferentialDrive& drive) {
   for (Finding& f : d.findings) {
     if (f.effect != "encoder_data_fault") continue;

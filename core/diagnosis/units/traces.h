@@ -12,6 +12,11 @@ namespace odolab {
 // Whether an encoder of the joint that goes on by one step would look the same: a push or a bump that small.
 bool may_be_rounding(const Finding& finding, const VehicleUnit& unit, const JointRounding& rounding);
 
+// The same where no outside truth is known: the joint moves whichever side is judged, and twice, since the other unit's
+// place is told by it too; and of two units one is all that the other is held against, whose counts turn it, and with
+// it the joint's far end.
+JointRounding rounding_from_inside(const Vehicle& vehicle);
+
 // Takes out encoder faults at which the wheel only stood: readings that hold and then catch up are a fault only where
 // the axle went on meanwhile. Castors and trucks that stand may set off within a sample.
 void leave_out_standing(Diagnosis& d, const std::vector<Recording>& recordings, const DifferentialDrive& drive);

@@ -7,6 +7,7 @@
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 #include "core/odometry/prediction.h"
 #include "test/support/linked_runs.h"
@@ -239,6 +240,28 @@ TEST(DiagnoseUnits, TellFromTheInsideWhichTruckErrs) {
   const auto slope = std::find_if(d.not_testable.begin(), d.not_testable.end(),
                                   [](const NotTestable& n) { return n.effect == "floor_slope_creep"; });
   EXPECT_NE(slope, d.not_testable.end());
+}
+
+TEST(RoundingFromInside, HidesAPushThatOneCountOfTheOtherTruckMakesThroughTheLink) {
+  Clapper trucks;  // 0.24 mm a count, 0.7 mrad of its truck, 0.7 mm at the far end of a metre
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  const Vehicle vehicle = vehicle_of(trucks);
+  const JointRounding rounding = rounding_from_inside(vehicle);
+  const VehicleUnit b = units_of(vehicle)[1];
+  Finding push;
+  push.effect = "collision";
+  push.parameters = {
+      {"dx_m", 0.0011, 0.0002, "m"}, {"dy_m", 0.0010, 0.0002, "m"}, {"dheading_rad", -0.0015, 3e-4, "rad"}};
+  EXPECT_TRUE(may_be_rounding(push, b, rounding));
+  push.parameters[2].value = -0.006;
+  EXPECT_FALSE(may_be_rounding(push, b, rounding));
+  Finding bump;
+  bump.effect = "bump";
+  bump.parameters = {{"extra_distance_m", 0.0009, 0.0001, "m"}};
+  EXPECT_TRUE(may_be_rounding(bump, b, rounding));
+  bump.parameters[0].value = 0.004;
+  EXPECT_FALSE(may_be_rounding(bump, b, rounding));
 }
 
 TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {
