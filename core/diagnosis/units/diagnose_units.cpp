@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/inside.h"
+#include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -86,6 +87,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
 
   std::vector<Diagnosis> diagnoses;
   DiagnosisOptions of_one = options;
+  std::optional<ErringJoint> erring;
   of_one.family_wise_error /= static_cast<double>(units.size());
   for (std::size_t u = 0; u < units.size(); ++u) {
     std::vector<Recording> own, own_held_out;
@@ -104,10 +106,17 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     leave_out_standing(*one, own, units[u].drive);
     if (!units[u].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal.kind));
     diagnoses.push_back(std::move(*one));
+    if (!units[u].carries_truth) {
+      const auto& own = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
+      std::optional<ErringJoint> of_unit =
+          erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, own), u);
+      if (of_unit && (!erring || of_unit->gain > erring->gain)) erring = std::move(of_unit);
+    }
   }
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   prove_biases(d, runs, geometry, nominal);
   return d;
+  if (erring) add_erring_joint(*erring, nominal, d);
 }
 
 }  // namespace odolab

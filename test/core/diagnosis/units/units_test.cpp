@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_fit.h"
+#include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -262,6 +264,73 @@ TEST(RoundingFromInside, HidesAPushThatOneCountOfTheOtherTruckMakesThroughTheLin
   EXPECT_TRUE(may_be_rounding(bump, b, rounding));
   bump.parameters[0].value = 0.004;
   EXPECT_FALSE(may_be_rounding(bump, b, rounding));
+}
+
+std::vector<JoinedRun> joined(const std::vector<Recording>& runs, const Vehicle& vehicle) {
+  std::vector<JoinedRun> joined;
+  for (const Recording& r : runs) joined.push_back({unit_samples(r, vehicle), tracked_poses(r)});
+  return joined;
+}
+
+Clapper clapper_with_fine_joints() {
+  Clapper trucks;
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  return trucks;
+}
+
+void wobble(Recording& run, double amplitude_rad) {
+  for (Channel& c : run.channels)
+    if (c.name == "link_angle_a_rad")
+      for (double& reading : c.values) reading += amplitude_rad * std::sin(3.0 * reading);
+}
+
+TEST(ErringJoint, IsTheEncoderThatWobblesAsItTurns) {
+  const Clapper trucks = clapper_with_fine_joints();
+  const Vehicle vehicle = vehicle_of(trucks);
+  std::vector<Recording> runs = clapper_runs(trucks, {}, 241);
+  EXPECT_FALSE(erring_joint(joined(runs, vehicle), {0.0, 0.0, 0.0}, vehicle, 1));
+  for (Recording& r : runs) wobble(r, 0.008);
+  const std::optional<ErringJoint> erring = erring_joint(joined(runs, vehicle), {0.0, 0.0, 0.0}, vehicle, 1);
+  ASSERT_TRUE(erring);
+  EXPECT_EQ(erring->joint, 0u);
+  EXPECT_LT(erring->size, 0.008);  // root mean square of a wave of 8 mrad
+  EXPECT_GT(erring->size, 0.002);
+  EXPECT_LT(erring->left_out_ratio, 0.9);
+}
+
+TEST(ErringJoint, IsThePivotWhoseEncoderHasPlay) {
+  const MultiCastor platform = three_castor_vehicle();
+  const Vehicle vehicle = vehicle_of(platform);
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 3; ++k) runs.push_back(castor_run(platform, {}, 251 + k));
+  EXPECT_FALSE(erring_joint(joined(runs, vehicle), {0.0, 0.0, 0.0}, vehicle, 1));
+  constexpr double kPlay_rad = 0.04;
+  for (Recording& r : runs)
+    for (Channel& c : r.channels)
+      if (c.name == "castor2_pivot_rad") {
+        double shown = c.values[0];
+        for (double& reading : c.values) {
+          shown = std::clamp(shown, reading - 0.5 * kPlay_rad, reading + 0.5 * kPlay_rad);
+          reading = shown;
+        }
+      }
+  const std::optional<ErringJoint> erring = erring_joint(joined(runs, vehicle), {0.0, 0.0, 0.0}, vehicle, 1);
+  ASSERT_TRUE(erring);
+  EXPECT_EQ(erring->joint, 1u);
+  EXPECT_NEAR(erring->play, kPlay_rad, 0.25 * kPlay_rad);  // on the way from one side to the other it is neither
+}
+
+TEST(DiagnoseUnits, SayThatSomethingIsMissingWhereALinksEncoderWobbles) {
+  std::vector<Recording> runs = clapper_runs(clapper_with_fine_joints(), {}, 261);
+  for (Recording& r : runs) wobble(r, 0.008);
+  const Diagnosis d = diagnosed(runs, clapper_with_fine_joints());
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect) << said(d);
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings[0].effect, "unknown");
+  EXPECT_EQ(d.findings[0].component, "truck_a");
+  ASSERT_FALSE(d.responses.empty());
+  EXPECT_EQ(d.responses[0].variable, "the link angle A [rad]");
 }
 
 TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {

@@ -1,0 +1,322 @@
+#include "core/diagnosis/units/joint_residuals.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/chi_square.h"
+#include "core/odometry/differential_drive.h"
+#include "core/vehicle/key_words.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kStretch_m = 1.0, kStretch_rad = 2.0;  // twice those of the geometry: an encoder errs over longer ways
+constexpr int kWaves = 4;                               // a turn, or half waves over the range of a reading
+constexpr double kLeastSteps = 3.0;                     // a reading that is rounded errs by 0.3 of its step
+constexpr double kMostLeft = 0.9;                       // of the squares of each run, by a fit to the others
+constexpr double kPrior_rad = 0.05, kPrior_m = 0.02;    // as of the biases
+constexpr double kHuber = 3.0;
+constexpr int kShapes = 2 * kWaves + 1;  // the last: which way it went last
+
+// The readings of a joint over all runs.
+struct Range {
+  double low = 0.0, high = 0.0;
+  bool is_length = false;
+
+  bool goes_around() const { return !is_length && high - low > kPi; }
+};
+
+VectorXd shapes_at(double reading, double way, const Range& range) {
+  VectorXd s(kShapes);
+  const bool around = range.goes_around();
+  const double u = range.high > range.low ? (reading - range.low) / (range.high - range.low) : 0.0;
+  for (int m = 0; m < kWaves; ++m) {
+    s[2 * m] = around ? std::cos((m + 1) * reading) : std::cos((2 * m + 1) * kPi * u);
+    s[2 * m + 1] = around ? std::sin((m + 1) * reading) : std::cos((2 * m + 2) * kPi * u);
+  }
+  s[kShapes - 1] = 0.5 * way;
+  return s;
+}
+
+// Which way a reading went last, by more than it rounds: 1, -1, 0 where it has not moved yet.
+std::vector<double> ways_of(const std::vector<UnitSample>& samples, std::size_t joint, double step) {
+  std::vector<double> ways;
+  double way = 0.0, turned_at = samples.front().joints[joint];
+  for (const UnitSample& s : samples) {
+    const double reading = s.joints[joint];
+    if (way * (reading - turned_at) > 0.0)
+      turned_at = reading;
+    else if (std::abs(reading - turned_at) > 1.5 * step)
+      way = reading > turned_at ? 1.0 : -1.0, turned_at = reading;
+    ways.push_back(way);
+  }
+  return ways;
+}
+
+// One run of one unit.
+class Laid {
+ public:
+  Laid(const JoinedRun& run, double clock_s, const Vehicle& vehicle, std::size_t unit)
+      : run_(&run), vehicle_(&vehicle), unit_(unit) {
+    const DifferentialDrive drive = units_of(vehicle)[unit].drive;
+    std::vector<WheelSample> wheels;
+    for (const UnitSample& s : run.samples)
+      wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+    const Track track = dead_reckoned(wheels, drive, Pose{});
+    double travel_m = 0.0, turn_rad = 0.0;
+    std::size_t i = 0;
+    for (const TimedPose& t : run.tracked) {
+      const double at_s = t.time_s - vehicle.truth.time_offset_s - clock_s;
+      if (at_s < track.front().time_s || at_s > track.back().time_s) continue;
+      for (; i + 1 < track.size() && track[i + 1].time_s <= at_s; ++i) {
+        const Pose step = between(track[i].pose, track[i + 1].pose);
+        travel_m += length(step.position());
+        turn_rad += std::abs(step.heading_rad);
+      }
+      if (stretches_.empty() || travel_m > kStretch_m || turn_rad > kStretch_rad) {
+        stretches_.emplace_back();
+        travel_m = turn_rad = 0.0;
+      }
+      stretches_.back().push_back({t.pose, *pose_at(track, at_s), joints_at(run.samples, at_s), i});
+    }
+  }
+
+  const std::vector<UnitSample>& samples() const { return run_->samples; }
+
+  // Eq. 1 of README.md, with one joint's readings less what the shapes say that it errs by.
+  VectorXd residuals(std::size_t joint, const std::vector<double>& error) const {
+    std::vector<double> all;
+    for (const std::vector<Point>& stretch : stretches_) {
+      std::vector<Pose> by_joints;
+      const double n = static_cast<double>(stretch.size());
+      for (const Point& p : stretch) {
+        std::vector<double> joints = p.joints;
+        if (!error.empty()) joints[joint] -= error[p.sample];
+        by_joints.push_back(p.tracked * tracked_T_axle(*vehicle_, unit_, joints));
+      }
+      const double first_rad = by_joints[0].heading_rad - stretch[0].wheels.heading_rad;
+      double turned_rad = 0.0;
+      for (std::size_t k = 0; k < stretch.size(); ++k)
+        turned_rad += wrapped(by_joints[k].heading_rad - stretch[k].wheels.heading_rad - first_rad) / n;
+      turned_rad += first_rad;
+      std::vector<Vec2> off;
+      Vec2 mean;
+      for (std::size_t k = 0; k < stretch.size(); ++k) {
+        off.push_back(rotated(by_joints[k].position(), -turned_rad) - stretch[k].wheels.position());
+        mean = mean + (1.0 / n) * off.back();
+      }
+      for (std::size_t k = 0; k < stretch.size(); ++k) {
+        const Vec2 rest = rotated(off[k] - mean, -stretch[k].wheels.heading_rad);
+        all.insert(all.end(), {rest.x_m, rest.y_m,
+                               wrapped(by_joints[k].heading_rad - stretch[k].wheels.heading_rad - turned_rad)});
+      }
+    }
+    return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  }
+
+ private:
+  struct Point {
+    Pose tracked, wheels;
+    std::vector<double> joints;
+    std::size_t sample = 0;
+  };
+  const JoinedRun* run_;
+  const Vehicle* vehicle_;
+  std::size_t unit_;
+  std::vector<std::vector<Point>> stretches_;
+};
+
+// The linear problem of one joint in one run: residuals = left + by * (amounts of the shapes), in deviations.
+struct Problem {
+  VectorXd left;
+  MatrixXd by, shapes;  // `shapes`: at each sample
+};
+
+double huber(double z) { return std::abs(z) <= kHuber ? z * z : kHuber * (2.0 * std::abs(z) - kHuber); }
+
+double squares(const VectorXd& v) {
+  double sum = 0.0;
+  for (double z : v) sum += huber(z);
+  return sum;
+}
+
+Problem problem_of(const Laid& run, std::size_t joint, double step, const Range& range,
+                   const Eigen::Vector3d& deviations) {
+  Problem p;
+  const std::vector<double> ways = ways_of(run.samples(), joint, step);
+  p.shapes.resize(static_cast<Eigen::Index>(ways.size()), kShapes);
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    p.shapes.row(static_cast<Eigen::Index>(i)) = shapes_at(run.samples()[i].joints[joint], ways[i], range);
+  p.left = run.residuals(joint, {});
+  p.by.resize(p.left.size(), kShapes);
+  constexpr double kStep = 1e-4;
+  for (int k = 0; k < kShapes; ++k) {
+    std::vector<double> error(ways.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) error[i] = kStep * p.shapes(static_cast<Eigen::Index>(i), k);
+    p.by.col(k) = (run.residuals(joint, error) - p.left) / kStep;
+  }
+  for (Eigen::Index i = 0; i < p.left.size(); ++i) {
+    p.left[i] /= deviations[i % 3];
+    p.by.row(i) /= deviations[i % 3];
+  }
+  return p;
+}
+
+VectorXd fitted(const std::vector<Problem>& problems, std::size_t without, double prior) {
+  VectorXd x = VectorXd::Zero(kShapes);
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    MatrixXd information = MatrixXd::Identity(kShapes, kShapes) / (prior * prior);
+    VectorXd gradient = -x / (prior * prior);
+    for (std::size_t r = 0; r < problems.size(); ++r) {
+      if (r == without) continue;
+      const Problem& p = problems[r];
+      const VectorXd rest = p.left + p.by * x;
+      for (Eigen::Index i = 0; i < rest.size(); ++i) {
+        const double w = std::min(1.0, kHuber / std::max(1e-9, std::abs(rest[i])));
+        information += w * p.by.row(i).transpose() * p.by.row(i);
+        gradient -= w * rest[i] * p.by.row(i).transpose();
+      }
+    }
+    x += information.ldlt().solve(gradient);
+  }
+  return x;
+}
+
+Eigen::Vector3d deviations_of(const VectorXd& residuals) {
+  Eigen::Vector3d result;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> sizes;
+    for (Eigen::Index i = k; i < residuals.size(); i += 3) sizes.push_back(std::abs(residuals[i]));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    result[k] = std::max(1.4826 * *middle, 1e-6);
+  }
+  return result;
+}
+
+// Of the error, root mean square about its mean: that would be a bias.
+double size_of(const std::vector<Problem>& problems, const VectorXd& x) {
+  double size = 0.0, n = 0.0, mean = 0.0;
+  for (const Problem& p : problems) {
+    const VectorXd error = p.shapes * x;
+    mean += error.sum();
+    size += error.squaredNorm();
+    n += static_cast<double>(error.size());
+  }
+  mean /= n;
+  return std::sqrt(std::max(0.0, size / n - mean * mean));
+}
+
+// Over the reading, without the way it went; the band by leaving out each run in turn.
+Response response_of(const VectorXd& x, const std::vector<VectorXd>& others, const Range& range) {
+  constexpr int kPoints = 41;
+  const double low = range.goes_around() ? -kPi : range.low, high = range.goes_around() ? kPi : range.high;
+  const double n = static_cast<double>(others.size());
+  Response r;
+  for (int i = 0; i < kPoints; ++i) {
+    const double at = low + (high - low) * i / (kPoints - 1.0);
+    const VectorXd shapes = shapes_at(at, 0.0, range);
+    double mean = 0.0, squared = 0.0;
+    for (const VectorXd& o : others) mean += shapes.dot(o) / n;
+    for (const VectorXd& o : others) squared += (shapes.dot(o) - mean) * (shapes.dot(o) - mean);
+    const double value = shapes.dot(x), error = std::sqrt((n - 1.0) / n * squared);
+    r.at.push_back(at);
+    r.value.push_back(value);
+    r.low.push_back(value - 1.96 * error);
+    r.high.push_back(value + 1.96 * error);
+  }
+  return r;
+}
+
+}  // namespace
+
+std::optional<ErringJoint> erring_joint(const std::vector<JoinedRun>& runs, const std::vector<double>& clock_s,
+                                        const Vehicle& vehicle, std::size_t unit) {
+  const std::vector<double> steps = joint_steps(vehicle);
+  if (runs.size() < 2) return std::nullopt;
+  std::vector<Laid> laid;
+  std::vector<Eigen::Vector3d> deviations;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    laid.emplace_back(runs[r], clock_s[r], vehicle, unit);
+    const VectorXd residuals = laid.back().residuals(0, {});
+    if (residuals.size() == 0) return std::nullopt;
+    deviations.push_back(deviations_of(residuals));
+  }
+  std::optional<ErringJoint> most;
+  for (std::size_t j = 0; j < steps.size(); ++j) {
+    if (std::holds_alternative<MultiCastor>(vehicle.kind) && j != unit) continue;
+    Range range{1e9, -1e9, j == 2 && steps.size() == 3 && !std::holds_alternative<MultiCastor>(vehicle.kind)};
+    for (const JoinedRun& run : runs)
+      for (const UnitSample& s : run.samples)
+        range.low = std::min(range.low, s.joints[j]), range.high = std::max(range.high, s.joints[j]);
+    if (range.high - range.low < 4.0 * steps[j]) continue;
+    std::vector<Problem> problems;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      problems.push_back(problem_of(laid[r], j, steps[j], range, deviations[r]));
+    const double prior = range.is_length ? kPrior_m : kPrior_rad;
+    double with = 0.0, without = 0.0;
+    bool in_each = true;
+    std::vector<VectorXd> others;  // fits without one run each
+    for (std::size_t r = 0; r < problems.size(); ++r) {
+      others.push_back(fitted(problems, r, prior));
+      const double before = squares(problems[r].left), after = squares(problems[r].left + problems[r].by * others[r]);
+      in_each = in_each && after < kMostLeft * before;
+      without += before;
+      with += after;
+    }
+    if (!in_each) continue;
+    const VectorXd x = fitted(problems, problems.size(), prior);
+    ErringJoint erring;
+    erring.joint = j;
+    erring.size = size_of(problems, x);
+    erring.step = steps[j];
+    erring.play = std::abs(x[kShapes - 1]);
+    erring.left_out_ratio = with / without;
+    erring.gain = 0.5 * (without - with);
+    if (erring.size < kLeastSteps * steps[j] || (most && most->gain > erring.gain)) continue;
+    erring.by_reading = response_of(x, others, range);
+    most = std::move(erring);
+  }
+  return most;
+}
+
+void add_erring_joint(const ErringJoint& erring, const Vehicle& vehicle, Diagnosis& d) {
+  std::vector<JointParameter> biases;  // one for each joint, in their order
+  for (JointParameter& p : joint_parameters(vehicle))
+    if (!p.effect.empty() && p.component != "truth") biases.push_back(std::move(p));
+  const JointParameter& own = biases[erring.joint];
+  const std::string name = own.effect == "pivot_angle_bias"
+                               ? "the pivot of " + part_words(own.component)
+                               : "the " + parameter_words(own.name.substr(0, own.name.rfind("_offset")));
+  const double thousands = 1e3;
+  const bool by_way = erring.play > erring.size;
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "something that no entry of the catalogue describes: the encoder of %s errs %s against wheels and "
+                "truth, by %.3g m%s where its steps are %.2g; what they contradict in runs left out falls to %.0f %%",
+                name.c_str(), by_way ? "by which way it went last, as play does," : "by what it reads",
+                thousands * (by_way ? erring.play : erring.size), own.unit.c_str(), thousands * erring.step,
+                100.0 * erring.left_out_ratio);
+  Finding f;
+  f.effect = "unknown";
+  f.component = own.component;
+  f.log_likelihood_gain = erring.gain;
+  f.p_value = chi_square_tail(2.0 * erring.gain, kShapes);
+  f.where.regime = by_way ? "by which way " + name + " went last" : "by what " + name + " reads";
+  f.sentence = text;
+  d.findings.insert(d.findings.begin(), f);
+  d.sentences.insert(d.sentences.begin(), f.sentence);
+  d.verdict = Verdict::unknown_effect;
+  Response shape = erring.by_reading;
+  shape.variable = name + " [" + own.unit + "]";
+  shape.channel = "error of " + name + " [" + own.unit + "]";
+  d.responses.insert(d.responses.begin(), std::move(shape));
+}
+
+}  // namespace odolab
