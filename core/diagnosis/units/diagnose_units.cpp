@@ -79,15 +79,16 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     return Error{train.front().name, "no truth with headings, a sample a second or more",
                  "one: the towing vehicle's own wheels are no measure of its way"};
 
-  const GeometryFit geometry = fitted_geometry(runs, nominal);
+  GeometryFit geometry = fitted_geometry(runs, nominal);
+  set_most_pivots_right(geometry);
   std::vector<double> clock_held_out_s;
   for (const JoinedRun& run : runs_held_out)
     clock_held_out_s.push_back(fitted_geometry({run}, geometry.vehicle).clock_s.front());
   if (!goes_on(progress, 0.1)) return Error{"diagnosis", "stopped before its end", ""};
 
   std::vector<Diagnosis> diagnoses;
-  DiagnosisOptions of_one = options;
   std::optional<ErringJoint> erring;
+  DiagnosisOptions of_one = options;
   of_one.family_wise_error /= static_cast<double>(units.size());
   for (std::size_t u = 0; u < units.size(); ++u) {
     std::vector<Recording> own, own_held_out;
@@ -105,18 +106,18 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, own, units[u].drive);
     if (!units[u].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal.kind));
-    diagnoses.push_back(std::move(*one));
     if (!units[u].carries_truth) {
       const auto& own = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
       std::optional<ErringJoint> of_unit =
           erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, own), u);
       if (of_unit && (!erring || of_unit->gain > erring->gain)) erring = std::move(of_unit);
     }
+    diagnoses.push_back(std::move(*one));
   }
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   prove_biases(d, runs, geometry, nominal);
-  return d;
   if (erring) add_erring_joint(*erring, nominal, d);
+  return d;
 }
 
 }  // namespace odolab

@@ -63,6 +63,7 @@ class Passage {
     for (const TimedPose& t : run.tracked)
       if (tracked_.empty() || t.time_s > tracked_.back().time_s + kShortestStep_s) tracked_.push_back(t);
     cut_into_stretches();
+    find_own_joints();
   }
 
   // The linearised problem about x. `with_spread`: also the covariance of the gradient.
@@ -126,9 +127,22 @@ class Passage {
   }
 
  private:
+  // A castor's pivot is no other's.
+  void find_own_joints() {
+    if (run_->samples.empty()) return;
+    const auto axle = [&](const Vehicle& v) {
+      return tracked_T_axle(v, static_cast<std::size_t>(unit_), run_->samples.front().joints);
+    };
+    for (int k = 0; k < unknowns_->joint_count(); ++k) {
+      Vehicle moved = nominal_;
+      unknowns_->joints[static_cast<std::size_t>(k)].of(moved) += kStep;
+      const Pose by = between(axle(nominal_), axle(moved));
+      if (by.x_m != 0.0 || by.y_m != 0.0 || by.heading_rad != 0.0) own_joints_.push_back(k);
+    }
+  }
+
   std::vector<int> own_unknowns() const {
-    std::vector<int> own;
-    for (int k = 0; k < unknowns_->joint_count(); ++k) own.push_back(k);
+    std::vector<int> own = own_joints_;
     for (int k = 0; k < 3; ++k) own.push_back(unknowns_->wheel(unit_, k));
     own.push_back(unknowns_->clock(number_));
     return own;
@@ -259,6 +273,7 @@ class Passage {
   DifferentialDrive drive_;
   Track tracked_;
   std::vector<Stretch> stretches_;
+  std::vector<int> own_joints_;
 };
 
 Normal sum_of(const std::vector<Passage>& passages, const VectorXd& x, bool with_spread) {
@@ -273,6 +288,29 @@ Normal sum_of(const std::vector<Passage>& passages, const VectorXd& x, bool with
     sum.gradient += one.gradient;
   }
   return sum;
+}
+
+// The body of a platform is where its pivots are: were all of them elsewhere, or turned, the truth's mounting would be.
+// Without a truth to measure by, nor would anything tell that all are further apart.
+void hold_the_body(const Vehicle& nominal, const Unknowns& unknowns, MatrixXd& of_prior) {
+  const auto* platform = std::get_if<MultiCastor>(&nominal.kind);
+  if (!platform) return;
+  constexpr double kHeld_m = 1e-6;
+  MatrixXd held = MatrixXd::Zero(4, unknowns.count());  // along x and y, turned, further apart
+  bool mounting = false;
+  for (int k = 0; k < unknowns.joint_count(); ++k) {
+    const std::string& name = unknowns.joints[static_cast<std::size_t>(k)].name;
+    mounting = mounting || unknowns.joints[static_cast<std::size_t>(k)].component == "truth";
+    for (std::size_t c = 0; c < platform->castors.size(); ++c) {
+      const std::string key = "castor[" + std::to_string(c + 1) + "].";
+      const double radius_m = platform->castors[c].pivot_radius_m;
+      const Vec2 out = rotated({1.0, 0.0}, platform->castors[c].pivot_angle_rad);
+      if (name == key + "pivot_radius_m") held.col(k) << out.x_m, out.y_m, 0.0, 1.0;
+      if (name == key + "pivot_angle_rad") held.col(k) << -radius_m * out.y_m, radius_m * out.x_m, radius_m, 0.0;
+    }
+  }
+  if (mounting) held.row(3).setZero();
+  of_prior += held.transpose() * held / (kHeld_m * kHeld_m);
 }
 
 // One run as a fit to others sees it; its clock is its own.
@@ -312,7 +350,8 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
   const int n = unknowns.count();
   VectorXd x = VectorXd::Zero(n), prior(n);
   for (int k = 0; k < n; ++k) prior[k] = 1.0 / (unknowns.prior(k) * unknowns.prior(k));
-  const MatrixXd of_prior = prior.asDiagonal();
+  MatrixXd of_prior = prior.asDiagonal();
+  hold_the_body(nominal, unknowns, of_prior);
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Normal normal = sum_of(passages, x, false);
     const VectorXd step = (normal.information + of_prior).ldlt().solve(normal.gradient - of_prior * x);
@@ -341,6 +380,25 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     fit.clock_stderr_s.push_back(std::sqrt(covariance(unknowns.clock(r), unknowns.clock(r))));
   }
   return fit;
+}
+
+void set_most_pivots_right(GeometryFit& fit) {
+  std::vector<double> off;
+  for (const JointEstimate& e : fit.joints)
+    if (e.parameter.effect == "pivot_angle_bias" && e.determined) off.push_back(e.value - e.nominal);
+  const auto* platform = std::get_if<MultiCastor>(&fit.vehicle.kind);
+  if (!platform || off.size() < 3 || off.size() < platform->castors.size()) return;
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  const double turn_rad = *middle;
+  for (Castor& c : std::get<MultiCastor>(fit.vehicle.kind).castors) {
+    c.pivot_encoder_offset_rad -= turn_rad;
+    c.pivot_angle_rad += turn_rad;
+  }
+  Pose& mounting = fit.vehicle.truth.axle_T_tracked;
+  mounting = Pose{0.0, 0.0, turn_rad} * mounting;
+  for (JointEstimate& e : fit.joints)
+    if (e.determined) e.value = e.parameter.of(fit.vehicle);
 }
 
 double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,

@@ -38,6 +38,10 @@ inline constexpr const char* kClockHeld = "clock";
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
                             const std::vector<std::string>& held = {});
 
+// A turn of all pivots' readings, and of the pivots' places the other way, is a turn of the body's own x axis, which
+// nothing tells: most readings are taken to be right. Three castors or more.
+void set_most_pivots_right(GeometryFit& fit);
+
 // How much a joint's offset takes off what the units contradict each other in runs that it was not fitted on: the sum
 // of squares with it over that without, each run by a fit to the others. Below 1: the offset is there in all of them. 1
 // where there is one run alone.

@@ -251,6 +251,10 @@ std::vector<JointParameter> joint_parameters(const Vehicle& vehicle) {
           "castor" + number, "pivot_angle_bias"));
       list.push_back({key + "offset_m", "m", kLengthPrior_m, [=](Vehicle& v) -> double& { return castor(v).offset_m; },
                       "", "", kLeastLength_m, ""});
+      list.push_back({key + "pivot_radius_m", "m", kLengthPrior_m,
+                      [=](Vehicle& v) -> double& { return castor(v).pivot_radius_m; }, "", "", kLeastLength_m, ""});
+      list.push_back({key + "pivot_angle_rad", "rad", kAnglePrior_rad,
+                      [=](Vehicle& v) -> double& { return castor(v).pivot_angle_rad; }, "", "", kLeastAngle_rad, ""});
     }
   }
   return list;

@@ -333,6 +333,56 @@ TEST(DiagnoseUnits, SayThatSomethingIsMissingWhereALinksEncoderWobbles) {
   EXPECT_EQ(d.responses[0].variable, "the link angle A [rad]");
 }
 
+MultiCastor castors_with_pivots_elsewhere() {
+  MultiCastor actual = crooked_castors();
+  const double turned[] = {0.0095, 0.0040, 0.0088}, further_m[] = {0.0004, 0.0010, 0.0019};
+  for (std::size_t k = 0; k < 3; ++k) {
+    actual.castors[k].pivot_angle_rad += turned[k];
+    actual.castors[k].pivot_radius_m += further_m[k];
+  }
+  return actual;
+}
+
+TEST(GeometryFit, FindsHowFarPivotsAreApart) {
+  const MultiCastor actual = castors_with_pivots_elsewhere();
+  std::vector<JoinedRun> runs;
+  const Vehicle nominal = vehicle_of(three_castor_vehicle());
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const Recording r = castor_run(actual, {}, 271 + k);
+    runs.push_back({unit_samples(r, nominal), tracked_poses(r)});
+  }
+  GeometryFit fit = fitted_geometry(runs, nominal);
+  set_most_pivots_right(fit);
+  const auto& found = std::get<MultiCastor>(fit.vehicle.kind).castors;
+  double variance = 0.0, offset_error_rad = 0.0;  // of a pivot's place along one direction, at most
+  for (const JointEstimate& e : fit.joints) {
+    const bool radius = e.parameter.name.find("pivot_radius") != std::string::npos,
+               angle = e.parameter.name.find("pivot_angle") != std::string::npos;
+    const double error_m = radius ? e.stderr_value : angle ? 0.25 * e.stderr_value : 0.0;
+    variance = std::max(variance, error_m * error_m);
+    if (e.parameter.effect == "pivot_angle_bias") offset_error_rad = std::max(offset_error_rad, e.stderr_value);
+  }
+  const double error_m = std::sqrt(2.0 * variance);
+  const auto apart_m = [](const std::vector<Castor>& castors, std::size_t k) {
+    return length(castors[k].pivot() - castors[(k + 1) % castors.size()].pivot());
+  };
+  double off_in_file_m = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double actual_m = apart_m(actual.castors, k);
+    off_in_file_m = std::max(off_in_file_m, std::abs(apart_m(three_castor_vehicle().castors, k) - actual_m));
+    EXPECT_NEAR(apart_m(found, k), actual_m, 4.0 * error_m);
+    EXPECT_NEAR(found[k].pivot_encoder_offset_rad, 0.0, 4.0 * offset_error_rad);
+  }
+  EXPECT_LT(4.0 * error_m, off_in_file_m);
+}
+
+TEST(DiagnoseUnits, FindNothingWherePivotsStandAFewMillimetresElsewhere) {
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 3; ++k) runs.push_back(castor_run(castors_with_pivots_elsewhere(), {}, 281 + k));
+  const Diagnosis d = diagnosed(runs, three_castor_vehicle());
+  for (const Finding& f : d.findings) EXPECT_EQ(f.component, "truth") << said(d);
+}
+
 TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {
   Recording run = linked_run(Clapper{}, {}, 91);
   run.channels.erase(run.channels.begin() + 4);
