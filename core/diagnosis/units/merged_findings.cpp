@@ -154,7 +154,9 @@ void put_events_into_their_zones(std::vector<Finding>& all) {
 bool leave_out_small_rest(std::vector<Finding>& all) {
   constexpr double kMostLeft = 0.15;
   double named = 0.0;
-  for (const Finding& f : all) named += f.effect == "unknown" ? 0.0 : f.log_likelihood_gain;
+  // Where the truth sits is no physics, however well it is known.
+  for (const Finding& f : all)
+    named += f.effect == "unknown" || f.effect.rfind("truth_", 0) == 0 ? 0.0 : f.log_likelihood_gain;
   const auto rest = std::remove_if(all.begin(), all.end(), [&](const Finding& f) {
     return f.effect == "unknown" && f.log_likelihood_gain < kMostLeft * named;
   });

@@ -9,6 +9,7 @@
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 #include "core/odometry/prediction.h"
@@ -404,6 +405,22 @@ TEST(Components, AreOfOneUnitOrOfAll) {
   EXPECT_EQ(component_in_unit("truck_b", "truck_b", trucks), "vehicle");
   EXPECT_EQ(component_in_unit("truck_b", "truck_a.left_wheel", trucks), std::nullopt);
   EXPECT_EQ(component_in_unit("truck_a", "floor", trucks), "floor");
+}
+
+TEST(Units, HowWellTheTruthsPlaceIsKnownMakesNothingElseSmall) {
+  Finding unknown, mounting, slip;
+  unknown.effect = "unknown";
+  unknown.log_likelihood_gain = 50.0;
+  mounting.effect = "truth_mounting_offset";
+  mounting.log_likelihood_gain = 1e6;
+  slip.effect = "lateral_slip";
+  slip.log_likelihood_gain = 1000.0;
+  std::vector<Finding> found = {unknown, mounting};
+  EXPECT_FALSE(leave_out_small_rest(found));
+  EXPECT_EQ(found.size(), 2u);
+  found.push_back(slip);  // beside what has a name a twentieth is small
+  EXPECT_TRUE(leave_out_small_rest(found));
+  EXPECT_EQ(found.size(), 2u);
 }
 
 }  // namespace
