@@ -437,12 +437,14 @@ InnovationSums gated(const InnovationRun& run, const SummedRun& summed, const In
 }  // namespace
 
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
-                        const FilterOptions& given) {
-  // Nothing says which of a few samples errs, as of the poses at both ends of a run.
+                        const FilterOptions& options) {
+  if (options.gate <= 0.0) return passed(run, summed, model, options);
   constexpr std::size_t kFewestToGate = 5;
-  FilterOptions options = given;
-  if (options.gate > 0.0 && run.truth.size() < kFewestToGate) options.gate = std::numeric_limits<double>::infinity();
-  return options.gate > 0.0 ? gated(run, summed, model, options) : passed(run, summed, model, options);
+  if (run.truth.size() >= kFewestToGate) return gated(run, summed, model, options);
+  // Nothing says which of a few samples errs, as of the poses at both ends of a run.
+  FilterOptions open = options;
+  open.gate = std::numeric_limits<double>::infinity();
+  return passed(run, summed, model, open);
 }
 
 std::vector<std::pair<int, int>> contradictions(const InnovationRun& run, const SummedRun& summed,

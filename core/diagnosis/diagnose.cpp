@@ -108,11 +108,11 @@ std::vector<Confusion> confusions(const JointModel& joint, const Selected& selec
 }
 
 // How many names the catalogue has for a vehicle that has encoders.
-int entries_for_encoders() {
+std::size_t entries_for_encoders() {
   std::set<std::string> names;
   for (const Effect& e : catalogue())
     if (!e.only_commands) names.insert(e.name);
-  return static_cast<int>(names.size());
+  return names.size();
 }
 
 const char* headline(Verdict verdict) {
@@ -346,8 +346,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       d.verdict == Verdict::ambiguous ? confusions(joint, selected) : std::vector<Confusion>{};
   const Advice next = advice(joint, confused, options.family_wise_error);
   d.not_testable = next.not_testable;
-  const auto entries = static_cast<std::size_t>(entries_for_encoders());
-  if (d.verdict == Verdict::nothing_missing && 3 * (entries - d.not_testable.size()) < entries)
+  // Less than a third of them could show.
+  if (d.verdict == Verdict::nothing_missing && 3 * d.not_testable.size() > 2 * entries_for_encoders())
     d.verdict = Verdict::cannot_say;
 
   if (d.verdict != Verdict::unknown_effect)

@@ -224,29 +224,29 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
   EXPECT_FALSE(run->truth_has_heading);
 }
 
-TEST(Innovations, GateSetsAnOutlierAsideWithWhichARunBegins) {
-  InnovationRun run = a_run(0.05);
-  const InnovationModel m = model_off_nominal();
+std::vector<char> aside_by_gate(const InnovationRun& run) {
   FilterOptions options;
   options.derivatives = false;
   options.gate = kGate;
-  const std::vector<char> sound = filtered(run, summed_up(run, m), m, options).set_aside;
+  const InnovationModel m = model_off_nominal();
+  return filtered(run, summed_up(run, m), m, options).set_aside;
+}
+
+TEST(Innovations, GateSetsAnOutlierAsideWithWhichARunBegins) {
+  InnovationRun run = a_run(0.05);
+  const std::vector<char> sound = aside_by_gate(run);
   EXPECT_EQ(std::count(sound.begin(), sound.begin() + 10, 1), 0);
   run.truth[0].position.x_m += 0.2;
-  const std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
+  const std::vector<char> aside = aside_by_gate(run);
   EXPECT_EQ(aside[0], 1);
   EXPECT_EQ(std::count(aside.begin() + 1, aside.begin() + 10, 1), 0);
 }
 
 TEST(Innovations, GateLeavesPosesAtBothEndsOfARunAlone) {
   InnovationRun run = a_run(0.0);
-  const InnovationModel m = model_off_nominal();
-  FilterOptions options;
-  options.derivatives = false;
-  options.gate = kGate;
   ASSERT_LT(run.truth.size(), 5u);
   run.truth.back().position.x_m += 1.0;
-  EXPECT_EQ(filtered(run, summed_up(run, m), m, options).set_aside.back(), 0);
+  EXPECT_EQ(aside_by_gate(run).back(), 0);
 }
 
 }  // namespace
