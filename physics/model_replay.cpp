@@ -88,6 +88,9 @@ std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, cons
     if (std::any_of(entry->parameters.begin(), entry->parameters.end(),
                     [&](const EffectParameter& p) { return p.name == given.first; }))
       active.parameters.push_back(given);
+  if (fitted.effect == "drivetrain_backlash")
+    if (const auto drag_mps2 = effects::backlash_drag_mps2(static_cast<int>(fitted.parameter("form"))))
+      active.parameters.emplace_back("drag_mps2", *drag_mps2);
   if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
     if (const auto tracked = truth_at(recording, fitted.parameter("at_s") + vehicle.truth.time_offset_s)) {
       const Vec2 place = wheel_at(*tracked * inverse(vehicle.truth.axle_T_tracked), fitted.component, vehicle);

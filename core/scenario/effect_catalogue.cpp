@@ -74,7 +74,7 @@ const std::vector<EffectEntry>& effect_catalogue() {
   static const std::vector<EffectEntry> entries = {
       {"wheel_eccentricity", kWheels, {{"amplitude", 0.0, 0.5, kRequired}, {"phase_rad"}}},
       {"encoder_missed_counts", kWheels, {{"fraction", 0.0, 0.99, kRequired}, {"above_radps", 0.0, 1e4}}},
-      {"drivetrain_backlash", kWheels, {{"gap_rad", 0.0, 3.0, kRequired}}},
+      {"drivetrain_backlash", kWheels, {{"gap_rad", 0.0, 3.0, kRequired}, {"drag_mps2", 0.0, 100.0}}},
       {"wheel_toe", kVehicleOrWheels, {{"sideways_per_metre", -0.5, 0.5, kRequired}}},
       {"castor_reversal_kick", kVehicle, {{"kick_rad", -1.0, 1.0, kRequired}, {"over_m", 1e-3, 1.0}}},
       {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}}},

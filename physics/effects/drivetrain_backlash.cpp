@@ -1,6 +1,8 @@
 // Play between the motor, where the encoder sits, and the wheel: after a reversal the wheel stands until the gap is
-// crossed.
+// crossed. With a drag, a wheel that neither flank touches is braked by that alone: where the motor brakes harder, the
+// wheel drives on across the gap.
 #include <algorithm>
+#include <cmath>
 
 #include "physics/effects/effect.h"
 
@@ -10,26 +12,38 @@ namespace {
 
 class DrivetrainBacklash final : public Effect {
  public:
-  explicit DrivetrainBacklash(const ActiveEffect& a) : component_(a.component), gap_rad_(a.parameter("gap_rad")) {}
+  DrivetrainBacklash(const ActiveEffect& a, const Machine& machine)
+      : component_(a.component), gap_rad_(a.parameter("gap_rad")), step_s_(machine.step_s) {
+    const double drag_mps2 = a.parameter("drag_mps2", 0.0);
+    drag_radps2_[0] = drag_mps2 / machine.actual.wheel_radius_left_m;
+    drag_radps2_[1] = drag_mps2 / machine.actual.wheel_radius_right_m;
+  }
 
   void gear(Side side, double& turn_rad) override {
     if (!acts_on(component_, side)) return;
-    double& play_rad = play_rad_[side == Side::left ? 0 : 1];
-    const double moved = play_rad + turn_rad;
-    play_rad = std::clamp(moved, -gap_rad_, 0.0);
+    const int wheel = side == Side::left ? 0 : 1;
+    double& play_rad = play_rad_[wheel];
+    double& speed_radps = speed_radps_[wheel];
+    speed_radps -= std::copysign(std::min(std::abs(speed_radps), drag_radps2_[wheel] * step_s_), speed_radps);
+    if (drag_radps2_[wheel] == 0.0) speed_radps = 0.0;
+    const double moved = play_rad + turn_rad, free = moved - speed_radps * step_s_;
+    play_rad = std::clamp(free, -gap_rad_, 0.0);
+    if (play_rad != free) speed_radps = turn_rad / step_s_;  // a flank carries it along
     turn_rad = moved - play_rad;
   }
 
  private:
   std::string component_;
-  double gap_rad_;
-  double play_rad_[2] = {0.0, 0.0};  // 0: the motor pushes forward, -gap: it pushes backward
+  double gap_rad_, step_s_;
+  double drag_radps2_[2];
+  double speed_radps_[2] = {0.0, 0.0};  // of the wheel
+  double play_rad_[2] = {0.0, 0.0};     // 0: the motor pushes forward, -gap: it pushes backward
 };
 
 }  // namespace
 
-std::unique_ptr<Effect> drivetrain_backlash(const ActiveEffect& active, const Machine&) {
-  return std::make_unique<DrivetrainBacklash>(active);
+std::unique_ptr<Effect> drivetrain_backlash(const ActiveEffect& active, const Machine& machine) {
+  return std::make_unique<DrivetrainBacklash>(active, machine);
 }
 
 }  // namespace odolab::planar

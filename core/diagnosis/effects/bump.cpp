@@ -2,6 +2,7 @@
 // comes to one place on the floor.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/diagnosis/effects/effect.h"
@@ -11,7 +12,12 @@ namespace odolab::effects {
 namespace {
 
 constexpr double kLength_m[3] = {0.06, 0.02, 0.2};  // of the way on which the extra distance is rolled
-constexpr double kReach_m[3] = {0.1, 0.05, 0.2};    // from the place to where a wheel meets it
+
+// What lies at a place: met within so far of it, and climbed over so much of the way; no length: as long as it is met.
+struct Lying {
+  double reach_m, length_m;
+};
+constexpr Lying kLying[] = {{0.1, 0.06}, {0.05, 0.06}, {0.2, 0.06}, {0.1, 0.0}, {0.2, 0.0}};
 
 double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
@@ -21,44 +27,74 @@ Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
   return {s.position.x_m - half * s.sin_heading, s.position.y_m + half * s.cos_heading};
 }
 
-// The extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
+// An extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
 void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to) {
   double total = 0.0;
   for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
   if (total <= 0.01) return;
-  for (std::size_t i = from; i <= to; ++i)
-    m[i] = by_wheel(wheel, -way(wheel, view.steps[i]) / total, view.drive.wheelbase_m);
+  for (std::size_t i = from; i <= to; ++i) {
+    const BodyMotion by = by_wheel(wheel, -way(wheel, view.steps[i]) / total, view.drive.wheelbase_m);
+    m[i].forward_m += by.forward_m;
+    m[i].turn_rad += by.turn_rad;
+  }
+}
+
+struct Steps {
+  std::size_t first, last;
+};
+
+// So much of a wheel's way about the middle of a step.
+Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
+  constexpr double kLongest_s = 1.0;
+  const double at_s = view.steps[middle].time_s;
+  Steps s{middle, middle};
+  double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
+  while (s.first > 0 && before < 0.5 * length_m && at_s - view.steps[s.first].time_s < kLongest_s)
+    before += std::abs(way(wheel, view.steps[--s.first]));
+  while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongest_s)
+    behind += std::abs(way(wheel, view.steps[++s.last]));
+  return s;
 }
 
 Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length_m) {
-  const std::size_t middle = std::min(view.step_at(at_s), view.steps.size() - 1);
-  std::size_t from = middle, to = middle;
-  double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
-  while (from > 0 && before < 0.5 * length_m && view.steps[middle].time_s - view.steps[from].time_s < 1.0)
-    before += std::abs(way(wheel, view.steps[--from]));
-  while (to + 1 < view.steps.size() && behind < 0.5 * length_m &&
-         view.steps[to].time_s - view.steps[middle].time_s < 1.0)
-    behind += std::abs(way(wheel, view.steps[++to]));
-  Motions m(from, to + 1);
-  spread(m, view, wheel, from, to);
+  const Steps s = steps_about(view, wheel, std::min(view.step_at(at_s), view.steps.size() - 1), length_m);
+  Motions m(s.first, s.last + 1);
+  spread(m, view, wheel, s.first, s.last);
   return m;
 }
 
-// Empty where the wheel never comes there.
-Motions at_place(const DriveView& view, Wheel wheel, Vec2 place, double reach_m) {
+// While one wheel is within reach of the place.
+struct Visit {
+  Wheel wheel;
+  Steps met;
+  std::size_t nearest;
+  double away_m;
+};
+
+// Empty where no such wheel ever comes there.
+Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& lying) {
   const double b = view.drive.wheelbase_m;
-  std::vector<std::pair<std::size_t, std::size_t>> visits;  // first and last step of each
-  view.steps_near(place, reach_m + 0.5 * b, [&](std::size_t i) {
-    const Vec2 to = contact(wheel, view.steps[i], b) - place;
-    if (dot(to, to) >= reach_m * reach_m) return;
-    if (!visits.empty() && visits.back().second + 1 == i)
-      visits.back().second = i;
-    else
-      visits.emplace_back(i, i);
-  });
+  std::vector<Visit> visits;
+  for (const Wheel wheel : {Wheel::left, Wheel::right}) {
+    if (which != Wheel::both && which != wheel) continue;
+    view.steps_near(place, lying.reach_m + 0.5 * b, [&](std::size_t i) {
+      const double away_m = length(contact(wheel, view.steps[i], b) - place);
+      if (away_m >= lying.reach_m) return;
+      if (visits.empty() || visits.back().wheel != wheel || visits.back().met.last + 1 != i)
+        visits.push_back({wheel, {i, i}, i, away_m});
+      Visit& now = visits.back();
+      now.met.last = i;
+      if (away_m < now.away_m) now.nearest = i, now.away_m = away_m;
+    });
+  }
   if (visits.empty()) return {};
-  Motions m(visits.front().first, visits.back().second + 1);
-  for (const auto& [from, to] : visits) spread(m, view, wheel, from, to);
+  Steps all = visits.front().met;
+  for (Visit& v : visits) {
+    if (lying.length_m > 0.0) v.met = steps_about(view, v.wheel, v.nearest, lying.length_m);
+    all = {std::min(all.first, v.met.first), std::max(all.last, v.met.last)};
+  }
+  Motions m(all.first, all.last + 1);
+  for (const Visit& v : visits) spread(m, view, v.wheel, v.met.first, v.met.last);
   return m;
 }
 
@@ -67,8 +103,10 @@ Effect of_wheel(Wheel wheel) {
   e.name = "bump";
   e.component = component_of(wheel);
   e.amplitudes = {{"extra_distance_m", "m", 0.005, 0.0, 0.3}};
-  e.sentence = std::string("the ") + (wheel == Wheel::left ? "left" : "right") +
-               " wheel climbs over something: it turns more than it travels";
+  e.sentence = std::string(wheel == Wheel::left    ? "the left wheel"
+                           : wheel == Wheel::right ? "the right wheel"
+                                                   : "whichever wheel comes there") +
+               " climbs over something: it turns more than it travels";
   e.regime = "at one place";
   e.looks_like = {"collision", "slip_zone"};
   e.told_apart_by = "the same way driven again: a bump comes back at its place";
@@ -92,46 +130,61 @@ Effect once(Wheel wheel) {
   return e;
 }
 
+std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& views, Wheel which) {
+  constexpr double kGrid_m = 0.1, kNear_m = 0.15;  // a place between two points of the grid is near both
+  constexpr std::size_t kMost = 1600;
+  using Cell = std::pair<int, int>;
+  std::map<Cell, int> visits;
+  for (const DriveView& view : views)
+    for (const Wheel wheel : {Wheel::left, Wheel::right}) {
+      if (which != Wheel::both && which != wheel) continue;
+      std::set<Cell> before;  // as long as it stays near it is one visit
+      Vec2 last{1e9, 1e9};
+      for (const EffectStep& s : view.steps) {
+        const Vec2 at = contact(wheel, s, view.drive.wheelbase_m);
+        if (length(at - last) < 0.3 * kGrid_m) continue;
+        last = at;
+        const auto low = [&](double m) { return static_cast<int>(std::ceil((m - kNear_m) / kGrid_m)); };
+        const auto high = [&](double m) { return static_cast<int>(std::floor((m + kNear_m) / kGrid_m)); };
+        std::set<Cell> now;
+        for (int x = low(at.x_m); x <= high(at.x_m); ++x)
+          for (int y = low(at.y_m); y <= high(at.y_m); ++y)
+            if (length(Vec2{x * kGrid_m, y * kGrid_m} - at) < kNear_m) now.emplace(x, y);
+        for (const Cell& c : now)
+          if (!before.contains(c)) ++visits[c];
+        before = std::move(now);
+      }
+    }
+  std::erase_if(visits, [](const auto& v) { return v.second < 2; });
+  std::vector<std::vector<double>> places;
+  const std::size_t stride = visits.size() / kMost + 1;
+  std::size_t i = 0;
+  for (const auto& [cell, times] : visits)
+    if (i++ % stride == 0) places.push_back({cell.first * kGrid_m, cell.second * kGrid_m});
+  return places;
+}
+
 Effect each_time(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}};
-  e.forms = {"within 10 cm", "within 5 cm", "within 20 cm"};
+  e.forms = {"20 cm wide, climbed in 6 cm", "10 cm wide", "40 cm wide", "20 cm wide and long", "40 cm wide and long"};
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kReach_m[static_cast<int>(shape.back())])};
+    return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())])};
   };
   // It is met anywhere within reach, and no wheel comes to the same line twice.
   e.place_known_to_m = [](const std::vector<double>& shape) {
-    return kReach_m[static_cast<int>(shape.back())] / std::sqrt(3.0);
+    return kLying[static_cast<int>(shape.back())].reach_m / std::sqrt(3.0);
   };
-  // Only places to which the wheel came more than once: else it is a moment.
-  e.scan = [wheel](const std::vector<DriveView>& views) {
-    constexpr double kGrid_m = 0.1;
-    std::set<std::pair<int, int>> seen, again;
-    for (const DriveView& v : views) {
-      std::pair<int, int> last{1 << 30, 0};
-      for (const EffectStep& s : v.steps) {
-        const Vec2 at = contact(wheel, s, v.drive.wheelbase_m);
-        const std::pair<int, int> cell{static_cast<int>(std::lround(at.x_m / kGrid_m)),
-                                       static_cast<int>(std::lround(at.y_m / kGrid_m))};
-        if (cell == last) continue;
-        last = cell;
-        if (!seen.insert(cell).second) again.insert(cell);
-      }
-    }
-    std::vector<std::vector<double>> shapes;
-    const std::size_t stride = again.size() / 800 + 1;
-    std::size_t i = 0;
-    for (const auto& [x, y] : again)
-      if (i++ % stride == 0) shapes.push_back({x * kGrid_m, y * kGrid_m});
-    return shapes;
-  };
+  // Only places near which wheels came more than once: else it is a moment.
+  e.scan = [wheel](const std::vector<DriveView>& views) { return places_met_again(views, wheel); };
   return e;
 }
 
 }  // namespace
 
 std::vector<Effect> bump() {
-  return {once(Wheel::left), once(Wheel::right), each_time(Wheel::left), each_time(Wheel::right)};
+  return {once(Wheel::left), once(Wheel::right), each_time(Wheel::left), each_time(Wheel::right),
+          each_time(Wheel::both)};
 }
 
 }  // namespace odolab::effects

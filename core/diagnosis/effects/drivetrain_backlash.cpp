@@ -7,22 +7,74 @@
 namespace odolab::effects {
 
 namespace {
+// How a wheel runs while neither flank of the play touches: it is braked by so much until it stands.
+constexpr double kAtOnce = 0.0;
+constexpr struct {
+  const char* in_words;
+  double drag_mps2;
+} kForms[] = {
+    {"engaged at the start", kAtOnce},
+    {"in the middle of the play at the start", kAtOnce},
+    {"crossed too where it brakes harder than 0.05 m/s2", 0.05},
+    {"crossed too where it brakes harder than 0.08 m/s2", 0.08},
+    {"crossed too where it brakes harder than 0.12 m/s2", 0.12},
+    {"crossed too where it brakes harder than 0.18 m/s2", 0.18},
+    {"crossed too where it brakes harder than 0.25 m/s2", 0.25},
+    {"crossed too where it brakes harder than 0.35 m/s2", 0.35},
+    {"crossed too where it brakes harder than 0.5 m/s2", 0.5},
+};
+constexpr std::size_t kMiddleAtTheStart = 1;
+
+// Which way a wheel turns first.
+double first_direction(const DriveView& view, bool left) {
+  for (const EffectStep& s : view.steps)
+    if (const double by = left ? s.left_read_rad : s.right_read_rad; by != 0.0) return by > 0.0 ? 1.0 : -1.0;
+  return 0.0;
+}
+
+// Rotation in each step, of readings a tenth of a second to either side: a count must not look like a change of speed,
+// nor a motor's braking be blurred.
+std::vector<double> evenly_read(const DriveView& view, bool left) {
+  constexpr double kHalfWindow_s = 0.1;
+  const auto read = [&](std::size_t i) { return left ? view.steps[i].left_read_rad : view.steps[i].right_read_rad; };
+  std::vector<double> by;
+  double turned = 0.0, lasted = 0.0;
+  std::size_t first = 0, end = 0;
+  for (const EffectStep& s : view.steps) {
+    for (; end < view.steps.size() && view.steps[end].time_s <= s.time_s + kHalfWindow_s; ++end)
+      turned += read(end), lasted += view.steps[end].duration_s;
+    for (; view.steps[first].time_s < s.time_s - kHalfWindow_s; ++first)
+      turned -= read(first), lasted -= view.steps[first].duration_s;
+    by.push_back(lasted > 0.0 ? turned / lasted * s.duration_s : 0.0);
+  }
+  return by;
+}
+
 // Rotation lost in the play, as a share of the gap, for one wheel. A stop swings back by less than smoothing leaves,
-// and that crosses the gap too.
-std::vector<double> lost(const DriveView& view, bool left, double gap_rad, bool begins_engaged) {
+// and that crosses the gap too. A wheel that runs easily crosses it besides wherever its motor slows down faster than
+// the wheel does by itself: then the wheel drives on until the other flank holds it.
+std::vector<double> lost(const DriveView& view, bool left, double gap_rad, std::size_t form) {
   std::vector<double> share(view.steps.size());
   const double half = 0.5 * std::max(gap_rad, 1e-4);
-  double place = 0.0;  // of the encoder's side within the play, -half to half
+  const double radius_m = left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
+  const double drag_radps2 = kForms[form].drag_mps2 / radius_m;
+  // Of the encoder's side within the play, -half to half: where it stood at the start shows only in the first
+  // movement's direction.
+  double place = form == kMiddleAtTheStart ? 0.0 : half * first_direction(view, left);
+  double wheel_radps = 0.0;
+  const std::vector<double> even = drag_radps2 > 0.0 ? evenly_read(view, left) : std::vector<double>{};
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const double by = left ? view.steps[i].left_read_rad : view.steps[i].right_read_rad;
-    if (i == 0 && begins_engaged) {  // where the play stood at the start shows only in the first movement's direction
-      for (const EffectStep& s : view.steps)
-        if (const double b = left ? s.left_read_rad : s.right_read_rad; b != 0.0) {
-          place = b > 0.0 ? half : -half;
-          break;
-        }
+    const EffectStep& s = view.steps[i];
+    double by = left ? s.left_read_rad : s.right_read_rad, runs_on = 0.0;
+    if (drag_radps2 > 0.0) {
+      by = even[i];
+      const double slower = std::min(std::abs(wheel_radps), drag_radps2 * s.duration_s);
+      wheel_radps -= std::copysign(slower, wheel_radps);
+      runs_on = wheel_radps * s.duration_s;
     }
-    const double next = std::max(-half, std::min(half, place + by));
+    const double free = place + by - runs_on;
+    const double next = std::clamp(free, -half, half);
+    if (next != free) wheel_radps = by / std::max(s.duration_s, 1e-6);  // a flank carries it along
     share[i] = (next - place) / (2.0 * half);
     place = next;
   }
@@ -53,7 +105,7 @@ Effect of_wheel(Wheel wheel) {
   e.amplitudes = {{"gap_rad", "rad", 0.03, 0.0, 1.0}};
   e.shapes = {{"gap_rad", "rad"}};
   e.shape_follows_amplitude = true;
-  e.forms = {"engaged at the start", "in the middle of the play at the start"};
+  for (const auto& form : kForms) e.forms.push_back(form.in_words);
   e.sentence = std::string("there is play between the encoder and ") + (wheel == Wheel::left    ? "the left wheel"
                                                                         : wheel == Wheel::right ? "the right wheel"
                                                                                                 : "both wheels");
@@ -76,7 +128,7 @@ Effect of_wheel(Wheel wheel) {
     Motions m(view.steps.size());
     const DifferentialDrive& drive = view.drive;
     const auto add = [&](Wheel w) {
-      const std::vector<double> share = lost(view, w == Wheel::left, shape[0], shape.back() < 0.5);
+      const std::vector<double> share = lost(view, w == Wheel::left, shape[0], static_cast<std::size_t>(shape.back()));
       const double r = w == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
       for (std::size_t i = 0; i < share.size(); ++i) {
         const BodyMotion b = by_wheel(w, -r * share[i], drive.wheelbase_m);
@@ -89,11 +141,16 @@ Effect of_wheel(Wheel wheel) {
     return std::vector<Motions>{m};
   };
   e.scan = [](const std::vector<DriveView>&) {
-    return std::vector<std::vector<double>>{{0.005}, {0.01}, {0.02}, {0.03}, {0.05}, {0.08}, {0.12}};
+    return std::vector<std::vector<double>>{{0.005}, {0.02}, {0.06}, {0.15}};
   };
   return e;
 }
 }  // namespace
+
+std::optional<double> backlash_drag_mps2(int form) {
+  const double drag_mps2 = kForms[form].drag_mps2;
+  return drag_mps2 == kAtOnce ? std::nullopt : std::optional(drag_mps2);
+}
 
 std::vector<Effect> drivetrain_backlash() {
   return {of_wheel(Wheel::left), of_wheel(Wheel::right), of_wheel(Wheel::both)};

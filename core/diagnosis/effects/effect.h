@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,8 @@ const Effect* catalogue_entry(const ActiveEffect& active);
 
 // The entries, one file each.
 namespace effects {
+// How hard a wheel is braked that neither flank of its play touches, in that form; nothing where it stands at once.
+std::optional<double> backlash_drag_mps2(int form);
 std::vector<Effect> wheel_eccentricity();
 // The same where the runs start at other angles of the wheel: a phase of its own in each. Lives as long as the program.
 const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs);

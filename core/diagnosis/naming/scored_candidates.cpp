@@ -121,6 +121,13 @@ bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<do
   return away_m2 < reach_m * reach_m;
 }
 
+// The same by a wheel of that place, at one moment of one recording.
+bool happens_once_of(const Effect& once, const Effect& each_time) {
+  return once.local && once.of_one_recording && each_time.local && !each_time.of_one_recording &&
+         once.name == each_time.name &&
+         (once.component == each_time.component || each_time.component == component_of(Wheel::both));
+}
+
 }  // namespace
 
 void judge(ScoredCandidate& c) {
@@ -180,8 +187,9 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     }
   };
   if (forms > 1 && !every_form) other_forms();
-  // Refined only where there is something to refine.
-  if (e.scan && best.test.statistic > 15.0) {
+  // Refined only where there is something to refine: a place is sharp, and half of what it says shows beside it.
+  constexpr double kWorthRefining = 15.0, kWorthRefiningAPlace = 7.0;
+  if (e.scan && best.test.statistic > (places.empty() ? kWorthRefining : kWorthRefiningAPlace)) {
     const auto climb = [&] {
       for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
         for (int round = 0; round < 4; ++round) {
@@ -193,6 +201,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
         }
     };
     climb();
+    if (forms > 1 && !places.empty()) other_forms(), climb();
     std::sort(places.begin(), places.end());
     const ScoredCandidate first = best;
     ScoredCandidate top = best;
@@ -200,6 +209,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
       best = first;
       best.test.statistic = 0.0;
       if (!consider(shapes[places[k].second])) continue;
+      if (forms > 1) other_forms();
       climb();
       if (best.test.statistic > top.test.statistic) top = best;
     }
@@ -269,6 +279,12 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
           chi_square_tail(own.test.judged() - shared.test.judged(), more) > 1e-3)
         own.test.statistic = 0.0, own.p_value = 1.0;
     }
+  // What is said to come back each time must say more than that it happened once, by two standard errors.
+  constexpr double kMore = 4.0;
+  for (ScoredCandidate& each_time : scored)
+    for (const ScoredCandidate& once : scored)
+      if (happens_once_of(*once.effect, *each_time.effect) && each_time.test.judged() < once.test.judged() + kMore)
+        each_time.test.statistic = 0.0, each_time.p_value = 1.0;
   std::sort(scored.begin(), scored.end(),
             [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.test.judged() > b.test.judged(); });
   return scored;

@@ -81,6 +81,8 @@ void draw_form(Random& random, DrawnEffect& drawn, const std::string& name, doub
   }
   if (name == "slip_zone") p.push_back({"radius_m", random.uniform(0.25, 0.6)});
   if (name == "bump") p.push_back({"radius_m", 0.1});
+  if (name == "drivetrain_backlash" && random.uniform() < 0.5)  // of a wheel that runs easily
+    p.push_back({"drag_mps2", random.uniform(0.05, 0.4)});
   drawn.at_a_place = name == "slip_zone" || name == "bump";
 }
 

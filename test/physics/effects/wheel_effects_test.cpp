@@ -90,6 +90,16 @@ TEST(DrivetrainBacklash, WheelsLagByTheGapAfterAReversalWhileTheEncoderTurns) {
   EXPECT_NEAR(s.state().true_pose.x_m, kRadius_m * s.state().left.rotation_rad, 7e-4);
 }
 
+TEST(DrivetrainBacklash, AWheelThatRunsEasilyRunsAheadByTheGapWhileItsMotorBrakes) {
+  const auto ahead_rad = [](double drag_mps2) {
+    Simulation s(table_drive({phase(5.0, 0.4, 0.0)}, {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}, {"drag_mps2", drag_mps2}}}}), 1);
+    run_to_end(s);
+    return s.state().left.rotation_rad - s.state().left.counted_rad;
+  };
+  EXPECT_NEAR(ahead_rad(0.1), 0.05, 1e-9);  // the ramp brakes at 0.8 m/s2: the other flank holds the wheel back
+  EXPECT_NEAR(ahead_rad(1.0), 0.0, 1e-9);   // braked harder by its own drag, it never leaves the flank that drives it
+}
+
 TEST(EncoderMissedCounts, LosesItsShareAboveTheSpeedAlone) {
   const ActiveEffect missed{"encoder_missed_counts", "left_wheel", {{"fraction", 0.02}, {"above_radps", 4.0}}};
   const Simulation slow = finished(table_drive({phase(10.0, 0.2, 0.0)}, {missed}));  // 2.7 rad/s
