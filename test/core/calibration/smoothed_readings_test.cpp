@@ -36,6 +36,20 @@ TEST(SmoothedReadings, KeepTimesAndEnds) {
   EXPECT_NEAR(smooth.back().right_rad, raw.back().right_rad, 1e-12);
 }
 
+TEST(SmoothedReadings, FollowAWheelThatSpeedsUpWhereALineWouldNot) {
+  std::vector<WheelSample> exact = readings();
+  for (WheelSample& s : exact) s.left_rad = turned_rad(s.time_s);
+  const std::vector<WheelSample> smooth = smoothed(exact);
+  const double of_a_line = 1.5 * 0.25 * 0.25 / 6.0;  // a h^2 / 6, the mean of a parabola over its window
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double t = exact[i].time_s, off = std::abs(smooth[i].left_rad - turned_rad(t));
+    if (t > 1.25 && t < 1.75) {
+      EXPECT_LT(off, 1e-9) << t;  // even acceleration: rounding of sums
+    }
+    EXPECT_LT(off, 0.1 * of_a_line) << t;  // and where it begins and ends: 0.064
+  }
+}
+
 TEST(SmoothedReadings, FollowAnEvenWheelToATenthOfACount) {
   const std::vector<WheelSample> smooth = smoothed(readings());
   // Rounding down is half a count low in the mean. 16 steps of the saw are averaged: 1/16 of a count at most, twice
