@@ -85,7 +85,8 @@ class PoseFilter {
     position2_ = model.noise.truth_position_m * model.noise.truth_position_m;
     heading2_ = model.noise.truth_heading_rad * model.noise.truth_heading_rad;
     wheel2_ = model.noise.wheel_m_per_sqrt_m * model.noise.wheel_m_per_sqrt_m;
-    body2_ = model.noise.body_m_per_sqrt_m * model.noise.body_m_per_sqrt_m;
+    along2_ = model.noise.along_m_per_sqrt_m * model.noise.along_m_per_sqrt_m;
+    turning2_ = model.noise.turning_m_per_sqrt_m * model.noise.turning_m_per_sqrt_m;
     sideways2_ = model.noise.sideways_m_per_sqrt_m * model.noise.sideways_m_per_sqrt_m;
   }
 
@@ -195,16 +196,19 @@ class PoseFilter {
     }
     PoseCovariance noise = PoseCovariance::packed(step.count_noise);
     const PoseCovariance of_wheels = PoseCovariance::packed(step.wheel_noise).times(wheel2_),
-                         of_body = PoseCovariance::packed(step.body_noise).times(body2_),
-                         of_sideways = PoseCovariance::packed(step.sideways_noise).times(sideways2_);
+                         along = PoseCovariance::packed(step.along_noise).times(along2_),
+                         turning = PoseCovariance::packed(step.turning_noise).times(turning2_),
+                         sideways = PoseCovariance::packed(step.sideways_noise).times(sideways2_);
     noise.add(of_wheels);
-    noise.add(of_body);
-    noise.add(of_sideways);
+    noise.add(along);
+    noise.add(turning);
+    noise.add(sideways);
     if (slopes_) {
       slopes_->carry(dx, dy);
       slopes_->grow(noise_size::wheel, of_wheels.turned(c, s));
-      slopes_->grow(noise_size::body, of_body.turned(c, s));
-      slopes_->grow(noise_size::sideways, of_sideways.turned(c, s));
+      slopes_->grow(noise_size::along, along.turned(c, s));
+      slopes_->grow(noise_size::turning, turning.turned(c, s));
+      slopes_->grow(noise_size::sideways, sideways.turned(c, s));
     }
     covariance_ = covariance_.carried(dx, dy);
     covariance_.add(noise.turned(c, s));
@@ -383,8 +387,8 @@ class PoseFilter {
   Turn facing_;  // cosine and sine of its heading
   int turns_ = 0;
   PoseCovariance covariance_, count_error_;
-  double position2_, heading2_, wheel2_, body2_, sideways2_;  // variances
-  double determinant_ = 1.0;                                  // of the samples since the last logarithm
+  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_;  // variances
+  double determinant_ = 1.0;                                              // of the samples since the last logarithm
   Eigen::Matrix<double, 3, columns, Eigen::RowMajor> derivative_, jacobian_;
   Eigen::Matrix<double, columns, columns, Eigen::RowMajor> information_;
   Eigen::Matrix<double, 1, columns> score_;

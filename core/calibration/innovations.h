@@ -22,9 +22,10 @@ struct FittedNoise {
   double wheel_m_per_sqrt_m = 0.0;  // each wheel's distance error grows with the square root of its travel
   double truth_position_m = 0.0;    // of each coordinate, white
   double truth_heading_rad = 0.0;   // white
-  // Of the body as a whole, forward and as the turn of half a wheelbase, independent of each other: what scrubs while
-  // one wheel stands still. Grows with the square root of the wheels' mean travel.
-  double body_m_per_sqrt_m = 0.0;
+  // Of the body as a whole, forward and as the turn of half a wheelbase, independent of each other and of the wheels:
+  // what scrubs while one wheel stands still, and what holds both wheels alike, or turns the body on them. They grow
+  // with the square root of the wheels' mean travel.
+  double along_m_per_sqrt_m = 0.0, turning_m_per_sqrt_m = 0.0;
   // The same sideways, where nothing rolls: another cause, and mostly far smaller.
   double sideways_m_per_sqrt_m = 0.0;
 };
@@ -116,9 +117,8 @@ struct InnovationModel {
 struct RelativeMotion {
   Pose motion;
   double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
-  double body_noise[6] = {};   // the same for a body noise of 1 m per root metre; 0 where the model has none
-  double sideways_noise[6] =
-      {};                      // the same for a sideways noise of 1 m per root metre; 0 where the model has no body's
+  // The same for noises of the body of 1 m per root metre, each by itself; 0 where the model has none.
+  double along_noise[6] = {}, turning_noise[6] = {}, sideways_noise[6] = {};
   double count_noise[6] = {};  // covariance of the count fractions that a wheel takes into a rest and leaves behind
 };
 struct SummedRun {

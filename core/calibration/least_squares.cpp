@@ -36,6 +36,11 @@ constexpr std::array<ColumnName, kColumns> kNames = {{{"wheel_radius_left_m", "m
                                                       {"truth_mounting.y_m", "m"},
                                                       {"truth_mounting.heading_rad", "rad"},
                                                       {"truth_mounting.time_offset_s", "s"}}};
+// What wheels and body err along the way together, per root metre: how much of it is whose is often hard to tell.
+double along_in_all(const FittedNoise& noise) {
+  return std::hypot(noise.wheel_m_per_sqrt_m / std::sqrt(2.0), noise.along_m_per_sqrt_m);
+}
+
 std::string text(const char* format, double a = 0.0, double b = 0.0) {
   char buffer[240];
   std::snprintf(buffer, sizeof buffer, format, a, b);
@@ -138,7 +143,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     if (!goes_on(progress, (round + 1.0) / (kRounds + 1))) return stopped;
     const bool changed = fit.gate();
     const FittedNoise& now = fit.now().shared.noise;
-    const double moved = std::max({std::abs(std::log(now.wheel_m_per_sqrt_m / before.wheel_m_per_sqrt_m)),
+    const double moved = std::max({std::abs(std::log(along_in_all(now) / along_in_all(before))),
                                    std::abs(std::log(now.truth_position_m / before.truth_position_m)),
                                    std::abs(std::log(now.truth_heading_rad / before.truth_heading_rad))});
     if (round > 0 && !changed && moved < 0.02) break;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
@@ -67,7 +68,7 @@ LikelihoodFit::Sums LikelihoodFit::sums(const FitParameters& parameters, bool de
 const SummedRun& LikelihoodFit::summed(int run, const InnovationModel& model) const {
   Kept& kept = kept_[static_cast<std::size_t>(run)];
   const DifferentialDrive &was = kept.drive, &is = model.drive;
-  const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
+  const bool body_is_noisy = model.noise.along_m_per_sqrt_m > 0.0;
   if (kept.summed.motions.empty() || was.wheel_radius_left_m != is.wheel_radius_left_m ||
       was.wheel_radius_right_m != is.wheel_radius_right_m || was.wheelbase_m != is.wheelbase_m ||
       kept.clock_s != model.truth.time_offset_s || kept.body_is_noisy != body_is_noisy)
@@ -148,12 +149,11 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
 }
 
 void LikelihoodFit::fit_noise(const std::vector<int>& active) {
+  const bool any_heading = std::any_of(runs_.begin(), runs_.end(), std::mem_fn(&InnovationRun::truth_has_heading));
+  const bool restricted = truth_samples() < 1000, of_body = any_heading && !restricted;
+  if (of_body) now_.shared.noise = with_body(now_.shared.noise);
   std::vector<const SummedRun*> of_run;
-  bool any_heading = false;
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
-    of_run.push_back(&summed(r, now_.of(r)));
-    any_heading = any_heading || runs_[r].truth_has_heading;
-  }
+  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) of_run.push_back(&summed(r, now_.of(r)));
   const std::vector<Stretch> stretches = noise_stretches();
   const auto with = [&](const FittedNoise& noise, int run) {
     InnovationModel model = now_.of(run);
@@ -177,9 +177,9 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
       for (std::size_t c = 0; c < active.size(); ++c) a(r, c) = total.information(active[r], active[c]) + (r == c);
     return a.ldlt().vectorD().array().log().sum();
   };
-  NoiseFit fit{{noise_size::wheel, noise_size::position}, {0.003, 0.002, 0.005}};
+  NoiseFit fit{{noise_size::wheel, noise_size::position}, kUsualNoise};
   if (any_heading) fit.free.push_back(noise_size::heading);
-  const bool restricted = truth_samples() < 1000;
+  if (of_body) fit.add_body();
   const auto likelihood = [&](const FittedNoise& noise) {
     std::vector<NoiseSlopes> of_stretch(stretches.size());
     each(static_cast<int>(stretches.size()), [&](int i) {

@@ -117,7 +117,7 @@ class NoiseCarry {
   double curvature(int size, int other) const { return curvature_(size, other); }
 
  private:
-  static constexpr int kLanes = noise_size::count + 1;  // even, so that they fill whole registers
+  static constexpr int kLanes = noise_size::count + noise_size::count % 2;  // even, so that they fill whole registers
   using Sizes = Eigen::Array<double, kLanes, 1>;
 
   void add(int size, const PoseCovariance& c) {

@@ -22,11 +22,26 @@ double& size_of(FittedNoise& noise, int size) {
       return noise.truth_position_m;
     case noise_size::heading:
       return noise.truth_heading_rad;
-    case noise_size::body:
-      return noise.body_m_per_sqrt_m;
+    case noise_size::along:
+      return noise.along_m_per_sqrt_m;
+    case noise_size::turning:
+      return noise.turning_m_per_sqrt_m;
     default:
       return noise.sideways_m_per_sqrt_m;
   }
+}
+
+void NoiseFit::add_body() {
+  free.insert(free.end(), {noise_size::along, noise_size::turning, noise_size::sideways});
+  usual_sideways = 0.1;
+  least_sideways = 0.02;
+}
+
+FittedNoise with_body(FittedNoise noise) {
+  if (noise.along_m_per_sqrt_m <= 0.0)
+    noise.along_m_per_sqrt_m = noise.turning_m_per_sqrt_m = noise.sideways_m_per_sqrt_m =
+        0.3 * noise.wheel_m_per_sqrt_m;
+  return noise;
 }
 
 FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,

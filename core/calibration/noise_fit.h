@@ -14,7 +14,15 @@ struct NoiseFit {
   double within = 2.3;    // so far from usual, in logarithms; a factor of ten
   // Shares of the wheels' noise: what is usual sideways, where nothing rolls, and what nobody is truer than.
   double usual_sideways = 0.0, least_sideways = 0.0;
+
+  // Lets the body's sizes free too. Sideways a tenth of the wheels' noise is usual, and less than a fiftieth is not
+  // believed.
+  void add_body();
 };
+
+constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005};
+// Gives a noise that has none of the body a little, to start a fit from.
+FittedNoise with_body(FittedNoise noise);
 
 // Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.
 FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,

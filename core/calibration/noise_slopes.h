@@ -12,9 +12,10 @@ namespace noise_size {
 constexpr int wheel = 0;
 constexpr int position = 1;
 constexpr int heading = 2;
-constexpr int body = 3;
-constexpr int sideways = 4;
-constexpr int count = 5;
+constexpr int along = 3;
+constexpr int turning = 4;
+constexpr int sideways = 5;
+constexpr int count = 6;
 }  // namespace noise_size
 
 double& size_of(FittedNoise& noise, int size);

@@ -92,13 +92,16 @@ class RollingNoise {
     const double way_m = 0.5 * (left_m + right_m), more_m = (1.0 - kScrub) * (right_m - left_m);
     const double ax = 0.5 * heading.c, ay = 0.5 * heading.s;
     const double qx = -0.5 * dy * inverse_base, qy = 0.5 * dx * inverse_base, qh = inverse_base;
-    even_ = even_.carried(dx, dy);
-    even_.xx += way_m * (ax * ax + qx * qx);
-    even_.xy += way_m * (ax * ay + qx * qy);
-    even_.xh += way_m * (qx * qh);
-    even_.yy += way_m * (ay * ay + qy * qy);
-    even_.yh += way_m * (qy * qh);
-    even_.hh += way_m * (qh * qh);
+    along_.xx += way_m * (ax * ax);
+    along_.xy += way_m * (ax * ay);
+    along_.yy += way_m * (ay * ay);
+    turning_ = turning_.carried(dx, dy);
+    turning_.xx += way_m * (qx * qx);
+    turning_.xy += way_m * (qx * qy);
+    turning_.xh += way_m * (qx * qh);
+    turning_.yy += way_m * (qy * qy);
+    turning_.yh += way_m * (qy * qh);
+    turning_.hh += way_m * (qh * qh);
     uneven_ = uneven_.carried(dx, dy);
     uneven_.xx += more_m * (2.0 * ax * qx);
     uneven_.xy += more_m * (ax * qy + ay * qx);
@@ -110,16 +113,18 @@ class RollingNoise {
     sideways_.yy += way_m * (heading.c * heading.c);
   }
   void pack(RelativeMotion& out, bool body_is_noisy) const {
-    PoseCovariance wheels = even_.times(2.0);
+    PoseCovariance wheels = along_.times(2.0);
+    wheels.add(turning_.times(2.0));
     wheels.add(uneven_);
     wheels.pack(out.wheel_noise);
     if (!body_is_noisy) return;
-    even_.times(4.0).pack(out.body_noise);
+    along_.times(4.0).pack(out.along_noise);
+    turning_.times(4.0).pack(out.turning_noise);
     sideways_.pack(out.sideways_noise);
   }
 
  private:
-  PoseCovariance even_, uneven_, sideways_;
+  PoseCovariance along_, turning_, uneven_, sideways_;
 };
 
 }  // namespace
@@ -133,7 +138,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   const int extras = static_cast<int>(run.extra.size());
   const int p = column::first_extra + extras;
   const double count = count_rad(run, drive);
-  const bool body_is_noisy = model.noise.body_m_per_sqrt_m > 0.0;
+  const bool body_is_noisy = model.noise.along_m_per_sqrt_m > 0.0;
   SummedRun summed;
   summed.columns = p;
   summed.motions.resize(run.truth.size() - 1);

@@ -21,7 +21,8 @@ RelativeMotion followed(const RelativeMotion& first, const RelativeMotion& then)
     sum.pack(into);
   };
   add_up(first.wheel_noise, then.wheel_noise, both.wheel_noise);
-  add_up(first.body_noise, then.body_noise, both.body_noise);
+  add_up(first.along_noise, then.along_noise, both.along_noise);
+  add_up(first.turning_noise, then.turning_noise, both.turning_noise);
   add_up(first.sideways_noise, then.sideways_noise, both.sideways_noise);
   add_up(first.count_noise, then.count_noise, both.count_noise);
   return both;

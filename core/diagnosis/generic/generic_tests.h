@@ -26,6 +26,7 @@ struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;             // beside all that was let in
   CandidateTest instead;          // and in its place; the same where nothing was
+  double under_own_noise = 1.0;   // times so much, where `test` was asked under the noise that the group leaves
   double tests = 1.0;             // that it was chosen from
   double p_value = 1.0;           // of `test`, over all of them
   double p_value_of(const CandidateTest& of) const;

@@ -32,10 +32,11 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
   const double q2 = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m,
                p2 = noise.truth_position_m * noise.truth_position_m,
                h2 = noise.truth_heading_rad * noise.truth_heading_rad,
-               body2 = noise.body_m_per_sqrt_m * noise.body_m_per_sqrt_m,
+               along2 = noise.along_m_per_sqrt_m * noise.along_m_per_sqrt_m,
+               turning2 = noise.turning_m_per_sqrt_m * noise.turning_m_per_sqrt_m,
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
-  const double turn2_per_m = (q2 + 2.0 * body2) / (wheelbase_m * wheelbase_m);
-  sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (body2 + side2)) * left_and_right_m +
+  const double turn2_per_m = (q2 + 2.0 * turning2) / (wheelbase_m * wheelbase_m);
+  sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m +
                            turn2_per_m * swung_m3;
   sum.noise_heading_rad2 += 2.0 * h2 + turn2_per_m * left_and_right_m;
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
+#include "core/calibration/noise_fit.h"
 #include "core/calibration/restamped.h"
 #include "core/diagnosis/model/counts_at_rest.h"
 
@@ -41,8 +42,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   model.truth = start.vehicle.truth;
   model.noise = start.noise;
   if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
-  if (model.noise.body_m_per_sqrt_m <= 0.0)
-    model.noise.body_m_per_sqrt_m = model.noise.sideways_m_per_sqrt_m = 0.3 * model.noise.wheel_m_per_sqrt_m;
+  model.noise = with_body(model.noise);
   clock_s = start.time_offset_s;
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);

@@ -17,9 +17,6 @@ constexpr int kNoiseSamples = 5000;
 
 void JointModel::fit_noise() {
   cut();
-  constexpr FittedNoise kUsual = {0.003, 0.002, 0.005, 0.0005, 0.0005};
-  // A model is not trusted to be truer sideways than this share of the wheels' noise.
-  constexpr double kUsualSideways = 0.1, kLeastSideways = 0.02;
   constexpr double kWay_m = 0.1;
   constexpr double kSampledWithin = 0.5;  // of logarithms: a factor of 1.6
   struct Part {
@@ -67,9 +64,8 @@ void JointModel::fit_noise() {
     whole.push_back({&l.run(), &l.summed()});
     any_heading = any_heading || l.run().truth_has_heading;
   }
-  NoiseFit of_samples{{noise_size::wheel, noise_size::position, noise_size::body, noise_size::sideways}, kUsual};
-  of_samples.usual_sideways = kUsualSideways;
-  of_samples.least_sideways = kLeastSideways;
+  NoiseFit of_samples{{noise_size::wheel, noise_size::position}, kUsualNoise};
+  of_samples.add_body();
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples);
   // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
@@ -84,8 +80,9 @@ void JointModel::fit_noise() {
     left += static_cast<int>(thin[r].run.truth.size());
   }
   if (left <= 3 * columns()) return;
-  NoiseFit of_ways{{noise_size::wheel, noise_size::body, noise_size::sideways}, model.noise, kSampledWithin};
-  of_ways.least_sideways = kLeastSideways;
+  NoiseFit of_ways{{noise_size::wheel}, model.noise, kSampledWithin};
+  of_ways.add_body();
+  of_ways.usual_sideways = 0.0;  // what is usual is what the samples said
   model.noise = fitted(thinned, of_ways);
 }
 

@@ -14,7 +14,8 @@ constexpr int kHalvings = 10;  // of the range of the noise, which begins a hund
 
 FittedNoise times(FittedNoise noise, double factor) {
   noise.wheel_m_per_sqrt_m *= factor;
-  noise.body_m_per_sqrt_m *= factor;
+  noise.along_m_per_sqrt_m *= factor;
+  noise.turning_m_per_sqrt_m *= factor;
   noise.sideways_m_per_sqrt_m *= factor;
   return noise;
 }

@@ -9,7 +9,7 @@
 namespace odolab {
 namespace {
 
-constexpr FittedNoise kNoise = {0.003, 0.001, 0.004, 0.0015, 0.001};
+constexpr FittedNoise kNoise = {0.003, 0.001, 0.004, 0.0015, 0.0012, 0.001};
 
 struct Driven {
   InnovationModel model;

@@ -53,7 +53,7 @@ TEST(ThinnedTruth, SumsUpWhatTheWheelsDidAsIfTheOtherSamplesHadNotBeen) {
   InnovationRun run = pivot();
   for (WheelSample& w : run.wheels) w.left_rad = 0.3 * w.right_rad * w.right_rad;
   InnovationModel model = wheels_of_a_tenth();
-  model.noise.body_m_per_sqrt_m = 0.001;
+  model.noise.along_m_per_sqrt_m = model.noise.turning_m_per_sqrt_m = 0.001;
   const ThinnedTruth thin = thinned_truth(run, summed_up(run, model), model, 0.1);
   const SummedRun whole = [&] {
     InnovationRun only = run;
@@ -69,7 +69,8 @@ TEST(ThinnedTruth, SumsUpWhatTheWheelsDidAsIfTheOtherSamplesHadNotBeen) {
     EXPECT_NEAR(a.motion.heading_rad, b.motion.heading_rad, kRounding);
     for (int k = 0; k < 6; ++k) {
       EXPECT_NEAR(a.wheel_noise[k], b.wheel_noise[k], kRounding);
-      EXPECT_NEAR(a.body_noise[k], b.body_noise[k], kRounding);
+      EXPECT_NEAR(a.along_noise[k], b.along_noise[k], kRounding);
+      EXPECT_NEAR(a.turning_noise[k], b.turning_noise[k], kRounding);
       EXPECT_NEAR(a.sideways_noise[k], b.sideways_noise[k], kRounding);
     }
   }

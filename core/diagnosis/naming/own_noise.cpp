@@ -1,0 +1,21 @@
+#include "core/diagnosis/naming/own_noise.h"
+
+#include <algorithm>
+
+namespace odolab {
+
+CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
+                                     double least_surviving) {
+  with.fit(2);
+  with.fit_noise();
+  with.fit(2);
+  const AcceptedEffect& term = with.accepted.back();
+  CandidateColumns columns = with.columns_of(*term.effect, term.shape);
+  columns.least_surviving = least_surviving;
+  CandidateTest test = with.test(columns, static_cast<int>(with.accepted.size()) - 1, thorough);
+  test.shape = term.shape;
+  test.statistic = std::min(test.statistic, without.minus_two_log_likelihood() - with.minus_two_log_likelihood());
+  return test;
+}
+
+}  // namespace odolab

@@ -1,0 +1,19 @@
+// What a term says once the noise is what it leaves.
+#pragma once
+
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+// What a model does not describe looks like noise to it: the sizes of the noise are fitted to what is left, and grow
+// with it. Under them the score of the very term that is missing is small, the more so the poorer the truth is: of
+// thirty standard errors under the true noise five and a half were left. So the noise is fitted with the term in the
+// model.
+//
+// `with`: the model `without` and that term let in last, which is to be fitted here, noise and all. The statistic is
+// the smaller of the score's under the new noise and of what the likelihood gains from the one model to the other:
+// where nothing is missing the first alone would be too large, by what the noise loses to any term.
+CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
+                                     double least_surviving);
+
+}  // namespace odolab
