@@ -122,7 +122,7 @@ int execute(const DiagnoseOptions& options) {
   if (Result<Done> written = write(options, *diagnosis, model_of(*diagnosis)); !written)
     return bad_input(written.error());
   for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
-  for (const std::string& warning : diagnosis->warnings) print_message("warning: " + warning);
+  for (const std::string& warning : merged_warnings(diagnosis->warnings)) print_message("warning: " + warning);
   for (const std::string* path : {&options.json, &options.model, &options.html})
     if (!path->empty()) print_message("written: " + *path);
   return kDone;

@@ -221,6 +221,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
       covariance = factor.asDiagonal() * covariance * factor.asDiagonal();
       most = factor.maxCoeff();
     }
+    result.innovations_are_correlated = true;
     result.warnings.push_back(
         text("the innovations are correlated (%.2f from one to the next): there is something that these "
              "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
@@ -278,6 +279,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   result.vehicle.truth.time_offset_s = clock_s;
   result.noise = model.noise;
   if (!any_heading) result.noise.truth_heading_rad = 0.0;
+  result.scale_is_open = scale_is_open;
   result.cannot_tell = what_cannot_be_told(determined, scale_is_open, active, fit.runs(), model.drive, any_heading);
   if (clock_hides_in_place)
     result.cannot_tell.push_back(

@@ -48,6 +48,7 @@ struct LeastSquaresCalibration {
   FittedNoise noise;                     // from the same recordings
   std::vector<std::string> cannot_tell;  // what the recordings cannot determine, and which drive would, in words
   std::vector<std::string> warnings;
+  bool scale_is_open = false;            // only ratios show: the mean radius is held as it was given
   int innovations = 0;                   // scalar measurements used
   int outliers = 0;                      // truth samples set aside because they contradict their neighbours
   double normalised_chi2_nominal = 0.0;  // of the innovations, with the noise as fitted; 1 is a perfect fit
@@ -56,6 +57,7 @@ struct LeastSquaresCalibration {
   // there is something that these parameters do not describe. The standard errors are then enlarged to what the scatter
   // of the score over batches of the recordings shows.
   double correlation[3] = {};
+  bool innovations_are_correlated = false;
   double lasting_correlation = 0.0;    // the largest of these at a reading and a half of the encoders
   double correlation_after_1_s = 0.0;  // and of innovations a second apart
   // Where these are large and pass within half a second, the truth's noise lasts: only samples so far apart are used

@@ -20,7 +20,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
   const double base_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
   const double least_m = std::min(0.004, 0.02 * base_m);
-  const double least[3] = {least_m, least_m, 0.003};
+  const double least[3] = {least_m, least_m, 0.001};
   Finding mounting;
   double gain = 0.0;
   bool material = false, moved = false;
@@ -39,7 +39,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   // besides is the simpler cause of both.
   const double turned = now.heading_rad - then.heading_rad;
   const double shifted = std::hypot(by[0], by[1]);
-  if (material && !moved && shifted < 0.01 && std::abs(turned) > 0.002 && std::abs(turned) < 0.1 &&
+  if (material && !moved && shifted < 0.01 && std::abs(turned) < 0.1 &&
       !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
     const FoundParameter heading = mounting.parameters.back();
     Finding toe;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/diagnosis/effects/effect.h"
 #include "core/geometry/angles.h"
 #include "core/io/number_text.h"
 #include "core/vehicle/key_words.h"
@@ -98,8 +99,9 @@ std::string finding_line(const Finding& f) {
   if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
   std::string parameters;
   for (const FoundParameter& p : f.parameters)
-    parameters += (parameters.empty() ? "; " : ", ") + parameter_words(p.name) + " " +
-                  quantity_text(p.value, p.stderr_value, p.unit);
+    if (p.name != kSessionStart)  // given, not found
+      parameters += (parameters.empty() ? "; " : ", ") + parameter_words(p.name) + " " +
+                    quantity_text(p.value, p.stderr_value, p.unit);
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
@@ -107,6 +109,16 @@ std::string finding_line(const Finding& f) {
     line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
   if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   return line;
+}
+
+// "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
+std::string without_units(std::string text) {
+  for (std::size_t from = text.find(" ["); from != std::string::npos; from = text.find(" [", from)) {
+    const std::size_t to = text.find(']', from);
+    if (to == std::string::npos) break;
+    text.erase(from, to + 1 - from);
+  }
+  return text;
 }
 
 std::string fit_line(const char* name, const FitTable& table) {
@@ -170,7 +182,12 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       if (!physics.empty())
         sentence = "What the model lacks: " + list_of(physics, "and") + ".";
       else if (any)
-        sentence = open.empty() ? "No physics is missing." : "";
+        sentence =
+            !open.empty() ? ""
+            : diagnosis.calibration_alone.innovations_are_correlated
+                ? "No physics is found missing, but what is left is no mere noise: it goes on from one sample of "
+                  "the truth to the next."
+                : "No physics is missing.";
       if (!measured.empty())
         sentence += (sentence.empty() ? "" : " ") +
                     ("Clocks or markers are not as the vehicle's file says: " + list_of(measured, "and") + ".");
@@ -181,7 +198,10 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       break;
     }
     case Verdict::nothing_missing:
-      sentence = "Nothing is missing: calibration explains these recordings down to their noise.";
+      sentence = diagnosis.calibration_alone.innovations_are_correlated
+                     ? "Nothing is found missing, but what calibration leaves is no mere noise: it goes on from one "
+                       "sample of the truth to the next."
+                     : "Nothing is missing: calibration explains these recordings down to their noise.";
       break;
     case Verdict::unknown_effect:
       sentence = "Something is missing that no known effect describes.";
@@ -231,10 +251,43 @@ std::string where_text(const WhereFound& where) {
   if (where.zone)
     parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) +
                     number_text(", y %.2f m", where.zone->y_m));
-  if (!where.regime.empty()) parts.push_back(where.regime);
+  if (!where.regime.empty()) parts.push_back(without_units(where.regime));
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
   return text;
+}
+
+std::vector<std::string> merged_warnings(const std::vector<std::string>& warnings) {
+  struct Said {
+    std::string name, text, kind;  // `kind`: the text but for its figures
+    int times = 1;
+  };
+  std::vector<Said> all;
+  for (const std::string& warning : warnings) {
+    Said one;
+    const std::size_t colon = warning.find(": ");
+    if (colon != std::string::npos && warning.rfind(".csv", colon) != std::string::npos)
+      one.name = warning.substr(0, colon), one.text = warning.substr(colon);
+    else
+      one.text = warning;
+    for (const char c : one.text)
+      if ((c < '0' || c > '9') && c != '.' && c != '-') one.kind += c;
+    const auto same = std::find_if(all.begin(), all.end(), [&](const Said& s) {
+      return s.kind == one.kind && !s.name.empty() && !one.name.empty();
+    });
+    if (same != all.end())
+      ++same->times;
+    else
+      all.push_back(one);
+  }
+  std::vector<std::string> merged;
+  for (const Said& s : all)
+    merged.push_back(s.name +
+                     (s.times > 1 ? more_of(static_cast<std::size_t>(s.times - 1), " and another like it",
+                                            " and %.0f others like it")
+                                  : "") +
+                     s.text);
+  return merged;
 }
 
 std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines, std::size_t columns) {
@@ -256,7 +309,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
         effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
     if (f.alternatives.size() > 1)
       other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
-    if (!a.told_apart_by.empty()) other += "; told apart by " + a.told_apart_by;
+    if (!a.told_apart_by.empty()) other += "; told apart by " + without_units(a.told_apart_by);
     append_wrapped(lines, other, columns, "   ");
   }
   if (diagnosis.findings.size() > kMostFindings)
@@ -269,6 +322,9 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
     if (p.determined && p.name.find('.') == std::string::npos)
       calibration += (calibration.empty() ? "" : ", ") + parameter_words(p.name) + " " +
                      quantity_text(p.value, p.stderr_value, p.unit);
+  if (diagnosis.calibration.scale_is_open)
+    calibration +=
+        "; only their ratios show here: the mean radius is the vehicle file's, and nothing says how true it is";
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
   if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
   for (const std::string& line :

@@ -24,6 +24,9 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 // "in run_3.csv, 3.75 to 7.25 s; within 0.70 m of (2.20, 0.10) m; in turns"; empty where nothing applies.
 std::string where_text(const WhereFound& where);
 
+// Warnings that say the same of several recordings, but for their figures, as one, with the figures of the first.
+std::vector<std::string> merged_warnings(const std::vector<std::string>& warnings);
+
 // The summary that a person reads in a minute on a terminal: `most_lines` lines at most, each fit for `columns`.
 std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines = 25,
                                        std::size_t columns = 110);

@@ -11,13 +11,13 @@ namespace odolab::effects {
 
 namespace {
 
-constexpr double kLength_m[3] = {0.06, 0.02, 0.2};  // of the way on which the extra distance is rolled
+constexpr double kLength_m[] = {0.06, 0.02, 0.2, 0.1};  // of the way on which the extra distance is rolled
 
 // What lies at a place: met within so far of it, and climbed over so much of the way; no length: as long as it is met.
 struct Lying {
   double reach_m, length_m;
 };
-constexpr Lying kLying[] = {{0.1, 0.06}, {0.05, 0.06}, {0.2, 0.06}, {0.1, 0.0}, {0.2, 0.0}};
+constexpr Lying kLying[] = {{0.1, 0.06}, {0.05, 0.06}, {0.2, 0.06}, {0.1, 0.1}, {0.1, 0.0}};
 
 double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
@@ -117,7 +117,7 @@ Effect of_wheel(Wheel wheel) {
 Effect once(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
-  e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm"};
+  e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm", "over 10 cm"};
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};
@@ -132,7 +132,7 @@ Effect once(Wheel wheel) {
 
 std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& views, Wheel which) {
   constexpr double kGrid_m = 0.1, kNear_m = 0.15;  // a place between two points of the grid is near both
-  constexpr std::size_t kMost = 1600;
+  constexpr std::size_t kMost = 1000;
   using Cell = std::pair<int, int>;
   std::map<Cell, int> visits;
   for (const DriveView& view : views)
@@ -167,7 +167,9 @@ std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& 
 Effect each_time(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}};
-  e.forms = {"20 cm wide, climbed in 6 cm", "10 cm wide", "40 cm wide", "20 cm wide and long", "40 cm wide and long"};
+  e.forms = {"20 cm wide, climbed in 6 cm", "10 cm wide", "40 cm wide", "20 cm wide, climbed in 10 cm"};
+  // As long as it is wide, and under either wheel, it would be a patch of floor.
+  if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())])};
   };

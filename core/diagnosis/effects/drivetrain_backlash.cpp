@@ -141,7 +141,7 @@ Effect of_wheel(Wheel wheel) {
     return std::vector<Motions>{m};
   };
   e.scan = [](const std::vector<DriveView>&) {
-    return std::vector<std::vector<double>>{{0.005}, {0.02}, {0.06}, {0.15}};
+    return std::vector<std::vector<double>>{{0.01}, {0.06}};
   };
   return e;
 }

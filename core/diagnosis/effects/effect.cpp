@@ -88,7 +88,7 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
   // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
   // kick, so that over shorter times noise itself would depend on acceleration.
-  constexpr double kSpeedWindow_s = 0.0, kAccelerationWindow_s = 0.12;  // to either side
+  constexpr double kSpeedWindow_s = 0.0, kAccelerationWindow_s = 0.15;  // to either side
   const auto smoothed = [&](int i, double half_s, double* left, double* right) {
     const double t = view.steps[i].time_s;
     int lo = i, hi = i;

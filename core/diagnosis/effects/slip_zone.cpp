@@ -17,9 +17,9 @@ std::vector<Effect> slip_zone() {
   e.component = "floor";
   e.amplitudes = {{"slip", "1", 0.05, 0.0, 1.0}};
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}, {"radius_m", "m", 0.0, 0.03, 20.0}};
-  // A patch of three numbers is refined from a coarse grid, from several starts: a few independent ones for each
+  // A patch of three numbers is refined from a grid, from several starts: some two independent ones for each
   // scanned.
-  e.tests_of_a_shape = 4.0;
+  e.tests_of_a_shape = 2.0;
   e.forms = {"each wheel that is on the patch", "both wheels while the axle's centre is on it",
              "travel alone while the axle's centre is on it"};
   e.sentence = "there is a patch of floor on which the wheels slip";
@@ -63,8 +63,8 @@ std::vector<Effect> slip_zone() {
       }
     std::vector<std::vector<double>> shapes;
     if (x1 < x0) return shapes;
-    for (double radius : {0.25, 0.5, 0.9}) {
-      const double stride = std::max(0.8 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / 70.0));
+    for (const auto& [radius, most] : {std::pair{0.25, 600.0}, {0.5, 200.0}, {0.9, 70.0}}) {
+      const double stride = std::max(0.8 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / most));
       for (double x = x0; x <= x1 + 0.5 * stride; x += stride)
         for (double y = y0; y <= y1 + 0.5 * stride; y += stride) {
           bool visited = false;

@@ -6,7 +6,6 @@ namespace odolab {
 
 CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
                                      double least_surviving) {
-  with.fit(2);
   with.fit_noise();
   with.fit(2);
   const AcceptedEffect& term = with.accepted.back();

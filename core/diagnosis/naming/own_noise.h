@@ -10,7 +10,7 @@ namespace odolab {
 // thirty standard errors under the true noise five and a half were left. So the noise is fitted with the term in the
 // model.
 //
-// `with`: the model `without` and that term let in last, which is to be fitted here, noise and all. The statistic is
+// `with`: the model `without` and that term let in last and fitted; the noise is fitted here. The statistic is
 // the smaller of the score's under the new noise and of what the likelihood gains from the one model to the other:
 // where nothing is missing the first alone would be too large, by what the noise loses to any term.
 CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,

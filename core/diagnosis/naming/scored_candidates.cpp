@@ -121,6 +121,12 @@ bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<do
   return away_m2 < reach_m * reach_m;
 }
 
+// The same place, met by one wheel alone.
+bool is_met_by_one_of(const Effect& one, const Effect& either) {
+  return either.local && !either.of_one_recording && either.component == component_of(Wheel::both) && one.local &&
+         !one.of_one_recording && one.name == either.name && one.component != either.component;
+}
+
 // The same by a wheel of that place, at one moment of one recording.
 bool happens_once_of(const Effect& once, const Effect& each_time) {
   return once.local && once.of_one_recording && each_time.local && !each_time.of_one_recording &&
@@ -205,7 +211,10 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     std::sort(places.begin(), places.end());
     const ScoredCandidate first = best;
     ScoredCandidate top = best;
-    for (std::size_t k = 1; k < std::min<std::size_t>(places.size(), 8); ++k) {
+    constexpr std::size_t kStarts = 6;
+    constexpr double kWorthAStart = 0.5;  // of the best place that was scanned
+    for (std::size_t k = 1; k < std::min(places.size(), kStarts); ++k) {
+      if (places[k].first > kWorthAStart * places.front().first) break;
       best = first;
       best.test.statistic = 0.0;
       if (!consider(shapes[places[k].second])) continue;
@@ -279,11 +288,17 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
           chi_square_tail(own.test.judged() - shared.test.judged(), more) > 1e-3)
         own.test.statistic = 0.0, own.p_value = 1.0;
     }
-  // What is said to come back each time must say more than that it happened once, by two standard errors.
-  constexpr double kMore = 4.0;
+  // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
+  // time more than that it happened once, by more than another form does.
+  constexpr double kMore = 4.0, kMoreThanAForm = 1.25;
+  for (ScoredCandidate& either : scored)
+    for (const ScoredCandidate& one : scored)
+      if (is_met_by_one_of(*one.effect, *either.effect) && either.test.judged() < one.test.judged() + kMore)
+        either.test.statistic = 0.0, either.p_value = 1.0;
   for (ScoredCandidate& each_time : scored)
     for (const ScoredCandidate& once : scored)
-      if (happens_once_of(*once.effect, *each_time.effect) && each_time.test.judged() < once.test.judged() + kMore)
+      if (happens_once_of(*once.effect, *each_time.effect) &&
+          each_time.test.judged() < std::max(once.test.judged() + kMore, kMoreThanAForm * once.test.judged()))
         each_time.test.statistic = 0.0, each_time.p_value = 1.0;
   std::sort(scored.begin(), scored.end(),
             [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.test.judged() > b.test.judged(); });

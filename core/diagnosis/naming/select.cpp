@@ -107,13 +107,17 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
   return gained;
 }
 
-// Where nothing stands, what comes nearest is asked once more under the noise that it leaves.
+// Where nothing stands, what comes nearest is asked once more under the noise that it leaves. One moment moves no
+// noise.
 void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
-  constexpr std::size_t kMost = 3;
-  constexpr double kWorthALook = 8.0;  // of the statistic
+  constexpr std::size_t kMost = 2;
+  constexpr double kWorthALook =
+      8.0;  // of the statistic; and it must then be larger by more than noise loses to any term
+  constexpr double kLarger = 1.25;
   std::vector<ScoredCandidate*> nearest;
   for (ScoredCandidate& c : scored)
-    if (c.beyond_counts && c.test.judged() > kWorthALook && !of_the_same(joint, c)) nearest.push_back(&c);
+    if (!c.effect->of_one_recording && c.beyond_counts && c.test.judged() > kWorthALook && !of_the_same(joint, c))
+      nearest.push_back(&c);
   const auto tail = [](const ScoredCandidate* c) {
     return std::log(std::max(chi_square_tail(c->test.judged(), c->test.freedom), 1e-300)) + c->log_tests;
   };
@@ -124,7 +128,7 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
     JointModel with = joint;
     let_in(with, c);
     const CandidateTest again = tested_under_own_noise(joint, with, !c.effect->local, 1e-3);
-    if (again.statistic < c.test.statistic) return;
+    if (again.statistic < kLarger * c.test.statistic) return;
     c.test.statistic = again.statistic;
     if (!c.effect->local) c.test.inflation = again.inflation, c.test.cross_validated = again.cross_validated;
     judge(c);
@@ -167,10 +171,15 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
     // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
-    // much it is the better name.
+    // much it is the better name. So it is beside a patch, whose place and size were looked for in three directions.
+    const auto is_simpler = [](const ScoredCandidate& c, const ScoredCandidate& first) {
+      if (of_one_moment(c, first))
+        return c.test.freedom < first.test.freedom && c.test.judged() > (1.0 - kFormError) * first.test.judged();
+      return c.effect->name == "bump" && c.effect->of_one_recording && first.effect->name == "slip_zone" &&
+             c.test.judged() > first.test.judged() - 2.0 * kClearlyBeaten;
+    };
     for (std::size_t k = 1; k < standing.size(); ++k)
-      if (standing[k]->test.freedom < standing[0]->test.freedom && of_one_moment(*standing[k], *standing[0]) &&
-          standing[k]->test.judged() > (1.0 - kFormError) * standing[0]->test.judged()) {
+      if (is_simpler(*standing[k], *standing[0])) {
         std::rotate(standing.begin(), standing.begin() + static_cast<std::ptrdiff_t>(k),
                     standing.begin() + static_cast<std::ptrdiff_t>(k) + 1);
         break;

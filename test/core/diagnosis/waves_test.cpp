@@ -96,6 +96,7 @@ TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   // Over all waves; both runs have phases of their own. Gusts are three times the noise, which has grown with them.
   JointModel with = joint;
   with.accepted.push_back({t.as_effect.get(), {}, std::vector<double>(t.test.value.size(), 0.0), {}});
+  with.fit(2);
   const CandidateTest again = tested_under_own_noise(joint, with, true, kLeastSurvivingOfGeneric);
   EXPECT_GT(again.statistic, 3.0 * t.test.statistic);
   EXPECT_LT(t.p_value_of(again), 1e-3);

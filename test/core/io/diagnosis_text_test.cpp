@@ -40,6 +40,24 @@ TEST(VerdictSentence, NamesWhatWasFound) {
   EXPECT_EQ(verdict_sentence(d), "The data are at fault: truth frozen.");
 }
 
+TEST(VerdictSentence, DoesNotCallNoiseWhatGoesOnFromSampleToSample) {
+  Diagnosis d;
+  d.verdict = Verdict::nothing_missing;
+  d.calibration_alone.innovations_are_correlated = true;
+  EXPECT_EQ(verdict_sentence(d),
+            "Nothing is found missing, but what calibration leaves is no mere noise: it goes on from one sample of the "
+            "truth to the next.");
+}
+
+TEST(MergedWarnings, SayOnceWhatHoldsForSeveralRecordings) {
+  const std::vector<std::string> merged =
+      merged_warnings({"a.csv: its stamps tremble by 0.24 ms", "something else", "b.csv: its stamps tremble by 0.3 ms",
+                       "b.csv: it stands still", "c.csv: its stamps tremble by 0.24 ms"});
+  const std::vector<std::string> expected = {"a.csv and 2 others like it: its stamps tremble by 0.24 ms",
+                                             "something else", "b.csv: it stands still"};
+  EXPECT_EQ(merged, expected);
+}
+
 TEST(VerdictSentence, TellsAMarkerFromPhysics) {
   Diagnosis d = test::diagnosis_by_hand();
   Finding mounting;
