@@ -173,16 +173,17 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
     // much it is the better name. So it is beside a patch, whose place and size were looked for in three directions.
     const auto is_simpler = [](const ScoredCandidate& c, const ScoredCandidate& first) {
-      if (of_one_moment(c, first))
+      if (of_one_moment(c, first) || first.effect->name == "collision")
         return c.test.freedom < first.test.freedom && c.test.judged() > (1.0 - kFormError) * first.test.judged();
       return c.effect->name == "bump" && c.effect->of_one_recording && first.effect->name == "slip_zone" &&
              c.test.judged() > first.test.judged() - 2.0 * kClearlyBeaten;
     };
-    for (std::size_t k = 1; k < standing.size(); ++k)
+    bool is_simplest = false;
+    for (std::size_t k = 1; k < standing.size() && !is_simplest; ++k)
       if (is_simpler(*standing[k], *standing[0])) {
         std::rotate(standing.begin(), standing.begin() + static_cast<std::ptrdiff_t>(k),
                     standing.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-        break;
+        is_simplest = true;
       }
     const JointModel before = joint;
     struct Fitted {
@@ -196,7 +197,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     const auto strongest = std::max_element(
         standing.begin(), standing.end(),
         [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->test.statistic < b->test.statistic; });
-    if (strongest != standing.end() && strongest != standing.begin() &&
+    if (strongest != standing.end() && strongest != standing.begin() && !is_simplest &&
         !of_one_moment(**strongest, *standing.front())) {
       for (const ScoredCandidate* c : {standing.front(), *strongest}) {
         fitted.push_back({c, joint, 0.0});
