@@ -262,19 +262,27 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
     return k;
   };
+  constexpr std::size_t kMostUntenable = 4;
+  std::vector<const Effect*> untenables;
   while (const std::optional<std::size_t> k = untenable()) {
+    untenables.push_back(joint.accepted[*k].effect);
     const auto at = static_cast<std::ptrdiff_t>(*k);
     joint.accepted.erase(joint.accepted.begin() + at);
     selected.evidence.erase(selected.evidence.begin() + at);
     selected.alternatives.erase(selected.alternatives.begin() + at);
-    inflation.erase(inflation.begin() + at);
-    if (joint.accepted.empty()) {
-      joint = calibrated;
-    } else {
+    if (joint.accepted.empty()) joint = calibrated;
+    if (joint.accepted.empty() && untenables.size() < kMostUntenable) {  // what it stood for may have another name
+      selected = select_effects(
+          joint, options.family_wise_error, [&](double) { return goes_on(progress, 0.75); }, untenables);
+      if (!goes_on(progress, 0.75)) return stopped;
+      if (joint.accepted.empty()) joint = calibrated;
+    } else if (!joint.accepted.empty()) {
       joint.fit(3);
       joint.fit_noise();
       joint.fit(2);
     }
+    inflation.clear();
+    for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
     intervals = refined(joint, inflation);
   }
 

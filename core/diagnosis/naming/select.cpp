@@ -142,7 +142,11 @@ void fit_noise_too(JointModel& joint) {
 
 }  // namespace
 
-Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress) {
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
+                        const std::vector<const Effect*>& refuted) {
+  const auto is_refuted = [&](const ScoredCandidate& c) {
+    return std::find(refuted.begin(), refuted.end(), c.effect) != refuted.end();
+  };
   Selected out;
   std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
   double share = 0.3;
@@ -159,7 +163,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     std::vector<const ScoredCandidate*> standing;
     const auto find_standing = [&] {
       for (const ScoredCandidate& c : scored)
-        if (stands(c, family_wise_error) && !of_the_same(joint, c) &&
+        if (stands(c, family_wise_error) && !is_refuted(c) && !of_the_same(joint, c) &&
             c.test.statistic > explained * least_share(*c.effect, distrust))
           standing.push_back(&c);
     };
@@ -252,7 +256,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         const ScoredCandidate& top = instead.front();
         const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                        [&](const AcceptedEffect& a) { return a.effect == top.effect; });
-        if (own && !taken && stands(top, family_wise_error) &&
+        if (own && !taken && !is_refuted(top) && stands(top, family_wise_error) &&
             top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
           joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
           let_in(joint, top);
@@ -312,7 +316,9 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     for (const ScoredCandidate& c : instead) {
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
-      if (taken || c.p_value > family_wise_error || !c.beyond_counts || c.effect->name == own.effect->name) continue;
+      if (taken || is_refuted(c) || c.p_value > family_wise_error || !c.beyond_counts ||
+          c.effect->name == own.effect->name)
+        continue;
       const bool same_moment = of_one_moment(own, c);
       const double beaten_by = std::max(2.0 * kClearlyBeaten, same_moment ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);

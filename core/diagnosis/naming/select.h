@@ -14,7 +14,9 @@ struct Selected {
   std::vector<std::vector<ScoredCandidate>> alternatives;  // not clearly beaten
   std::vector<ScoredCandidate> first_look;                 // all candidates before any was let in
 };
-Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress);
+// `refuted`: names that are not to be let in.
+Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
+                        const std::vector<const Effect*>& refuted = {});
 
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
 constexpr double kDecisive = 200.0;
