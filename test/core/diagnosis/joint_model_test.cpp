@@ -49,7 +49,7 @@ TEST(JointModel, FindsTheNoiseOfTheWayAndOfTheTurnEachByItself) {
   g.truth_position_noise_m = 0.0005;
   g.truth_heading_noise_rad = 0.001;
   g.duration_s = 60.0;
-  g.inject = [&random, b = g.drive.wheelbase_m](InjectedStep& s) {
+  g.inject = [&random](InjectedStep& s) {
     const double root = std::sqrt(0.5 * (std::abs(s.left_m) + std::abs(s.right_m)));
     const double along_m = kAlong * root * random.normal(), turn_m = kTurning * root * random.normal();
     s.left_m += along_m - turn_m;
