@@ -65,6 +65,18 @@ inline SpeedProfile varied_driving(Random& random, double duration_s) {
   };
 }
 
+// Followed by motion capture of a millimetre and two milliradians.
+inline GeneratorSettings under_motion_capture(const DifferentialDrive& drive, double wheel_noise,
+                                              double truth_period_s) {
+  GeneratorSettings g;
+  g.drive = drive;
+  g.wheel_noise = wheel_noise;
+  g.truth_period_s = truth_period_s;
+  g.truth_position_noise_m = 0.001;
+  g.truth_heading_noise_rad = 0.002;
+  return g;
+}
+
 inline std::function<void(InjectedStep&)> injected(const std::string& effect, double size,
                                                    const DifferentialDrive& drive, int run, double duration_s,
                                                    Random& random) {

@@ -13,12 +13,7 @@ constexpr double kGap_rad = 0.03, kDrag_mps2 = 0.2;
 // Three runs of a robot whose left wheel has play and runs so easily that it overtakes its motor's flank wherever that
 // brakes harder. Speeds and places of motor and wheel are integrated each by itself, and held together by the flanks.
 std::vector<Recording> easily_running(Random& random) {
-  GeneratorSettings g;
-  g.drive = {0.0758, 0.0754, 0.345};
-  g.wheel_noise = 0.0008;
-  g.truth_period_s = 0.01;
-  g.truth_position_noise_m = 0.001;
-  g.truth_heading_noise_rad = 0.002;
+  GeneratorSettings g = under_motion_capture({0.0758, 0.0754, 0.345}, 0.0008, 0.01);
   g.duration_s = 50.0;
   std::vector<Recording> recordings;
   for (int run = 0; run < 3; ++run) {

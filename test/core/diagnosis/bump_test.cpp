@@ -12,12 +12,7 @@ constexpr double kReach_m = 0.08, kExtra_m = 0.004, kClimbed_m = 0.04;  // acros
 // A robot that drives out and home again over something that lies on the floor: by its left wheel on the way out, and,
 // turned round, by its right one.
 std::vector<Recording> over_and_back(Random& random) {
-  GeneratorSettings g;
-  g.drive = {0.075, 0.075, 0.34};
-  g.wheel_noise = 0.0008;
-  g.truth_period_s = 0.01;
-  g.truth_position_noise_m = 0.001;
-  g.truth_heading_noise_rad = 0.002;
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
   g.duration_s = 24.0;
   g.start = {0.0, -0.17, 0.0};  // the left wheel's line goes through the place
   const double turn_s = kPi * 0.17 / (4.0 * 0.075);

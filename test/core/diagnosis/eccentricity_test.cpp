@@ -9,12 +9,7 @@ namespace {
 // Three runs of one robot whose left wheel is 1 % out of round and stood at these angles when they began.
 Diagnosis diagnosed(const std::vector<double>& phases_rad) {
   Random random(41);
-  GeneratorSettings g;
-  g.drive = {0.0758, 0.0754, 0.345};
-  g.wheel_noise = 0.0015;
-  g.truth_period_s = 0.02;
-  g.truth_position_noise_m = 0.001;
-  g.truth_heading_noise_rad = 0.002;
+  GeneratorSettings g = under_motion_capture({0.0758, 0.0754, 0.345}, 0.0015, 0.02);
   g.duration_s = 40.0;
   std::vector<Recording> recordings;
   for (double phase_rad : phases_rad) {
