@@ -63,6 +63,18 @@ Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length
   return m;
 }
 
+// In order and apart: what overlaps or touches is one.
+std::vector<Motions::Stretch> merged(std::vector<Motions::Stretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Motions::Stretch> out;
+  for (const Motions::Stretch& s : stretches)
+    if (out.empty() || s.first > out.back().end)
+      out.push_back(s);
+    else
+      out.back().end = std::max(out.back().end, s.end);
+  return out;
+}
+
 // While one wheel is within reach of the place.
 struct Visit {
   Wheel wheel;
@@ -88,12 +100,12 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
     });
   }
   if (visits.empty()) return {};
-  Steps all = visits.front().met;
+  std::vector<Motions::Stretch> stretches;
   for (Visit& v : visits) {
     if (lying.length_m > 0.0) v.met = steps_about(view, v.wheel, v.nearest, lying.length_m);
-    all = {std::min(all.first, v.met.first), std::max(all.last, v.met.last)};
+    stretches.push_back({v.met.first, v.met.last + 1});
   }
-  Motions m(all.first, all.last + 1);
+  Motions m(merged(std::move(stretches)));
   for (const Visit& v : visits) spread(m, view, v.wheel, v.met.first, v.met.last);
   return m;
 }

@@ -39,6 +39,28 @@ std::size_t DriveView::step_at(double time_s) const {
       steps.begin());
 }
 
+namespace {
+
+// What the wheels did in an interval, by these readings.
+void put_way(EffectStep& s, const DifferentialDrive& drive, const WheelSample& start, const WheelSample& from,
+             const WheelSample& to) {
+  s.left_m = drive.wheel_radius_left_m * (to.left_rad - from.left_rad);
+  s.right_m = drive.wheel_radius_right_m * (to.right_rad - from.right_rad);
+  s.turn_rad = (s.right_m - s.left_m) / drive.wheelbase_m;
+  s.left_rad = 0.5 * (from.left_rad + to.left_rad) - start.left_rad;
+  s.right_rad = 0.5 * (from.right_rad + to.right_rad) - start.right_rad;
+  s.left_by_rad = to.left_rad - from.left_rad;
+  s.right_by_rad = to.right_rad - from.right_rad;
+}
+
+}  // namespace
+
+DriveView as_read(DriveView view, const InnovationRun& run) {
+  for (std::size_t i = 0; i < view.steps.size(); ++i)
+    put_way(view.steps[i], view.drive, run.wheels.front(), run.wheels[i], run.wheels[i + 1]);
+  return view;
+}
+
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses, Way way) {
   DriveView view;
@@ -53,18 +75,12 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   view.steps.resize(n);
   std::size_t k = 0;
   for (int i = 0; i < n; ++i) {
-    const WheelSample &a = wheels[i], &b = wheels[i + 1], &first = wheels.front();
+    const WheelSample &a = wheels[i], &b = wheels[i + 1];
     EffectStep& s = view.steps[i];
     s.time_s = 0.5 * (run.wheels[i].time_s + run.wheels[i + 1].time_s);
     s.duration_s = run.wheels[i + 1].time_s - run.wheels[i].time_s;
-    s.since_start_s = s.time_s - first.time_s;
-    s.left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad);
-    s.right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
-    s.turn_rad = (s.right_m - s.left_m) / drive.wheelbase_m;
-    s.left_rad = 0.5 * (a.left_rad + b.left_rad) - first.left_rad;
-    s.right_rad = 0.5 * (a.right_rad + b.right_rad) - first.right_rad;
-    s.left_by_rad = b.left_rad - a.left_rad;
-    s.right_by_rad = b.right_rad - a.right_rad;
+    s.since_start_s = s.time_s - run.wheels.front().time_s;
+    put_way(s, drive, wheels.front(), a, b);
     s.left_read_rad = run.wheels[i + 1].left_rad - run.wheels[i].left_rad;
     s.right_read_rad = run.wheels[i + 1].right_rad - run.wheels[i].right_rad;
     if (truth_poses.empty()) {
@@ -110,11 +126,10 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
     s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
   }
-  for (int i = 0; i < n; ++i) {
-    int lo = i, hi = i;
+  for (int i = 0, lo = 0, hi = 0; i < n; ++i) {
     const double t = view.steps[i].time_s;
-    while (lo > 0 && t - view.steps[lo].time_s < kAccelerationWindow_s) --lo;
-    while (hi + 1 < n && view.steps[hi].time_s - t < kAccelerationWindow_s) ++hi;
+    while (lo < i && t - view.steps[lo + 1].time_s >= kAccelerationWindow_s) ++lo;
+    while (hi + 1 < n && (hi < i || view.steps[hi].time_s - t < kAccelerationWindow_s)) ++hi;
     const double span = view.steps[hi].time_s - view.steps[lo].time_s;
     if (span <= 0.0) continue;
     view.steps[i].acceleration_mps2 = (view.steps[hi].speed_mps - view.steps[lo].speed_mps) / span;

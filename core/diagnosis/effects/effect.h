@@ -1,6 +1,7 @@
 // What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -45,7 +46,8 @@ struct DriveView {
   template <typename Visit>
   void steps_near(Vec2 place, double within_m, Visit&& visit) const {
     for (std::size_t i = 0; i < steps.size();) {
-      const double away_m = length(steps[i].position - place) - within_m;
+      const Vec2 to = steps[i].position - place;
+      const double away_m = std::sqrt(dot(to, to)) - within_m;
       if (away_m <= 0.0) visit(i);
       i += away_m <= longest_step_m ? 1 : static_cast<std::size_t>(away_m / longest_step_m);
     }
@@ -58,6 +60,9 @@ enum class Way { as_read, smoothed };
 // `truth_poses`: the axle's poses at those times, from the filter; empty where the place is dead reckoned.
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses, Way way = Way::as_read);
+
+// The same drive as it was read.
+DriveView as_read(DriveView smoothed, const InnovationRun& run);
 
 enum class Wheel { left, right, both };
 const char* component_of(Wheel wheel);

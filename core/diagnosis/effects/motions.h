@@ -2,42 +2,78 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/calibration/innovations.h"
 
 namespace odolab {
 
-// Nothing happens outside steps [first(), end()); what lasts a moment costs no more than that.
+// Nothing happens outside steps [first(), end()), nor between its stretches: what lasts a moment, or comes back now and
+// then, costs no more than that.
 class Motions {
  public:
-  Motions() = default;
-  explicit Motions(std::size_t steps) : of_(steps) {}
-  Motions(std::size_t first, std::size_t end) : first_(first), of_(end - first) {}
+  struct Stretch {
+    std::size_t first, end;  // steps
+  };
 
-  std::size_t first() const { return first_; }
-  std::size_t end() const { return first_ + of_.size(); }
+  Motions() = default;
+  explicit Motions(std::size_t steps) : Motions(0, steps) {}
+  Motions(std::size_t first, std::size_t end) : of_(end - first), stretches_{{first, end}} {}
+  // In order and apart.
+  explicit Motions(std::vector<Stretch> stretches) : stretches_(std::move(stretches)) {
+    std::size_t steps = 0;
+    for (const Stretch& s : stretches_) steps += s.end - s.first;
+    of_.resize(steps);
+  }
+
+  std::size_t first() const { return stretches_.empty() ? 0 : stretches_.front().first; }
+  std::size_t end() const { return stretches_.empty() ? 0 : stretches_.back().end; }
+  const std::vector<Stretch>& stretches() const { return stretches_; }
   bool empty() const { return of_.empty(); }
   void reserve(std::size_t steps) { of_.reserve(steps); }
-  void push_back(const BodyMotion& m) { of_.push_back(m); }
-  // `step` is within [first(), end()).
-  BodyMotion& operator[](std::size_t step) { return of_[step - first_]; }
-  const BodyMotion& operator[](std::size_t step) const { return of_[step - first_]; }
+  // Of the step behind the last, or of the run's first.
+  void push_back(const BodyMotion& m) {
+    if (stretches_.empty()) stretches_.push_back({0, 0});
+    ++stretches_.back().end;
+    of_.push_back(m);
+  }
+  // `step` is within one of its stretches.
+  BodyMotion& operator[](std::size_t step) { return of_[place_of(step)]; }
+  const BodyMotion& operator[](std::size_t step) const { return of_[place_of(step)]; }
   // Of any step of the run.
-  BodyMotion at(std::size_t step) const { return step < first_ || step >= end() ? BodyMotion{} : of_[step - first_]; }
-  // Adds so much of it to a run's steps.
-  void add_to(std::vector<BodyMotion>& sum, double value) const {
-    for (std::size_t i = 0; i < of_.size(); ++i) {
-      BodyMotion& s = sum[first_ + i];
-      s.forward_m += value * of_[i].forward_m;
-      s.sideways_m += value * of_[i].sideways_m;
-      s.turn_rad += value * of_[i].turn_rad;
-    }
+  BodyMotion at(std::size_t step) const {
+    const std::size_t place = place_of(step);
+    return place == kNowhere ? BodyMotion{} : of_[place];
+  }
+  // Adds so much of it to a run's steps, or to motions that have them all.
+  template <typename Sum>
+  void add_to(Sum& sum, double value) const {
+    std::size_t place = 0;
+    for (const Stretch& stretch : stretches_)
+      for (std::size_t i = stretch.first; i < stretch.end; ++i, ++place) {
+        BodyMotion& s = sum[i];
+        s.forward_m += value * of_[place].forward_m;
+        s.sideways_m += value * of_[place].sideways_m;
+        s.turn_rad += value * of_[place].turn_rad;
+      }
   }
 
  private:
-  std::size_t first_ = 0;
-  std::vector<BodyMotion> of_;
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
+
+  std::size_t place_of(std::size_t step) const {
+    std::size_t before = 0;
+    for (const Stretch& s : stretches_) {
+      if (step < s.first) return kNowhere;
+      if (step < s.end) return before + step - s.first;
+      before += s.end - s.first;
+    }
+    return kNowhere;
+  }
+
+  std::vector<BodyMotion> of_;  // of all stretches, one behind the other
+  std::vector<Stretch> stretches_;
 };
 
 }  // namespace odolab

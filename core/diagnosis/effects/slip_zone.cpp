@@ -33,7 +33,12 @@ std::vector<Effect> slip_zone() {
     std::vector<std::size_t> near;
     view.steps_near(centre, shape[2] + 0.5 * b, [&](std::size_t i) { near.push_back(i); });
     if (near.empty()) return std::vector<Motions>{Motions()};
-    Motions m(near.front(), near.back() + 1);
+    std::vector<Motions::Stretch> visits;
+    for (const std::size_t i : near) {
+      if (visits.empty() || visits.back().end != i) visits.push_back({i, i});
+      visits.back().end = i + 1;
+    }
+    Motions m(std::move(visits));
     double left_way_m = 0.0, right_way_m = 0.0;  // on the patch
     for (const std::size_t i : near) {
       const EffectStep& s = view.steps[i];

@@ -32,7 +32,7 @@ VectorXd JointModel::inflation_of_columns() const {
   const int batch = std::max(1, samples / kBatches), q = columns();
   VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, left);
+    const VectorXd res = residual_[r] - now_->z[r] * now_->acting(r, left);
     MatrixXd of_acting(now_->z[r].cols(), q);
     for (Eigen::Index c = 0; c < of_acting.rows(); ++c)
       of_acting.row(c) = cov.row(now_->columns[r][static_cast<std::size_t>(c)]);
@@ -201,7 +201,7 @@ CandidateProducts JointModel::products_of(const CandidateColumns& c) const {
     const MatrixXd& own = some.size() > 0 ? some : c.of_run[r];
     const MatrixXd with_itself = own.transpose() * own;
     const MatrixXd with_model = now_->z[r].middleRows(from, rows).transpose() * own;
-    const VectorXd with_residual = own.transpose() * now_->residual[r].segment(from, rows);
+    const VectorXd with_residual = own.transpose() * residual_[r].segment(from, rows);
     for (std::size_t i = 0; i < acting.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       for (std::size_t j = 0; j < acting.size(); ++j)
@@ -251,7 +251,7 @@ CandidateTest JointModel::tested_thoroughly(const Absorbing& by, CandidateProduc
     VectorXd column = -(now_->z[r] * now_->acting(r, on_z));
     if (c.of_run[r].size() > 0)
       column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
-    const VectorXd res = now_->residual[r] - now_->z[r] * now_->acting(r, base_z);
+    const VectorXd res = residual_[r] - now_->z[r] * now_->acting(r, base_z);
     const int n = now_->runs[r].samples();
     for (int from = 0; from < n; from += batch) {
       const int rows = 3 * (std::min(n, from + batch) - from);
@@ -285,15 +285,15 @@ CandidateTest JointModel::tested_thoroughly(const Absorbing& by, CandidateProduc
 }
 
 std::shared_ptr<ScannedProducts> JointModel::scanned_products() const {
-  if (!now_->scanned)
-    now_->scanned = std::make_shared<ScannedProducts>(now_->views, now_->runs, now_->columns, now_->z, now_->residual,
-                                                      static_cast<int>(gram_.rows()));
-  return now_->scanned;
+  if (!scanned_)
+    scanned_ = std::make_shared<ScannedProducts>(now_->views, now_->runs, now_->columns, now_->z, residual_,
+                                                 static_cast<int>(gram_.rows()));
+  return scanned_;
 }
 
 std::vector<BodyMotion> JointModel::score_of_motions(int run) const {
   const VectorXd left =
-      now_->residual[run] - now_->z[run] * now_->acting(static_cast<std::size_t>(run), gram_.ldlt().solve(zr_));
+      residual_[run] - now_->z[run] * now_->acting(static_cast<std::size_t>(run), gram_.ldlt().solve(zr_));
   return now_->runs[run].score_of_motions(left.data());
 }
 

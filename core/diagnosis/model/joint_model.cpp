@@ -52,7 +52,11 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
 }
 
 void JointModel::cut() {
-  for (std::size_t r = 0; r < runs_.size(); ++r) cut_where_left_out(runs_[r], clock_s[r]);
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const std::vector<char> before = runs_[r].cut;
+    cut_where_left_out(runs_[r], clock_s[r]);
+    if (runs_[r].cut != before) linearised_at_.reset();
+  }
 }
 
 bool JointModel::is_well_inside(int r, double time_s) const {
@@ -132,7 +136,46 @@ VectorXd JointModel::Linearisation::acting(std::size_t run, const VectorXd& of_a
   return out;
 }
 
+JointModel::Standing JointModel::standing() const {
+  Standing s;
+  const DifferentialDrive& d = model.drive;
+  const Pose& mounting = model.truth.axle_T_tracked;
+  const FittedNoise& noise = model.noise;
+  s.numbers = {d.wheel_radius_left_m,
+               d.wheel_radius_right_m,
+               d.wheelbase_m,
+               mounting.x_m,
+               mounting.y_m,
+               mounting.heading_rad,
+               noise.wheel_m_per_sqrt_m,
+               noise.truth_position_m,
+               noise.truth_heading_rad,
+               noise.along_m_per_sqrt_m,
+               noise.turning_m_per_sqrt_m,
+               noise.sideways_m_per_sqrt_m,
+               half_counts[0],
+               half_counts[1]};
+  const auto append = [](auto& to, const auto& of) { to.insert(to.end(), of.begin(), of.end()); };
+  append(s.numbers, clock_s);
+  for (const AcceptedEffect& a : accepted) {
+    s.effects.push_back(a.effect);
+    append(s.numbers, a.shape);
+    append(s.numbers, a.value);
+  }
+  append(s.active, nuisance_active);
+  append(s.active, clock_active);
+  return s;
+}
+
 void JointModel::linearise(bool with_columns) {
+  const Standing here = standing();
+  if (linearised_at_ == here && (has_columns_ || !with_columns)) return;
+  // Where effects act is known once a pass that has them in it has said where the vehicle was.
+  if (now_ || accepted.empty())
+    linearised_at_ = here;
+  else
+    linearised_at_.reset();
+  has_columns_ = with_columns;
   const int n = static_cast<int>(runs_.size());
   std::vector<Track> track(n);
   if (now_)
@@ -142,7 +185,8 @@ void JointModel::linearise(bool with_columns) {
   next->read_views.resize(n);
   next->columns.resize(n);
   next->z.resize(n);
-  next->residual.resize(n);
+  residual_.resize(n);
+  scanned_.reset();
   std::vector<std::vector<LinearisedRun>> made(n);
   const int q = columns();
   parallel_for(n, [&](int r) {
@@ -155,11 +199,13 @@ void JointModel::linearise(bool with_columns) {
     if (with_columns)
       next->views[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::smoothed);
     if (!accepted.empty())
-      next->read_views[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
+      next->read_views[r] =
+          with_columns ? as_read(next->views[r], runs_[r])
+                       : drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
     made[r].emplace_back(prepared(r, next->read_views[r]), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
-    next->residual[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);
+    residual_[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);
     if (!with_columns) return;
     // First which columns act, then these.
     std::vector<int>& acting = next->columns[r];
@@ -240,7 +286,7 @@ void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
   const MatrixXd& z = now_->z[run];
   if (z.size() == 0) return;
   const MatrixXd own = z.transpose() * z;
-  const VectorXd with_residual = z.transpose() * now_->residual[run];
+  const VectorXd with_residual = z.transpose() * residual_[run];
   for (std::size_t i = 0; i < acting.size(); ++i) {
     for (std::size_t j = 0; j < acting.size(); ++j)
       gram(acting[i], acting[j]) += own(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
@@ -250,6 +296,7 @@ void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
 
 double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
+  constexpr double kStraight = 0.1;  // a third: over so little the model is linear
   const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(),
                                          [](const AcceptedEffect& a) { return a.effect->shape_follows_amplitude; });
   const std::vector<int> held = held_columns();
@@ -275,7 +322,7 @@ double JointModel::fit(int iterations) {
     const double before = chi2_;
     VectorXd gone;
     double scale = 1.0;
-    for (int attempt = 0; attempt < 3; ++attempt, scale *= 0.3) {
+    const auto go = [&] {
       gone = scale * step;
       model = saved;
       clock_s = saved_clock;
@@ -292,11 +339,23 @@ double JointModel::fit(int iterations) {
         }
         if (a.effect->shape_follows_amplitude) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
       }
+    };
+    if (size < kStraight && !shapes_follow) {
+      go();
+      for (std::size_t r = 0; r < runs_.size(); ++r) residual_[r] -= now_->z[r] * now_->acting(r, gone);
+      scanned_.reset();
+      zr_ -= gram_ * gone;
+      gained += gone.dot(score + zr_);
+      chi2_ -= gone.dot(score + zr_);
+      linearised_at_ = standing();
+      break;
+    }
+    for (int attempt = 0; attempt < 3; ++attempt, scale *= 0.3) {
+      go();
       linearise();
       if (std::isfinite(chi2_) && chi2_ < before * 1.02 + 20.0) break;
     }
     gained += gone.dot(score + zr_);
-    if (size < 0.01) break;
   }
   const MatrixXd cov = covariance();
   int k = first_amplitude();
@@ -416,6 +475,7 @@ JointModel JointModel::together_with(const JointModel& others) const {
   where_they_are->runs = now_->runs;
   append(where_they_are->runs, others.now_->runs);
   all.now_ = where_they_are;
+  all.linearised_at_.reset();
   return all;
 }
 

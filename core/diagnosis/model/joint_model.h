@@ -5,6 +5,7 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/calibration/least_squares.h"
@@ -62,7 +63,8 @@ class JointModel {
   // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
   // from both ends: what happens nearer cannot be told from a sample that errs.
   bool is_well_inside(int run, double time_s) const;
-  // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted.
+  // `with_columns` false: only what the model leaves, of which nothing can be tested or fitted. Does nothing where the
+  // model stands as it was linearised last.
   void linearise(bool with_columns = true);
 
   std::vector<AcceptedEffect> accepted;
@@ -135,8 +137,6 @@ class JointModel {
     std::vector<LinearisedRun> runs;
     std::vector<std::vector<int>> columns;  // those that act in a run
     std::vector<Eigen::MatrixXd> z;         // of each run: only these
-    std::vector<Eigen::VectorXd> residual;
-    mutable std::shared_ptr<ScannedProducts> scanned;  // made when the first asks
     // Of all columns, those that act in a run; and z' by, put where they belong.
     Eigen::VectorXd acting(std::size_t run, const Eigen::VectorXd& of_all) const;
     template <typename Rows, typename By>
@@ -162,6 +162,14 @@ class JointModel {
   // Of the linearisation as it is. Not to be asked for the first time by several threads.
   std::shared_ptr<ScannedProducts> scanned_products() const;
   JointModel() = default;
+  // All that a linearisation depends on, and that may change.
+  struct Standing {
+    std::vector<double> numbers;
+    std::vector<const Effect*> effects;
+    std::vector<char> active;
+    bool operator==(const Standing&) const = default;
+  };
+  Standing standing() const;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const DriveView& view) const;
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
@@ -177,7 +185,11 @@ class JointModel {
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
   std::shared_ptr<const Linearisation> now_;
-  Eigen::MatrixXd gram_;  // with priors
+  std::optional<Standing> linearised_at_;  // none where the runs have changed since
+  bool has_columns_ = false;
+  std::vector<Eigen::VectorXd> residual_;             // of each run, whitened
+  mutable std::shared_ptr<ScannedProducts> scanned_;  // made when the first asks
+  Eigen::MatrixXd gram_;                              // with priors
   Eigen::VectorXd zr_;
   double chi2_ = 0.0, log_determinant_ = 0.0;
   int scalars_ = 0;

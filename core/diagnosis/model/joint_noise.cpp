@@ -102,7 +102,9 @@ void JointModel::gate() {
       i = std::max(j, i + 1);
     }
     for (std::size_t i = 0; i < aside.size(); ++i) aside[i] = std::max(aside[i] ? char{1} : char{0}, masked_[r][i]);
+    if (aside == runs_[r].set_aside) continue;
     runs_[r].set_aside = std::move(aside);
+    linearised_at_.reset();
   }
 }
 }  // namespace odolab

@@ -118,7 +118,7 @@ namespace {
 // The steps in which something moves, within those that the motions hold.
 std::pair<std::size_t, std::size_t> moving(const Motions& motions) {
   const auto moves = [&](std::size_t step) {
-    const BodyMotion& m = motions[step];
+    const BodyMotion m = motions.at(step);
     return m.forward_m != 0.0 || m.sideways_m != 0.0 || m.turn_rad != 0.0;
   };
   std::size_t first = motions.first(), end = motions.end();

@@ -47,16 +47,20 @@ class LinearisedRun {
   std::vector<BodyMotion> score_of_motions(const double* whitened) const;
   // The same for what moves in each truth interval, x, y and heading at its end in the room: 3 numbers for each.
   std::vector<double> score_of_intervals(const double* whitened) const;
-  // What candidates do in truth intervals [first, end), x, y and heading at the interval's end in the room. So many lie
-  // side by side: of interval t, column j, number r and candidate l at ((t * columns + j) * 3 + r) * abreast + l,
-  // counted from the first interval.
+  // What candidates do in truth intervals, x, y and heading at the interval's end in the room, of those parts of the
+  // run in which any of them may act. So many lie side by side: of the n-th interval held, column j, number r and
+  // candidate l at ((n * columns + j) * 3 + r) * abreast + l.
   static constexpr std::size_t kAbreast = 4;
   struct Moved {
+    struct Part {
+      int first, end;           // truth intervals
+      std::size_t held_before;  // of the parts before it
+    };
     std::size_t abreast = 1;
     std::vector<std::size_t> columns;  // in which any of them acts
-    int first = 0, end = 0;
+    std::vector<Part> parts;           // in order and apart
     std::vector<double> by;
-    std::vector<char> any;  // of the intervals: whether anything moves in them
+    std::vector<char> any;  // of the intervals held: whether anything moves in them
   };
   // Of one candidate, or of kAbreast, those that do not act being empty; all have the same number of columns. What
   // `moved` held is forgotten.

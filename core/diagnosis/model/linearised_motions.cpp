@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/diagnosis/model/linearised.h"
 
@@ -111,48 +112,64 @@ std::vector<BodyMotion> LinearisedRun::score_of_motions(const double* whitened) 
 void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Moved& moved) const {
   moved.abreast = candidates.size();
   moved.columns.clear();
-  moved.first = samples();
-  moved.end = 0;
+  moved.parts.clear();
   std::size_t most = 0;
   for (const std::vector<Motions>& c : candidates) most = std::max(most, c.size());
   for (std::size_t j = 0; j < most; ++j) {
     bool acts = false;
     for (const std::vector<Motions>& c : candidates) {
       if (c.empty() || c[j].empty()) continue;
-      const Stretch stretch = touched(c[j].first(), c[j].end());
-      moved.first = std::min(moved.first, stretch.first);
-      moved.end = std::max(moved.end, stretch.last);
       acts = true;
+      for (const Motions::Stretch& stretch : c[j].stretches())
+        if (const Stretch t = touched(stretch.first, stretch.end); t.last > t.first)
+          moved.parts.push_back({t.first, t.last, 0});
     }
     if (acts) moved.columns.push_back(j);
   }
-  moved.end = std::max(moved.first, moved.end);
+  const auto in_order = [](const Moved::Part& a, const Moved::Part& b) { return a.first < b.first; };
+  std::sort(moved.parts.begin(), moved.parts.end(), in_order);
+  std::size_t intervals = 0, parts = 0;
+  for (const Moved::Part& p : moved.parts) {
+    if (parts > 0 && p.first <= moved.parts[parts - 1].end)
+      moved.parts[parts - 1].end = std::max(moved.parts[parts - 1].end, p.end);
+    else
+      moved.parts[parts++] = p;
+  }
+  moved.parts.resize(parts);
+  for (Moved::Part& p : moved.parts) {
+    p.held_before = intervals;
+    intervals += static_cast<std::size_t>(p.end - p.first);
+  }
   const std::size_t columns = moved.columns.size(), abreast = moved.abreast;
-  const auto intervals = static_cast<std::size_t>(moved.end - moved.first);
   moved.by.assign(3 * columns * abreast * intervals, 0.0);
   moved.any.assign(intervals, 0);
   for (std::size_t l = 0; l < abreast; ++l)
     for (std::size_t j = 0; j < columns; ++j) {
       if (candidates[l].empty() || candidates[l][moved.columns[j]].empty()) continue;
       const Motions& motions = candidates[l][moved.columns[j]];
-      const int last = piece_of_wheels_[motions.end()];
-      for (int p = piece_of_wheels_[motions.first()]; p < last;) {
-        const int truth = pieces_[p].truth;
-        double x = 0.0, y = 0.0, h = 0.0;
-        for (; p < last && pieces_[p].truth == truth; ++p) {
-          const Piece& piece = pieces_[p];
-          const BodyMotion& m = motions[static_cast<std::size_t>(piece.interval)];
-          x += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
-          y += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
-          h += piece.share * m.turn_rad;
+      for (const Motions::Stretch& stretch : motions.stretches()) {
+        const int first = piece_of_wheels_[stretch.first], last = piece_of_wheels_[stretch.end];
+        if (first >= last) continue;
+        const Moved::Part& part = *std::prev(std::upper_bound(moved.parts.begin(), moved.parts.end(),
+                                                              Moved::Part{pieces_[first].truth, 0, 0}, in_order));
+        for (int p = first; p < last;) {
+          const int truth = pieces_[p].truth;
+          double x = 0.0, y = 0.0, h = 0.0;
+          for (; p < last && pieces_[p].truth == truth; ++p) {
+            const Piece& piece = pieces_[p];
+            const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
+            x += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
+            y += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
+            h += piece.share * m.turn_rad;
+          }
+          if (x == 0.0 && y == 0.0 && h == 0.0) continue;
+          const std::size_t n = part.held_before + static_cast<std::size_t>(truth - part.first);
+          double* by = &moved.by[(n * columns + j) * 3 * abreast + l];
+          by[0] += x;  // two stretches may share an interval
+          by[abreast] += y;
+          by[2 * abreast] += h;
+          moved.any[n] = 1;
         }
-        if (x == 0.0 && y == 0.0 && h == 0.0) continue;
-        const auto t = static_cast<std::size_t>(truth - moved.first);
-        double* by = &moved.by[(t * columns + j) * 3 * abreast + l];
-        by[0] = x;
-        by[abreast] = y;
-        by[2 * abreast] = h;
-        moved.any[t] = 1;
       }
     }
 }
@@ -166,8 +183,19 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
   for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
   for (auto& row : sum) std::fill(row, row + k, Lanes::Zero());
   const std::size_t stride = 3 * m * moved.columns.size();
-  const double* by = moved.by.data();
-  for (int t = moved.first; t < moved.end; ++t, by += stride) {
+  // Between one time and the next that something moves, what it left behind is soon nothing.
+  constexpr int kAskedEvery = 16;
+  constexpr double kNothing = 1e-7;  // of the largest that moved anything
+  double largest = 0.0;
+  const auto is_forgotten = [&] {
+    double left = 0.0;
+    for (int j = 0; j < k; ++j)
+      for (const auto& row : d) left = std::max(left, row[j].abs().maxCoeff());
+    largest = std::max(largest, left);
+    return left <= kNothing * largest;
+  };
+  const std::vector<double> at_rest(stride, 0.0);
+  const auto go_on = [&](int t, const double* by) {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
     Lanes o[3][k];
     for (int j = 0; j < k; ++j) {
@@ -182,8 +210,21 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
     }
     for (int i = 0; i < k; ++i)
       for (int j = i; j < k; ++j) sum[i][j] += o[0][i] * o[0][j] + o[1][i] * o[1][j] + o[2][i] * o[2][j];
+  };
+  int end = 0;
+  for (const Moved::Part& part : moved.parts) {
+    for (int t = end; end > 0 && t < part.first; ++t) {
+      if (t % kAskedEvery == 0 && is_forgotten()) {
+        for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
+        break;
+      }
+      go_on(t, at_rest.data());
+    }
+    end = part.end;
+    for (int t = part.first; t < end; ++t)
+      go_on(t, &moved.by[stride * (part.held_before + static_cast<std::size_t>(t - part.first))]);
   }
-  const std::array<double, 6>& s = tails[static_cast<std::size_t>(moved.end)];
+  const std::array<double, 6>& s = tails[static_cast<std::size_t>(end)];
   for (int i = 0; i < k; ++i)
     for (int j = i; j < k; ++j) {
       const Lanes x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];

@@ -43,13 +43,15 @@ void ScannedProducts::products_with(const OfRun& of, const LinearisedRun::Moved&
     for (std::size_t block = 0; block < wide; block += kBlock) {
       Lanes sum[kBlock];
       std::fill(sum, sum + kBlock, Lanes::Zero());
-      for (std::size_t t = 0; t < moved.any.size(); ++t) {
-        if (!moved.any[t]) continue;
-        const double* u = &moved.by[(t * columns + j) * 3 * abreast];
-        const Eigen::Map<const Lanes> x(u), y(u + abreast), h(u + 2 * abreast);
-        const double* by = &of.by_move[3 * wide * (static_cast<std::size_t>(moved.first) + t) + block];
-        for (std::size_t c = 0; c < kBlock; ++c) sum[c] += by[c] * x + by[wide + c] * y + by[2 * wide + c] * h;
-      }
+      for (const LinearisedRun::Moved::Part& part : moved.parts)
+        for (int t = part.first; t < part.end; ++t) {
+          const std::size_t n = part.held_before + static_cast<std::size_t>(t - part.first);
+          if (!moved.any[n]) continue;
+          const double* u = &moved.by[(n * columns + j) * 3 * abreast];
+          const Eigen::Map<const Lanes> x(u), y(u + abreast), h(u + 2 * abreast);
+          const double* by = &of.by_move[3 * wide * static_cast<std::size_t>(t) + block];
+          for (std::size_t c = 0; c < kBlock; ++c) sum[c] += by[c] * x + by[wide + c] * y + by[2 * wide + c] * h;
+        }
       for (std::size_t c = 0; c < kBlock; ++c)
         std::copy(sum[c].data(), sum[c].data() + abreast, &with[(j * wide + block + c) * abreast]);
     }

@@ -54,13 +54,7 @@ Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const Mat
         std::vector<double> shape = a.shape;
         shape[free[k]] += side * by;
         const std::vector<Motions> there = motions(view, shape);
-        for (std::size_t j = 0; j < there.size(); ++j)
-          for (std::size_t s = there[j].first(); s < there[j].end(); ++s) {
-            const double factor = side * a.value[j] / (2.0 * by);
-            out[k][s].forward_m += factor * there[j][s].forward_m;
-            out[k][s].sideways_m += factor * there[j][s].sideways_m;
-            out[k][s].turn_rad += factor * there[j][s].turn_rad;
-          }
+        for (std::size_t j = 0; j < there.size(); ++j) there[j].add_to(out[k], side * a.value[j] / (2.0 * by));
       }
     }
     return out;

@@ -121,6 +121,19 @@ bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<do
   return away_m2 < reach_m * reach_m;
 }
 
+// So near each other that what is looked for from one is found from the other.
+bool is_one_place(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kSmall_m = 0.25;
+  double away_m2 = 0.0, near_m = kSmall_m;
+  for (std::size_t k = 0; k < e.shapes.size(); ++k) {
+    if (e.shapes[k].name == "radius_m")
+      near_m = std::max(near_m, 0.5 * (a[k] + b[k]));
+    else if (e.shapes[k].unit == "m")
+      away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
+  }
+  return away_m2 < near_m * near_m;
+}
+
 // The same place, met by one wheel alone.
 bool is_met_by_one_of(const Effect& one, const Effect& either) {
   return either.local && !either.of_one_recording && either.component == component_of(Wheel::both) && one.local &&
@@ -194,7 +207,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   };
   if (forms > 1 && !every_form) other_forms();
   // Refined only where there is something to refine: a place is sharp, and half of what it says shows beside it.
-  constexpr double kWorthRefining = 15.0, kWorthRefiningAPlace = 7.0;
+  constexpr double kWorthRefining = 15.0, kWorthRefiningAPlace = 7.0, kWorthAnotherStart = 10.0;
   if (e.scan && best.test.statistic > (places.empty() ? kWorthRefining : kWorthRefiningAPlace)) {
     const auto climb = [&] {
       for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
@@ -211,13 +224,21 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     std::sort(places.begin(), places.end());
     const ScoredCandidate first = best;
     ScoredCandidate top = best;
-    constexpr std::size_t kStarts = 6;
+    constexpr std::size_t kStarts = 4;
     constexpr double kWorthAStart = 0.5;  // of the best place that was scanned
-    for (std::size_t k = 1; k < std::min(places.size(), kStarts); ++k) {
-      if (places[k].first > kWorthAStart * places.front().first) break;
+    std::vector<std::size_t> starts;
+    for (const auto& [minus_statistic, k] : places) {
+      if (starts.size() >= kStarts || -minus_statistic < kWorthAnotherStart ||
+          minus_statistic > kWorthAStart * places.front().first)
+        break;
+      const auto is_one_with = [&, k = k](std::size_t other) { return is_one_place(e, shapes[k], shapes[other]); };
+      if (!starts.empty() && std::any_of(starts.begin(), starts.end(), is_one_with)) continue;
+      starts.push_back(k);
+    }
+    for (std::size_t n = 1; n < starts.size(); ++n) {  // the first is where it began
       best = first;
       best.test.statistic = 0.0;
-      if (!consider(shapes[places[k].second])) continue;
+      if (!consider(shapes[starts[n]])) continue;
       if (forms > 1) other_forms();
       climb();
       if (best.test.statistic > top.test.statistic) top = best;
