@@ -303,6 +303,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   Adequacy adequacy =
       judged_adequacy(joint, calibrated, predictor, selected.evidence, of_toe, 0.25 * options.family_wise_error);
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(joint, calibrated, d.calibration_alone.noise);
+  if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(joint);
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(joint);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(

@@ -149,6 +149,10 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   };
   const bool headings = truth.front().heading_rad.has_value() && truth.back().heading_rad.has_value();
   const double truth_gap = (truth.back().time_s - truth.front().time_s) / static_cast<double>(truth.size() - 1);
+  // In a gap of the truth the next sample says nothing of that time.
+  const auto is_near = [&](std::size_t k, double time_s) {
+    return std::abs(truth[k].time_s - vehicle.truth.time_offset_s - time_s) < 2.0 * truth_gap;
+  };
   for (int wheel = 0; wheel < 2; ++wheel) {
     const auto rad = [&](std::size_t i) { return wheel == 0 ? wheels[i].left_rad : wheels[i].right_rad; };
     const double radius = wheel == 0 ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
@@ -164,7 +168,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
         // The wheel's own way by the truth: of the centre, and half the base times the turn.
         const std::size_t a = truth_at(wheels[i].time_s), b = truth_at(wheels[j].time_s);
         double way = 0.0;
-        if (b > a) {
+        if (b > a && is_near(a, wheels[i].time_s) && is_near(b, wheels[j].time_s)) {
           const Vec2 d = truth[b].position - truth[a].position;
           if (headings && truth[a].heading_rad && truth[b].heading_rad) {
             const double h0 = *truth[a].heading_rad - vehicle.truth.axle_T_tracked.heading_rad,

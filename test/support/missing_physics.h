@@ -214,6 +214,15 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
     return [=](InjectedStep& s) {
       if (speed(s) != 0.0) s.room_m.y_m += 0.002 * size * std::sin(2.0 * kPi * s.time_s / 6.0) * s.dt_s;
     };
+  if (effect == "wheelbase_with_time")  // of a robot whose tyres spread, six percent a minute
+    return [=](InjectedStep& s) { s.turn_rad -= 1e-3 * size * s.time_s * yaw(s) * s.dt_s; };
+  if (effect == "uneven_castor") {  // it pulls to and fro, once in each 0.25 m of its way
+    auto way_m = std::make_shared<double>(0.0);
+    return [=](InjectedStep& s) {
+      *way_m += speed(s) * s.dt_s;
+      s.turn_rad += 0.05 * size * std::sin(2.0 * kPi * *way_m / 0.25) * speed(s) * s.dt_s;
+    };
+  }
   if (effect == "memory")  // twists back after a turn
   {
     auto m = std::make_shared<double>(0.0);

@@ -36,16 +36,37 @@ std::vector<Reversal> reversals(const DriveView& view) {
   return found;
 }
 
-// One kick at each reversal: at once, or spread over the way on which the castor swings round once it is sure to.
-Motions kicks(const DriveView& view, bool to_one_side, double swing_m) {
+// How a castor swings round. One that trails its pivot by so much obeys d(angle) = -sin(angle) / trail for each metre
+// that the pivot goes; turned about, it stands at half a turn and is pushed off by what little it is off that.
+struct Swing {
+  double over_m;   // evenly, over so much of the way; 0: as it trails
+  double trail_m;
+};
+constexpr Swing kSwings[] = {{0.05, 0.0}, {0.2, 0.0}, {0.001, 0.0}, {0.0, 0.02}, {0.0, 0.05}};
+constexpr double kOff = 0.06;  // the sine of what it is off
+
+// One kick at each reversal: at once, or as the castor swings round once it is sure to. Where the vehicle turns back
+// before that is done, it swings back.
+Motions kicks(const DriveView& view, bool to_one_side, const Swing& swing) {
   Motions m(view.steps.size());
-  for (const Reversal& r : reversals(view)) {
-    double since_m = 0.0;
-    for (std::size_t i = swing_m < kReversed_m ? r.first : r.sure; i < view.steps.size() && since_m < swing_m; ++i) {
+  const std::vector<Reversal> all = reversals(view);
+  double left = 0.0, sense = 1.0;  // of the swing, 1 being all of it
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const bool turned_back = left > 0.0;
+    sense = turned_back ? -sense : 1.0;
+    left = turned_back ? 1.0 - left : 1.0;
+    const bool at_once = swing.trail_m == 0.0 && swing.over_m < kReversed_m;
+    const std::size_t end = n + 1 < all.size() ? (at_once ? all[n + 1].first : all[n + 1].sure) : view.steps.size();
+    for (std::size_t i = at_once ? all[n].first : all[n].sure; i < end && left > 0.0; ++i) {
       const double way_m = std::abs(view.steps[i].forward_m());
-      m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * std::min(way_m, swing_m - since_m) / swing_m;
-      since_m += way_m;
+      const double by = swing.trail_m > 0.0
+                            ? way_m / swing.trail_m * (std::sin(kPi * std::min(left, 1.0)) + kOff) / kPi
+                            : way_m / swing.over_m;
+      const double done = std::min(by, left);
+      m[i].turn_rad += (to_one_side ? sense : all[n].direction) * done;
+      left -= done;
     }
+    if (left < 0.02) left = 0.0;
   }
   return m;
 }
@@ -61,7 +82,11 @@ std::vector<Effect> castor_reversal_kick() {
              "always to the same side, within 20 cm",
              "to one side forwards and the other in reverse, within 20 cm",
              "always to the same side, at once",
-             "to one side forwards and the other in reverse, at once"};
+             "to one side forwards and the other in reverse, at once",
+             "always to the same side, as a castor of 2 cm trail swings",
+             "to one side forwards and the other in reverse, as a castor of 2 cm trail swings",
+             "always to the same side, as a castor of 5 cm trail swings",
+             "to one side forwards and the other in reverse, as a castor of 5 cm trail swings"};
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.looks_like = {"drivetrain_backlash", "one_sided_drag"};
@@ -77,9 +102,8 @@ std::vector<Effect> castor_reversal_kick() {
     });
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    constexpr double kSwing_m[3] = {0.05, 0.2, 0.001};
     const int form = static_cast<int>(shape.back());
-    return std::vector<Motions>{kicks(view, form % 2 == 0, kSwing_m[form / 2])};
+    return std::vector<Motions>{kicks(view, form % 2 == 0, kSwings[form / 2])};
   };
   return {e};
 }

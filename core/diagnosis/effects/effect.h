@@ -110,6 +110,7 @@ struct Effect {
   bool local = false;                    // acts at a moment or place: its evidence lies in few samples
   bool of_one_recording = false;         // shape[0] is the recording's number
   bool and_later_recordings = false;     // the same, but it lasts through those after it
+  bool happens_at_rest = false;          // mostly; its shape that is estimated is that time
   bool clock_rate = false;               // acts on the wheels' clock instead of the motion
   bool of_each_recording = false;        // an amplitude, or a set of them, for each recording in turn
   // The amplitude that is the rate of a recording's clock.

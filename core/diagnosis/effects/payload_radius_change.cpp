@@ -26,6 +26,7 @@ Effect from_when(std::function<double(const DriveView&, const std::vector<double
   // The likelihood has a new chance with every sample: over the middle nine tenths of a run, at x = 25 and two
   // amplitudes, (x/2) ((1 - 2/x) ln(19^2) + 4/x) independent ones (Vostrikova 1981), of which eleven are scanned.
   e.tests_of_a_shape = 6.0;
+  e.happens_at_rest = true;
   e.looks_like = {"radius_drift"};
   e.told_apart_by = "a longer run, with the same straight several times";
   // The first count of a run has a remainder of its own: with what comes before the load, or behind it, it must be

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
 constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
+// A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
+constexpr double kFormOfAName = 0.5;
 constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
 constexpr std::size_t kMostTried = 4;
 
@@ -193,9 +195,10 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
   const double by_names = std::max(0.0, named.fit(3) - looked_for), fair = beyond_chance(evidence);
   const std::vector<GenericTest> generic = generic_tests(bare);
-  const auto beyond = [&](double gain) { return gain - (1.0 + kMostLeft) * by_names; };
-  const auto is_more = [&](const GenericTest& g, double gain) {
-    return scaled_chi_square_tail(beyond(gain) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests < error;
+  const auto beyond = [&](double gain, double margin) { return gain - (1.0 + margin) * by_names; };
+  const auto is_more = [&](const GenericTest& g, double gain, double margin = kMostLeft) {
+    return scaled_chi_square_tail(beyond(gain, margin) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests <
+           error;
   };
   const auto is_as_much = [&](const GenericTest& g, double gain) {
     return gain / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
@@ -207,9 +210,12 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
     JointModel with = bare;
     const double kept = let_in(with, *g);
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
+    const bool same_in_other_words = names_its_form(bare, with, evidence);
+    if (is_more(*g, kept) && same_in_other_words && !is_more(*g, kept, kFormOfAName)) continue;
     std::optional<Unnamed>& which = is_more(*g, kept) ? out.says_more : out.as_much;
-    if (!is_more(*g, kept) && (!is_as_much(*g, kept) || names_its_form(bare, with, evidence))) continue;
-    if (!which || beyond(kept) > which->gain) which = unnamed_by(*g, shape_of(*g, with), beyond(kept), 1.0);
+    if (!is_more(*g, kept) && (!is_as_much(*g, kept) || same_in_other_words)) continue;
+    const double more = beyond(kept, kMostLeft);
+    if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more, 1.0);
   }
   return out;
 }

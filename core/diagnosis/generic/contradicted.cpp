@@ -82,6 +82,22 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
   return u;
 }
 
+std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
+  constexpr int kTooMany = 3;
+  Unnamed u;
+  int moments = 0;
+  for (const AcceptedEffect& a : joint.accepted) {
+    if (!a.effect->local || !a.effect->of_one_recording) continue;
+    ++moments;
+    u.where.time_s.emplace_back(a.shape[1], a.shape[1]);
+  }
+  if (moments < kTooMany) return std::nullopt;
+  if (joint.runs().size() > 1) u.where.time_s.clear();  // times of several recordings
+  u.where.regime = "what happens at " + std::to_string(moments) +
+                   " moments or more, each of which would be a push or a bump of its own";
+  return u;
+}
+
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
   const double scatter = joint.model.noise.wheel_m_per_sqrt_m;

@@ -16,6 +16,9 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 // is fitted to them too, and names mend less than half of that.
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
 
+// Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier.
+std::optional<Unnamed> what_happens_too_often(const JointModel& joint);
+
 // Where what the wheels say scatters more than any wheel rolls, as if that were noise.
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);
 

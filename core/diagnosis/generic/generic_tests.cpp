@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
@@ -68,11 +69,12 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
 
 const char* name_of_channel(int channel) {
   static const char* const kNames[kGenericChannels] = {"forward per metre [1]", "sideways per metre [1]",
-                                                       "turn per metre [rad/m]"};
+                                                       "turn per metre [rad/m]", "turn per turn [1]"};
   return kNames[channel];
 }
 
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
+  if (channel == 3) return {0.0, 0.0, step.turn_rad};
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;
@@ -199,6 +201,22 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
   };
   groups.push_back(heat);
+  Group rest;
+  rest.variable = "way since it stood [m]";
+  rest.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    constexpr double kForgotten_m[] = {0.1, 0.5, 2.0};
+    constexpr double kStands_s = 0.5;
+    out.assign(std::size(kForgotten_m), std::vector<double>(view.steps.size()));
+    double way_m = 1e3, stood_s = 0.0;  // what was before the run is not known
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const bool stands = s.left_read_rad == 0.0 && s.right_read_rad == 0.0;
+      stood_s = stands ? stood_s + s.duration_s : 0.0;
+      way_m = stood_s > kStands_s ? 0.0 : way_m + std::abs(s.left_m) * 0.5 + std::abs(s.right_m) * 0.5;
+      for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
+    }
+  };
+  groups.push_back(rest);
   Group phases;
   phases.variable = "wheel rotation [rad]";
   phases.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {

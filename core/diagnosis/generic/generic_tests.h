@@ -36,9 +36,9 @@ struct GenericTest {
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 
-// Of three channels: forward, sideways and turn, each for each metre of way. Their names, and the motion of one unit of
-// a channel in one step.
-constexpr int kGenericChannels = 3;
+// Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is turned,
+// as where the wheelbase is another one. Their names, and the motion of one unit of a channel in one step.
+constexpr int kGenericChannels = 4;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 

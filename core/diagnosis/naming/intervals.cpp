@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/naming/shape_likelihood.h"
+#include "core/diagnosis/naming/time_at_rest.h"
 
 namespace odolab {
 
@@ -88,6 +89,12 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     for (std::size_t k = 0; k < free.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       of_shape[a](i, i) += std::pow(resolution_of(joint.accepted[a], free[k]), 2);
+      if (!joint.accepted[a].effect->happens_at_rest) continue;
+      const UncertainTime when =
+          time_with_rests(joint, static_cast<int>(a), free[k],
+                          {joint.accepted[a].shape[free[k]], std::sqrt(of_shape[a](i, i))}, inflation[a]);
+      joint.accepted[a].shape[free[k]] = when.at_s;
+      of_shape[a](i, i) = when.stderr_s * when.stderr_s;
     }
     moved = true;
   }

@@ -57,6 +57,14 @@ bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
 }
 
+// A bump that is met each time, and a patch about it that is no wider than a bump may be.
+bool of_one_small_place(const ScoredCandidate& bump, const ScoredCandidate& patch) {
+  constexpr double kWidest_m = 0.2;
+  if (bump.effect->name != "bump" || bump.effect->of_one_recording || patch.effect->name != "slip_zone") return false;
+  const Vec2 apart{bump.test.shape[0] - patch.test.shape[0], bump.test.shape[1] - patch.test.shape[1]};
+  return patch.test.shape[2] < kWidest_m && length(apart) < kWidest_m;
+}
+
 // What is left of something that was already let in belongs to its shape.
 bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   for (const AcceptedEffect& a : joint.accepted)
@@ -175,10 +183,12 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
     // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
-    // much it is the better name. So it is beside a patch, whose place and size were looked for in three directions.
+    // much it is the better name. So it is beside a patch, whose place and size were looked for in three directions,
+    // the more so beside one that is no wider.
     const auto is_simpler = [](const ScoredCandidate& c, const ScoredCandidate& first) {
       if (of_one_moment(c, first) || first.effect->name == "collision")
         return c.test.freedom < first.test.freedom && c.test.judged() > (1.0 - kFormError) * first.test.judged();
+      if (of_one_small_place(c, first)) return c.test.judged() > (1.0 - kFormError) * first.test.judged();
       return c.effect->name == "bump" && c.effect->of_one_recording && first.effect->name == "slip_zone" &&
              c.test.judged() > first.test.judged() - 2.0 * kClearlyBeaten;
     };
@@ -319,8 +329,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (taken || is_refuted(c) || c.p_value > family_wise_error || !c.beyond_counts ||
           c.effect->name == own.effect->name)
         continue;
-      const bool same_moment = of_one_moment(own, c);
-      const double beaten_by = std::max(2.0 * kClearlyBeaten, same_moment ? kFormError * own.test.judged() : 0.0);
+      const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
+      const double beaten_by = std::max(2.0 * kClearlyBeaten, at_one_place ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);
     }
     out.evidence.push_back(own);

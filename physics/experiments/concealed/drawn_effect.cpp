@@ -11,7 +11,7 @@ namespace odolab::concealed {
 
 namespace {
 
-enum class On { wheel, both_wheels, wheel_or_both, vehicle, floor };
+enum class On { wheel, wheel_or_both, vehicle, floor };
 
 struct Form {
   const char* name;
@@ -30,7 +30,7 @@ const Form kForms[] = {
     {"castor_reversal_kick", On::vehicle, "kick_rad", 0.01, 15.0, true},
     {"radius_drift", On::wheel_or_both, "per_s", 1e-4, 10.0, true},
     {"tyre_compression", On::vehicle, "radius_change_m_per_mps2", 5e-4, 15.0, false},
-    {"speed_dependent_radius", On::both_wheels, "per_mps", 0.02, 10.0, true},
+    {"speed_dependent_radius", On::wheel_or_both, "per_mps", 0.02, 10.0, true},
     {"payload_radius_change", On::vehicle, "left", 0.004, 8.0, true},
     {"lateral_slip", On::vehicle, "m_per_s_per_mps2", 0.02, 10.0, false},
     {"traction_slip", On::vehicle, "per_mps2", 0.02, 10.0, false},
@@ -51,8 +51,6 @@ std::string component(Random& random, On on) {
       return u < 0.5 ? "left_wheel" : "right_wheel";
     case On::wheel_or_both:
       return u < 0.4 ? "left_wheel" : u < 0.8 ? "right_wheel" : "both_wheels";
-    case On::both_wheels:
-      return "both_wheels";
     case On::floor:
       return "floor";
     case On::vehicle:

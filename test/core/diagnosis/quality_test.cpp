@@ -43,6 +43,15 @@ TEST(Checked, LeavesATruthThatRepeatsItselfAtRestAlone) {
   EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
 }
 
+TEST(Checked, TakesARestForARestWhereTheTruthIsMissingAtItsEnd) {
+  Recording r = with_a_rest();
+  for (Channel& c : r.channels)
+    if (c.name.rfind("truth_", 0) == 0)
+      for (std::size_t i = 0; i < r.time_s.size(); ++i)
+        if (r.time_s[i] > 19.0 && r.time_s[i] < 22.0) c.values[i] = std::nan("");  // by 22 s it is 0.6 m further on
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
 TEST(Checked, LeavesItOutAtRestTooWhereItDoesSoOnTheWay) {
   Recording r = with_a_rest();
   freeze(r, 5.0, 5.6);
