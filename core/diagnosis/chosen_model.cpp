@@ -76,8 +76,7 @@ Result<FittedModel> model_with(const Diagnosis& diagnosis, const std::vector<boo
   joint.linearise();
   joint.gate();
   joint.fit(3);
-  joint.fit_noise();
-  joint.fit(2);
+  joint.fit_noise_and_all();
   model.vehicle.kind = joint.model.drive;
   model.vehicle.truth = joint.model.truth;
   model.truth_clock_s.clear();

@@ -236,8 +236,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   joint.linearise();
   joint.gate();
   joint.fit(3);
-  joint.fit_noise();
-  joint.fit(2);
+  joint.fit_noise_and_all();
   const JointModel calibrated = joint;
   if (!goes_on(progress, 0.3)) return stopped;
 
@@ -278,8 +277,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       if (joint.accepted.empty()) joint = calibrated;
     } else if (!joint.accepted.empty()) {
       joint.fit(3);
-      joint.fit_noise();
-      joint.fit(2);
+      joint.fit_noise_and_all();
     }
     inflation.clear();
     for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);

@@ -112,8 +112,7 @@ Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& gener
     // Beside names it would be drawn without what these have taken of it.
     JointModel alone = without_names(joint);
     let_in(alone, *g);
-    alone.fit_noise();
-    alone.fit(2);
+    alone.fit_noise_and_all();
     return {g, shape_of(*g, alone)};
   }
   return {};

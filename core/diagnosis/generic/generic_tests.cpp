@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/bent_truth.h"
 #include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/generic/lagging.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
 
@@ -242,7 +243,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     if (g.is_memory) asked.push_back({&g, {0, 1, 2}});
   }
   const auto count = static_cast<int>(asked.size());
-  const double n = count + kUnevenWheelTests + kBentTruthTests;
+  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -278,7 +279,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     ask(tests[i], joint, std::move(term), n);
   });
   for (const std::vector<GenericTest>& more :
-       {uneven_wheel_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})
+       {uneven_wheel_tests(joint, n), lagging_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

@@ -59,6 +59,11 @@ class JointModel {
   // or small, and readings that are rounded pull at the radii.
   double fit(int iterations = 4);
   void fit_noise();
+  // The noise that is left, and then all else under it.
+  void fit_noise_and_all() {
+    fit_noise();
+    fit(2);
+  }
   void gate();  // isolated contradictions only; longer ones are left to be explained
   // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
   // from both ends: what happens nearer cannot be told from a sample that errs.

@@ -82,8 +82,7 @@ JointModel held(JointModel joint, const Effect* rates, const std::vector<double>
   align(joint, moments);
   joint.clocks_are_held = true;
   joint.fit(2);
-  joint.fit_noise();
-  joint.fit(2);
+  joint.fit_noise_and_all();
   return joint;
 }
 

@@ -6,8 +6,7 @@ namespace odolab {
 
 CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
                                      double least_surviving) {
-  with.fit_noise();
-  with.fit(2);
+  with.fit_noise_and_all();
   const AcceptedEffect& term = with.accepted.back();
   CandidateColumns columns = with.columns_of(*term.effect, term.shape);
   columns.least_surviving = least_surviving;

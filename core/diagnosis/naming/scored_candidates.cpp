@@ -147,6 +147,22 @@ bool happens_once_of(const Effect& once, const Effect& each_time) {
          (once.component == each_time.component || each_time.component == component_of(Wheel::both));
 }
 
+// Whether a candidate that is another one and more says too little beside that.
+bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
+  // Phases or rates of their own need to gain what so many more parameters gain by chance one time in a thousand.
+  const int more = c.test.freedom - simpler.test.freedom;
+  if (is_finer(*c.effect, *simpler.effect))
+    return more > 0 && chi_square_tail(c.test.judged() - simpler.test.judged(), more) > 1e-3;
+  // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
+  // time more than that it happened once, by more than another form does.
+  constexpr double kMore = 4.0, kMoreThanAForm = 1.25;
+  const double by_more = simpler.test.judged() + kMore;
+  if (is_met_by_one_of(*simpler.effect, *c.effect)) return c.test.judged() < by_more;
+  if (happens_once_of(*simpler.effect, *c.effect))
+    return c.test.judged() < std::max(by_more, kMoreThanAForm * simpler.test.judged());
+  return false;
+}
+
 }  // namespace
 
 void judge(ScoredCandidate& c) {
@@ -301,26 +317,12 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
     scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
-  // Phases or rates of their own need to gain what so many more parameters gain by chance one time in a thousand.
-  for (ScoredCandidate& own : scored)
-    for (const ScoredCandidate& shared : scored) {
-      const int more = own.test.freedom - shared.test.freedom;
-      if (is_finer(*own.effect, *shared.effect) && more > 0 &&
-          chi_square_tail(own.test.judged() - shared.test.judged(), more) > 1e-3)
-        own.test.statistic = 0.0, own.p_value = 1.0;
-    }
-  // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
-  // time more than that it happened once, by more than another form does.
-  constexpr double kMore = 4.0, kMoreThanAForm = 1.25;
-  for (ScoredCandidate& either : scored)
-    for (const ScoredCandidate& one : scored)
-      if (is_met_by_one_of(*one.effect, *either.effect) && either.test.judged() < one.test.judged() + kMore)
-        either.test.statistic = 0.0, either.p_value = 1.0;
-  for (ScoredCandidate& each_time : scored)
-    for (const ScoredCandidate& once : scored)
-      if (happens_once_of(*once.effect, *each_time.effect) &&
-          each_time.test.judged() < std::max(once.test.judged() + kMore, kMoreThanAForm * once.test.judged()))
-        each_time.test.statistic = 0.0, each_time.p_value = 1.0;
+  std::vector<char> in_vain(scored.size(), 0);
+  for (std::size_t i = 0; i < scored.size(); ++i)
+    in_vain[i] = std::any_of(scored.begin(), scored.end(),
+                             [&](const ScoredCandidate& simpler) { return says_too_little(scored[i], simpler); });
+  for (std::size_t i = 0; i < scored.size(); ++i)
+    if (in_vain[i]) scored[i].test.statistic = 0.0, scored[i].p_value = 1.0;
   std::sort(scored.begin(), scored.end(),
             [](const ScoredCandidate& a, const ScoredCandidate& b) { return a.test.judged() > b.test.judged(); });
   return scored;

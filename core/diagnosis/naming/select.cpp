@@ -135,17 +135,12 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
     ScoredCandidate& c = *nearest[static_cast<std::size_t>(i)];
     JointModel with = joint;
     let_in(with, c);
-    const CandidateTest again = tested_under_own_noise(joint, with, !c.effect->local, 1e-3);
+    const CandidateTest again = tested_under_own_noise(joint, with, !c.effect->local);
     if (again.statistic < kLarger * c.test.statistic) return;
     c.test.statistic = again.statistic;
     if (!c.effect->local) c.test.inflation = again.inflation, c.test.cross_validated = again.cross_validated;
     judge(c);
   });
-}
-
-void fit_noise_too(JointModel& joint) {
-  joint.fit_noise();
-  joint.fit(2);
 }
 
 }  // namespace
@@ -227,7 +222,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
           std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
-      fit_noise_too(joint);
+      joint.fit_noise_and_all();
       accepted = kept > 8.0 && is_material(before, before.gathered_error(), joint.gathered_error(),
                                            standing[tried]->test.value.size());
       if (!accepted) joint = before;
@@ -251,8 +246,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       a.shape = again.test.shape;
       a.value = again.test.value;
       joint.fit(2);
-      joint.fit_noise();
-      joint.fit(2);
+      joint.fit_noise_and_all();
     }
     if (!goes_on(progress, share += 0.08)) return out;
     // A name may have been the best only while another was missing.
@@ -270,7 +264,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
             top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
           joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
           let_in(joint, top);
-          fit_noise_too(joint);
+          joint.fit_noise_and_all();
         }
       }
   }
@@ -304,8 +298,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
       without.fit(4);
       const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
-      without.fit_noise();
-      without.fit(2);
+      without.fit_noise_and_all();
       const bool needed =
           lost > 100.0 && share_of(k) > least && lowers(without.gathered_error(), joint.gathered_error(), kMaterial);
       if (!needed) {
