@@ -20,7 +20,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
   const double base_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
   const double least_m = std::min(0.004, 0.02 * base_m);
-  const double least[3] = {least_m, least_m, 0.001};
+  const double least[3] = {least_m, least_m, 0.0005};
   Finding mounting;
   double gain = 0.0;
   bool material = false, moved = false;

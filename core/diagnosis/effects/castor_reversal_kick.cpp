@@ -1,6 +1,7 @@
 // A heading kick each time that the direction of travel reverses, as the castors swing round.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
 
@@ -36,37 +37,40 @@ std::vector<Reversal> reversals(const DriveView& view) {
   return found;
 }
 
-// How a castor swings round. One that trails its pivot by so much obeys d(angle) = -sin(angle) / trail for each metre
-// that the pivot goes; turned about, it stands at half a turn and is pushed off by what little it is off that.
-struct Swing {
-  double over_m;   // evenly, over so much of the way; 0: as it trails
-  double trail_m;
-};
-constexpr Swing kSwings[] = {{0.05, 0.0}, {0.2, 0.0}, {0.001, 0.0}, {0.0, 0.02}, {0.0, 0.05}};
-constexpr double kOff = 0.06;  // the sine of what it is off
+// One kick at each reversal: at once, or spread over so much of the way once it is sure to.
+Motions even_kicks(const DriveView& view, bool to_one_side, double over_m) {
+  Motions m(view.steps.size());
+  for (const Reversal& r : reversals(view)) {
+    double since_m = 0.0;
+    for (std::size_t i = over_m < kReversed_m ? r.first : r.sure; i < view.steps.size() && since_m < over_m; ++i) {
+      const double way_m = std::abs(view.steps[i].forward_m());
+      m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * std::min(way_m, over_m - since_m) / over_m;
+      since_m += way_m;
+    }
+  }
+  return m;
+}
 
-// One kick at each reversal: at once, or as the castor swings round once it is sure to. Where the vehicle turns back
-// before that is done, it swings back.
-Motions kicks(const DriveView& view, bool to_one_side, const Swing& swing) {
+// As a castor swings round that trails its pivot by so much: d(angle) = -sin(angle) / trail for each metre that the
+// pivot goes. Turned about, it stands at half a turn and is pushed off by what little it is off that. Where the vehicle
+// turns back before it is round, it swings back.
+Motions kicks_of_a_castor(const DriveView& view, bool to_one_side, double trail_m) {
+  constexpr double kOff = 0.06;    // the sine of what it is off
+  constexpr double kRound = 0.02;  // of half a turn: so near it is round
   Motions m(view.steps.size());
   const std::vector<Reversal> all = reversals(view);
-  double left = 0.0, sense = 1.0;  // of the swing, 1 being all of it
+  double left = 0.0, sense = 1.0;  // of half a turn
   for (std::size_t n = 0; n < all.size(); ++n) {
-    const bool turned_back = left > 0.0;
+    const bool turned_back = left > kRound;
     sense = turned_back ? -sense : 1.0;
     left = turned_back ? 1.0 - left : 1.0;
-    const bool at_once = swing.trail_m == 0.0 && swing.over_m < kReversed_m;
-    const std::size_t end = n + 1 < all.size() ? (at_once ? all[n + 1].first : all[n + 1].sure) : view.steps.size();
-    for (std::size_t i = at_once ? all[n].first : all[n].sure; i < end && left > 0.0; ++i) {
+    const std::size_t end = n + 1 < all.size() ? all[n + 1].sure : view.steps.size();
+    for (std::size_t i = all[n].sure; i < end && left > 0.0; ++i) {
       const double way_m = std::abs(view.steps[i].forward_m());
-      const double by = swing.trail_m > 0.0
-                            ? way_m / swing.trail_m * (std::sin(kPi * std::min(left, 1.0)) + kOff) / kPi
-                            : way_m / swing.over_m;
-      const double done = std::min(by, left);
-      m[i].turn_rad += (to_one_side ? sense : all[n].direction) * done;
-      left -= done;
+      const double swung = std::min(left, way_m / trail_m * (std::sin(kPi * left) + kOff) / kPi);
+      m[i].turn_rad += (to_one_side ? sense : all[n].direction) * swung;
+      left -= swung;
     }
-    if (left < 0.02) left = 0.0;
   }
   return m;
 }
@@ -102,8 +106,12 @@ std::vector<Effect> castor_reversal_kick() {
     });
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    const int form = static_cast<int>(shape.back());
-    return std::vector<Motions>{kicks(view, form % 2 == 0, kSwings[form / 2])};
+    constexpr double kOver_m[] = {0.05, 0.2, 0.001}, kTrail_m[] = {0.02, 0.05};
+    constexpr int kEven = static_cast<int>(std::size(kOver_m));
+    const int form = static_cast<int>(shape.back()), which = form / 2;
+    const bool to_one_side = form % 2 == 0;
+    return std::vector<Motions>{which < kEven ? even_kicks(view, to_one_side, kOver_m[which])
+                                              : kicks_of_a_castor(view, to_one_side, kTrail_m[which - kEven])};
   };
   return {e};
 }
