@@ -261,7 +261,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
     return k;
   };
-  constexpr std::size_t kMostUntenable = 4;
+  constexpr std::size_t kMostUntenable = 2;
   std::vector<const Effect*> untenables;
   while (const std::optional<std::size_t> k = untenable()) {
     untenables.push_back(joint.accepted[*k].effect);

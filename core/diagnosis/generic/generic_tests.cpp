@@ -25,6 +25,8 @@ struct Group {
   std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
   std::vector<GenericWave> waves;
   bool is_memory = false;  // of what was done before
+  bool of_turns = false;   // asked of the turn by itself too; not of what a turn's beginning and end are told by, where
+                           // whole counts leave their trace
 };
 
 Group hats_of(const std::string& name, const std::vector<DriveView>& views,
@@ -75,7 +77,6 @@ const char* name_of_channel(int channel) {
 }
 
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
-  if (channel == 3) return {0.0, 0.0, step.turn_rad};
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;
@@ -115,6 +116,11 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, speed_mps));
   // Of what a driver steers with on a straight the same is true: what shakes the wheels is what it answers to.
   const double straight_radps = 2.0 * speed_mps / base_m;
+  const auto unit_in = [straight_radps](const DriveView& view, const EffectStep& s, int channel) {
+    if (channel != kTurnOfItself) return unit_of_channel(s, view.drive.wheelbase_m, channel);
+    const double share = 1.0 - straight_radps / std::max(std::abs(s.yaw_rate_radps), straight_radps);
+    return BodyMotion{0.0, 0.0, share * s.turn_rad};
+  };
   groups.push_back(hats_of(
       "yaw rate [rad/s]", views,
       [straight_radps](const EffectStep& s) {
@@ -128,8 +134,10 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6, speed_mps / 0.1));
   groups.push_back(hats_of(
       "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8, 0.0));
+  groups.back().of_turns = true;
   Group heading;
   heading.variable = "heading [rad]";
+  heading.of_turns = true;
   heading.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     out.assign(4, std::vector<double>(view.steps.size()));
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -146,6 +154,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   };
   Group place;
   place.variable = "place on the floor [m]";
+  place.of_turns = true;
   place.values = [=](const DriveView& view, std::vector<std::vector<double>>& out) {
     out.assign(9, std::vector<double>(view.steps.size()));
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -161,6 +170,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   if (views.size() > 1) {
     Group recording;
     recording.variable = "recording";
+    recording.of_turns = true;
     const std::size_t count = views.size();
     recording.values = [count](const DriveView& view, std::vector<std::vector<double>>& out) {
       // A run that was not fitted is like the first.
@@ -239,7 +249,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   };
   std::vector<Asked> asked;
   for (const Group& g : groups) {
-    for (int channel = 0; channel < kGenericChannels; ++channel) asked.push_back({&g, {channel}});
+    for (int channel = 0; channel < (g.of_turns ? kGenericChannels : kTurnOfItself); ++channel)
+      asked.push_back({&g, {channel}});
     if (g.is_memory) asked.push_back({&g, {0, 1, 2}});
   }
   const auto count = static_cast<int>(asked.size());
@@ -252,7 +263,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     g.values(DriveView{}, one);
     auto term = std::make_shared<Effect>();
     term->amplitudes.resize(one.size() * channels.size());
-    term->motions = [values_of = g.values, channels](const DriveView& view, const std::vector<double>&) {
+    term->motions = [values_of = g.values, channels, unit_in](const DriveView& view, const std::vector<double>&) {
       std::vector<std::vector<double>> values;
       values_of(view, values);
       std::vector<Motions> out;
@@ -260,7 +271,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
         for (const std::vector<double>& of_function : values) {
           Motions motions(view.steps.size());
           for (std::size_t j = 0; j < of_function.size(); ++j) {
-            const BodyMotion m = unit_of_channel(view.steps[j], view.drive.wheelbase_m, channel);
+            const BodyMotion m = unit_in(view, view.steps[j], channel);
             const double value = of_function[j];
             motions[j] = {value * m.forward_m, value * m.sideways_m, value * m.turn_rad};
           }

@@ -37,8 +37,8 @@ struct GenericTest {
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is turned,
-// as where the wheelbase is another one. Their names, and the motion of one unit of a channel in one step.
-constexpr int kGenericChannels = 4;
+// as where the wheelbase is another one. Their names, and the motion of one unit of a channel, but the last, in a step.
+constexpr int kGenericChannels = 4, kTurnOfItself = 3;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 

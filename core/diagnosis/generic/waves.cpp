@@ -43,7 +43,7 @@ double coordinate(Along along, const DriveView& view, const EffectStep& s) {
 }
 
 // The first channels are those of all generic groups but for the turn by itself.
-constexpr int kChannelsOfAll = 3;
+constexpr int kChannelsOfAll = kTurnOfItself;
 
 // What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
 // time, for each second that it moves; and, in time, the pace of the clock, which all motion has in common.
