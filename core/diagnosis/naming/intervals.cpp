@@ -27,6 +27,18 @@ double resolution_of(const AcceptedEffect& a, int shape) {
   return unit == "s" ? kWheelSample_s : 0.0;
 }
 
+// What whole counts leave open of something that happens once: each wheel's way from before to behind it is off by the
+// difference of two evenly spread remainders. (Whether it is there at all was asked before: Effect::beyond_counts.)
+double rounding_of(const JointModel& joint, const AcceptedEffect& a, int amplitude) {
+  if (!a.effect->local || !a.effect->of_one_recording) return 0.0;
+  const DifferentialDrive& drive = joint.model.drive;
+  const double count_m = count_rad(joint.runs()[static_cast<std::size_t>(a.shape[0])], drive) * 0.5 *
+                         (drive.wheel_radius_left_m + drive.wheel_radius_right_m);
+  const double of_wheel_m = count_m / std::sqrt(6.0);
+  const bool is_turn = a.effect->amplitudes[static_cast<std::size_t>(amplitude)].unit == "rad";
+  return is_turn ? of_wheel_m * std::sqrt(2.0) / drive.wheelbase_m : of_wheel_m;
+}
+
 // Beside what the recordings say of a place or a threshold: rims are not sharp, and speeds are known as smoothed.
 double known_to(const AcceptedEffect& a, int shape) {
   constexpr double kPlace_m = 0.01, kOfThreshold = 0.05;
@@ -126,8 +138,9 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
         block.bottomLeftCorner(m, n) = block.topRightCorner(n, m).transpose();
       }
     }
-    out.of_effect.push_back(block);
     for (int k = 0; k < n; ++k) joint.accepted[a].stderr_value[k] = std::sqrt(block(k, k));
+    for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2);
+    out.of_effect.push_back(block);
   }
   return out;
 }

@@ -155,11 +155,12 @@ bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
     return more > 0 && chi_square_tail(c.test.judged() - simpler.test.judged(), more) > 1e-3;
   // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
   // time more than that it happened once, by more than another form does.
+  // Of both by one scale: the scatter elsewhere of one and of the other has nothing to do with which is right.
   constexpr double kMore = 4.0, kMoreThanAForm = 1.25;
-  const double by_more = simpler.test.judged() + kMore;
-  if (is_met_by_one_of(*simpler.effect, *c.effect)) return c.test.judged() < by_more;
+  const double by_more = simpler.test.statistic + kMore * c.test.inflation;
+  if (is_met_by_one_of(*simpler.effect, *c.effect)) return c.test.statistic < by_more;
   if (happens_once_of(*simpler.effect, *c.effect))
-    return c.test.judged() < std::max(by_more, kMoreThanAForm * simpler.test.judged());
+    return c.test.statistic < std::max(by_more, kMoreThanAForm * simpler.test.statistic);
   return false;
 }
 

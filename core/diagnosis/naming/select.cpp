@@ -65,6 +65,16 @@ bool of_one_small_place(const ScoredCandidate& bump, const ScoredCandidate& patc
   return patch.test.shape[2] < kWidest_m && length(apart) < kWidest_m;
 }
 
+// Whether the vehicle is on a patch about a moment.
+bool happens_on(const JointModel& joint, const std::vector<double>& moment, const std::vector<double>& patch) {
+  constexpr double kAbout_s = 0.5;
+  const DriveView& view = joint.views()[static_cast<std::size_t>(moment[0])];
+  return std::any_of(view.steps.begin(), view.steps.end(), [&](const EffectStep& s) {
+    return std::abs(s.time_s - moment[1]) < kAbout_s &&
+           length(s.position - Vec2{patch[0], patch[1]}) < patch[2] + view.drive.wheelbase_m;
+  });
+}
+
 // What is left of something that was already let in belongs to its shape.
 bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   for (const AcceptedEffect& a : joint.accepted)
@@ -75,12 +85,11 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   for (const AcceptedEffect& a : joint.accepted) {
     if (a.effect->name == "slip_zone") {
       if (!c.effect->of_one_recording) return true;  // one patch at a time: a disc is only nearly its shape
-      const DriveView& view = joint.views()[static_cast<std::size_t>(c.test.shape[0])];
-      for (const EffectStep& s : view.steps)
-        if (std::abs(s.time_s - c.test.shape[1]) < 0.5 &&
-            length(s.position - Vec2{a.shape[0], a.shape[1]}) < a.shape[2] + view.drive.wheelbase_m)
-          return true;
+      if (happens_on(joint, c.test.shape, a.shape)) return true;
     }
+    if (c.effect->name == "slip_zone" && a.effect->local && a.effect->of_one_recording &&
+        happens_on(joint, a.shape, c.test.shape))
+      return true;
     if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&
         std::abs(a.shape[1] - c.test.shape[1]) < 1.0)
       return true;
