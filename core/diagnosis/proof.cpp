@@ -133,9 +133,14 @@ Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit f
   p.fitted = side_of(all);
   if (!runs_.empty())
     p.unseen = side_of({frozen(model, runs_, commands_, calibration_, nominal_, noise)});
-  else if (leaves_out_in_turn)
-    p.unseen = side_of(left_out_in_turn(all[0]));
-  else if (model.runs().size() > 1)
+  else if (leaves_out_in_turn) {
+    const std::vector<JointModel> each = left_out_in_turn(all[0]);
+    p.unseen = side_of(each);
+    for (const JointModel& one : each) {
+      p.of_run.push_back(one.gathered_error());
+      p.is_foretold.push_back(one.is_foretold);
+    }
+  } else if (model.runs().size() > 1)
     p.unseen = p.fitted;
   return p;
 }
@@ -191,8 +196,16 @@ void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, co
 std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel& joint, const Predicted& by_joint,
                                    const Predicted& by_calibrated) {
   if (joint.accepted.empty() || !by_joint.unseen) return std::nullopt;
+  // Of the runs that could be foretold.
+  const auto error_of = [&](const Predicted& p) {
+    if (by_joint.of_run.empty() || p.of_run.size() != by_joint.of_run.size()) return p.unseen->error;
+    JointModel::GatheredError sum;
+    for (std::size_t r = 0; r < p.of_run.size(); ++r)
+      if (by_joint.is_foretold[r]) sum.add(p.of_run[r]);
+    return sum;
+  };
   const auto worse_than = [&](const Predicted& other) {
-    return worse_than_chance(other.unseen->error, by_joint.unseen->error);
+    return worse_than_chance(error_of(other), error_of(by_joint));
   };
   if (worse_than(by_calibrated) <= 0.0) return std::nullopt;
   std::optional<std::size_t> worst;

@@ -20,6 +20,10 @@ struct Predicted {
   };
   Side fitted;
   std::optional<Side> unseen;  // unset where there is none
+  // What `unseen` is made of, where each run was left out in turn; and whether all that acts in that run is known from
+  // the others. Else what it comes to says nothing of what is known.
+  std::vector<JointModel::GatheredError> of_run;
+  std::vector<char> is_foretold;
 };
 
 // Predicts what was not fitted: the recordings held out, by a model that is frozen but for their clocks; where there

@@ -415,11 +415,31 @@ JointModel JointModel::left_out(int run) const {
   one.nuisance_active = nuisance_active;
   one.clocks_are_held = clocks_are_held;
   one.nominal_ = nominal_;
-  // What only this run could tell is not known from the others.
+  // What only this run could tell is not known from the others; nor is what they do not tell from nothing, so that it
+  // would come out as anything: without the one run that goes back, a drag is any radius. All else is fitted without
+  // it.
+  constexpr double kLeastSigmas = 3.0;
+  const MatrixXd known_by_others = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
   std::vector<char> unknown(gram.rows(), 0);
+  for (Eigen::Index c = 0; c < gram.rows(); ++c) unknown[c] = gram(c, c) < 1e-6 * gram_(c, c);
+  int amplitude = first_amplitude();
+  for (const AcceptedEffect& a : accepted) {
+    double sigmas = 0.0;
+    for (std::size_t j = 0; j < a.value.size(); ++j) {
+      const Eigen::Index c = amplitude + static_cast<int>(j);
+      sigmas = std::max(sigmas, std::abs(a.value[j]) / std::sqrt(std::max(known_by_others(c, c), 1e-300)));
+    }
+    for (std::size_t j = 0; j < a.value.size(); ++j, ++amplitude) {
+      if (sigmas < kLeastSigmas && a.acts_on_motion()) unknown[amplitude] = 1;
+      if (!unknown[amplitude]) continue;
+      zr += gram.col(amplitude) * a.value[j];
+      const std::vector<int>& acting = now_->columns[run];
+      const bool at_one_moment = a.effect->of_one_recording && a.effect->local;
+      if (!at_one_moment && std::find(acting.begin(), acting.end(), amplitude) != acting.end()) one.is_foretold = false;
+    }
+  }
   for (Eigen::Index c = 0; c < gram.rows(); ++c)
-    if (gram(c, c) < 1e-6 * gram_(c, c)) {
-      unknown[c] = 1;
+    if (unknown[c]) {
       gram.row(c).setZero();
       gram.col(c).setZero();
       gram(c, c) = 1.0;

@@ -81,6 +81,8 @@ class JointModel {
   bool clocks_are_held = false;
   std::array<double, 2> half_counts{};  // left and right: how much of counts_at_rest there is
   std::vector<char> nuisance_active = std::vector<char>(6, 1);
+  // Of a run that was left out: whether all that acts in it is known from the others.
+  bool is_foretold = true;
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
   bool truth_noise_lasts = false;
 
