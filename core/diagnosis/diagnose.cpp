@@ -8,6 +8,7 @@
 #include "core/calibration/moved_mounting.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/advice/advice.h"
+#include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/adequacy.h"
 #include "core/diagnosis/generic/contradicted.h"
@@ -243,6 +244,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   Selected selected = select_effects(joint, options.family_wise_error, progress);
   if (!goes_on(progress, 0.75)) return stopped;
 
+  const Predictor predictor(ready_held_out, d.calibration_alone, nominal);
+  choose_by_unseen(predictor, joint, selected);
   std::vector<double> inflation;
   for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
@@ -250,7 +253,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   Intervals intervals = refined(joint, inflation);
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.
-  const Predictor predictor(ready_held_out, d.calibration_alone, nominal);
   Predicted by_calibrated, by_joint;
   const auto untenable = [&]() -> std::optional<std::size_t> {
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
