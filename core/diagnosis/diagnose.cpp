@@ -152,6 +152,12 @@ Adequacy judged_adequacy(const JointModel& joint, const JointModel& calibrated, 
   return adequacy;
 }
 
+std::vector<double> inflations_of(const Selected& selected) {
+  std::vector<double> inflations;
+  for (const ScoredCandidate& e : selected.evidence) inflations.push_back(e.test.inflation);
+  return inflations;
+}
+
 std::string of_refuted(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -246,11 +252,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   const Predictor predictor(ready_held_out, d.calibration_alone, nominal);
   choose_by_unseen(predictor, joint, selected);
-  std::vector<double> inflation;
-  for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
   if (joint.accepted.empty()) joint = calibrated;
-  Intervals intervals = refined(joint, inflation);
+  Intervals intervals = refined(joint, inflations_of(selected));
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.
   Predicted by_calibrated, by_joint;
@@ -281,9 +285,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       joint.fit(3);
       joint.fit_noise_and_all();
     }
-    inflation.clear();
-    for (const ScoredCandidate& e : selected.evidence) inflation.push_back(e.test.inflation);
-    intervals = refined(joint, inflation);
+    intervals = refined(joint, inflations_of(selected));
   }
 
   std::vector<Finding> named;

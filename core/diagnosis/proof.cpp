@@ -60,7 +60,8 @@ Predicted::Side side_of(const std::vector<JointModel>& models) {
   Predicted::Side side;
   double chi2 = 0.0, scalars = 0.0;
   for (const JointModel& j : models) {
-    side.error.add(j.gathered_error());
+    side.of_model.push_back(j.gathered_error());
+    side.error.add(side.of_model.back());
     chi2 += j.chi2(), scalars += j.scalars();
   }
   side.figures = {std::sqrt(side.error.position_m2), std::sqrt(side.error.heading_rad2),
@@ -136,10 +137,7 @@ Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit f
   else if (leaves_out_in_turn) {
     const std::vector<JointModel> each = left_out_in_turn(all[0]);
     p.unseen = side_of(each);
-    for (const JointModel& one : each) {
-      p.of_run.push_back(one.gathered_error());
-      p.is_foretold.push_back(one.is_foretold);
-    }
+    for (const JointModel& one : each) p.is_foretold.push_back(one.is_foretold);
   } else if (model.runs().size() > 1)
     p.unseen = p.fitted;
   return p;
@@ -198,10 +196,10 @@ std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel&
   if (joint.accepted.empty() || !by_joint.unseen) return std::nullopt;
   // Of the runs that could be foretold.
   const auto error_of = [&](const Predicted& p) {
-    if (by_joint.of_run.empty() || p.of_run.size() != by_joint.of_run.size()) return p.unseen->error;
+    if (by_joint.is_foretold.empty() || p.is_foretold.size() != by_joint.is_foretold.size()) return p.unseen->error;
     JointModel::GatheredError sum;
-    for (std::size_t r = 0; r < p.of_run.size(); ++r)
-      if (by_joint.is_foretold[r]) sum.add(p.of_run[r]);
+    for (std::size_t r = 0; r < p.is_foretold.size(); ++r)
+      if (by_joint.is_foretold[r]) sum.add(p.unseen->of_model[r]);
     return sum;
   };
   const auto worse_than = [&](const Predicted& other) {

@@ -17,12 +17,12 @@ struct Predicted {
   struct Side {
     FitFigures figures;
     JointModel::GatheredError error;
+    std::vector<JointModel::GatheredError> of_model;  // what that is made of: one, or one for each run left out in turn
   };
   Side fitted;
   std::optional<Side> unseen;  // unset where there is none
-  // What `unseen` is made of, where each run was left out in turn; and whether all that acts in that run is known from
-  // the others. Else what it comes to says nothing of what is known.
-  std::vector<JointModel::GatheredError> of_run;
+  // Where each run was left out in turn: whether all that acts in that run is known from the others. Else what it comes
+  // to says nothing of what is known.
   std::vector<char> is_foretold;
 };
 

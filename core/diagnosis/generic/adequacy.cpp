@@ -19,7 +19,7 @@ constexpr double kMostLeft = 0.15;        // of the evidence may stay without a 
 constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
 // A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
 constexpr double kFormOfAName = 0.5;
-constexpr double kTwoExplain = 0.85;      // share of the evidence that the two strongest of three names must have
+constexpr double kTwoExplain = 0.85;  // share of the evidence that the two strongest of three names must have
 constexpr std::size_t kMostTried = 4;
 
 // Lets a group of generic terms in; twice what the log-likelihood gains by it.
@@ -209,10 +209,10 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
     JointModel with = bare;
     const double kept = let_in(with, *g);
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
-    const bool same_in_other_words = names_its_form(bare, with, evidence);
-    if (is_more(*g, kept) && same_in_other_words && !is_more(*g, kept, kFormOfAName)) continue;
-    std::optional<Unnamed>& which = is_more(*g, kept) ? out.says_more : out.as_much;
-    if (!is_more(*g, kept) && (!is_as_much(*g, kept) || same_in_other_words)) continue;
+    const bool says_more = is_more(*g, kept);
+    if (!says_more && !is_as_much(*g, kept)) continue;
+    if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
+    std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = beyond(kept, kMostLeft);
     if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more, 1.0);
   }

@@ -109,29 +109,35 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
 
 constexpr std::size_t kFewestElsewhere = 20;  // to know a scatter from
 
-// Whether some wheel may be on two patches at once. Those without a radius are small.
-bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<double>& b, double wheelbase_m) {
-  double away_m2 = 0.0, reach_m = 0.0;
+// Two places: the square of how far they are apart, and their radii together; those without a radius are small.
+struct Apart {
+  double away_m2 = 0.0, radii_m = 0.0;
+};
+
+Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
+  Apart p;
   for (std::size_t k = 0; k < e.shapes.size(); ++k) {
     if (e.shapes[k].name == "radius_m")
-      reach_m = a[k] + b[k] + wheelbase_m;
+      p.radii_m = a[k] + b[k];
     else if (e.shapes[k].unit == "m")
-      away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
+      p.away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
   }
-  return away_m2 < reach_m * reach_m;
+  return p;
+}
+
+// Whether some wheel may be on two patches at once.
+bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<double>& b, double wheelbase_m) {
+  const Apart p = apart(e, a, b);
+  const double reach_m = p.radii_m > 0.0 ? p.radii_m + wheelbase_m : 0.0;
+  return p.away_m2 < reach_m * reach_m;
 }
 
 // So near each other that what is looked for from one is found from the other.
 bool is_one_place(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kSmall_m = 0.25;
-  double away_m2 = 0.0, near_m = kSmall_m;
-  for (std::size_t k = 0; k < e.shapes.size(); ++k) {
-    if (e.shapes[k].name == "radius_m")
-      near_m = std::max(near_m, 0.5 * (a[k] + b[k]));
-    else if (e.shapes[k].unit == "m")
-      away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
-  }
-  return away_m2 < near_m * near_m;
+  const Apart p = apart(e, a, b);
+  const double near_m = std::max(kSmall_m, 0.5 * p.radii_m);
+  return p.away_m2 < near_m * near_m;
 }
 
 // The same place, met by one wheel alone.
@@ -249,7 +255,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
           minus_statistic > kWorthAStart * places.front().first)
         break;
       const auto is_one_with = [&, k = k](std::size_t other) { return is_one_place(e, shapes[k], shapes[other]); };
-      if (!starts.empty() && std::any_of(starts.begin(), starts.end(), is_one_with)) continue;
+      if (std::any_of(starts.begin(), starts.end(), is_one_with)) continue;
       starts.push_back(k);
     }
     for (std::size_t n = 1; n < starts.size(); ++n) {  // the first is where it began
