@@ -77,6 +77,20 @@ inline GeneratorSettings under_motion_capture(const DifferentialDrive& drive, do
   return g;
 }
 
+// Three runs of one robot, each with its driving and with what is injected into it.
+inline std::vector<Recording> three_runs(GeneratorSettings g, Random& random,
+                                         const std::function<SpeedProfile(int run)>& driving,
+                                         const std::function<std::function<void(InjectedStep&)>(int run)>& inject) {
+  std::vector<Recording> recordings;
+  for (int run = 0; run < 3; ++run) {
+    const SpeedProfile profile = driving(run);
+    g.inject = inject(run);
+    recordings.push_back(generated(g, profile, random));
+    recordings.back().name = "run_" + std::to_string(run + 1);
+  }
+  return recordings;
+}
+
 inline std::function<void(InjectedStep&)> injected(const std::string& effect, double size,
                                                    const DifferentialDrive& drive, int run, double duration_s,
                                                    Random& random) {

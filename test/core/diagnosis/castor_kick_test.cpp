@@ -11,20 +11,19 @@ namespace {
 constexpr double kTrail_m = 0.035, kKick_rad = 0.008;
 
 // Straights forth and back, each long enough for a castor to swing round: turned about, it stands five degrees off and
-// obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is turned by the share of half a turn that it swings.
+// obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is turned by the share of half a turn that it
+// swings.
 std::vector<Recording> forth_and_back(Random& random) {
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
   g.duration_s = 60.0;
-  std::vector<Recording> recordings;
-  for (int run = 0; run < 3; ++run) {
-    const double leg_s = 3.0 + run;
-    const auto profile = [leg_s](double t) {
+  const auto legs = [](int run) -> SpeedProfile {
+    return [leg_s = 3.0 + run](double t) {
       const double pace = std::fmod(t, 2.0 * leg_s) < leg_s ? 4.0 : -4.0, turn = 0.2 * std::sin(0.3 * t);
       return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
     };
-    double angle_rad = 0.0;
-    int direction = 1;
-    g.inject = [angle_rad, direction](InjectedStep& s) mutable {
+  };
+  const auto swinging = [](int) {
+    return [angle_rad = 0.0, direction = 1](InjectedStep& s) mutable {
       const double way_m = 0.5 * 0.075 * (s.left_radps + s.right_radps) * s.dt_s;
       const int now = way_m > 0.0 ? 1 : -1;
       if (now != direction) angle_rad = kPi - 5.0 * kPi / 180.0, direction = now;
@@ -32,10 +31,8 @@ std::vector<Recording> forth_and_back(Random& random) {
       angle_rad -= swung;
       s.turn_rad += kKick_rad * swung / kPi;
     };
-    recordings.push_back(generated(g, profile, random));
-    recordings.back().name = "run_" + std::to_string(run + 1);
-  }
-  return recordings;
+  };
+  return three_runs(g, random, legs, swinging);
 }
 
 TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {

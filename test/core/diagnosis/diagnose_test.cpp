@@ -103,15 +103,14 @@ TEST(Diagnose, CallsManyPushesAndNoOtherCauseUnknown) {
   Random random(7311);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
   g.duration_s = 40.0;
-  std::vector<Recording> recordings;
-  for (int run = 0; run < 3; ++run) {
-    g.inject = [run](InjectedStep& s) {
+  const auto pushed = [](int run) {
+    return [run](InjectedStep& s) {
       for (const double at_s : {8.0, 19.0, 31.0})
         if (run == 1 && s.time_s >= at_s && s.time_s < at_s + 0.05) s.sideways_m += 0.3 * s.dt_s;  // 15 mm each
     };
-    recordings.push_back(generated(g, varied_driving(random, g.duration_s), random));
-    recordings.back().name = "run_" + std::to_string(run + 1);
-  }
+  };
+  const std::vector<Recording> recordings =
+      three_runs(g, random, [&](int) { return varied_driving(random, g.duration_s); }, pushed);
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   EXPECT_EQ(d.verdict, Verdict::unknown_effect) << said(d);
   ASSERT_FALSE(d.findings.empty());
@@ -122,12 +121,9 @@ TEST(Diagnose, SaysOfWhichWheelTheRadiusDependsOnSpeed) {
   Random random(7321);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
   g.duration_s = 50.0;
-  std::vector<Recording> recordings;
-  for (int run = 0; run < 3; ++run) {
-    g.inject = [](InjectedStep& s) { s.right_m *= 1.0 + 0.02 * std::abs(0.075 * s.right_radps); };
-    recordings.push_back(generated(g, varied_driving(random, g.duration_s), random));
-    recordings.back().name = "run_" + std::to_string(run + 1);
-  }
+  const auto growing = [](InjectedStep& s) { s.right_m *= 1.0 + 0.02 * std::abs(0.075 * s.right_radps); };
+  const std::vector<Recording> recordings = three_runs(
+      g, random, [&](int) { return varied_driving(random, g.duration_s); }, [&](int) { return growing; });
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_EQ(d.findings.size(), 1u) << said(d);
   EXPECT_EQ(d.findings[0].effect, "speed_dependent_radius");
