@@ -108,6 +108,32 @@ void lay_line(const Series& time_s, int from, int to, double period_s, Series& e
   }
 }
 
+// What stamps are rounded to, the coarsest that all of them are multiples of; 0 where there is none.
+double grain_of(const Series& time_s) {
+  constexpr double kDigits_s = 1e-6;  // of a stamp as it is written
+  for (const double grain_s : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
+    if (std::all_of(time_s.begin(), time_s.end(), [&](double t) {
+          return std::abs(t - grain_s * std::round(t / grain_s)) < kDigits_s;
+        }))
+      return grain_s;
+  return 0.0;
+}
+
+// Rounded stamps of one even period, which lie within half a grain of a straight line: then that is what they are, and
+// lines between knots would follow the rounding where it changes its pattern. False where they are not.
+bool lay_straight(const Series& time_s, int from, int to, double period_s, double grain_s, Series& even) {
+  constexpr double kTolerance_s = 1e-5;
+  double earliest = -1e300, latest = 1e300;  // that the first may be
+  for (int i = from; i < to; ++i) {
+    const double start_s = time_s[i] - period_s * (i - from);
+    earliest = std::max(earliest, start_s - 0.5 * grain_s);
+    latest = std::min(latest, start_s + 0.5 * grain_s);
+  }
+  if (!(grain_s > 0.0) || earliest > latest + kTolerance_s) return false;
+  for (int i = from; i < to; ++i) even[i] = 0.5 * (earliest + latest) + period_s * (i - from);
+  return true;
+}
+
 // The share of the lateness that a path shows, Eq. 13.
 struct Share {
   double value = 1.0, stderr_value = 1e9;
@@ -152,12 +178,14 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   even.period_s = period_of(time_s);
   if (!(even.period_s > 0.0)) return std::nullopt;
   even.time_s = time_s;
+  const double grain_s = grain_of(time_s);
   const std::vector<int> ends = ends_of_stretches(time_s, even.period_s);
   std::vector<int> stretch(time_s.size(), -1);
   int from = 0, laid = 0, blocks = 0, wandering = 0;
   for (const int end : ends) {
     if (end - from >= kLeastStretch) {
-      lay_line(time_s, from, end, even.period_s, even.time_s);
+      if (!lay_straight(time_s, from, end, even.period_s, grain_s, even.time_s))
+        lay_line(time_s, from, end, even.period_s, even.time_s);
       std::fill(stretch.begin() + from, stretch.begin() + end, from);
       laid += end - from;
       // Where whole blocks stay off the line the readings were not taken at one period: those of an encoder that speaks

@@ -170,7 +170,9 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     const double pieces = std::ceil(std::min(std::abs(turn) / kPiece_rad, (b.time_s - a.time_s) / kPiece_s));
     if (!(pieces > 1.0) || run.speeds_are_held) return b.time_s;
     const double piece_s = (b.time_s - a.time_s) / pieces;
-    const double next_s = a.time_s + piece_s * (std::floor((at_s - a.time_s) / piece_s + 1e-6) + 1.0);
+    // Stamps since 1970 are known to a quarter of a microsecond: what lies so near an end of a piece is at that end.
+    constexpr double kOfAPiece = 1e-3;
+    const double next_s = a.time_s + piece_s * (std::floor((at_s - a.time_s) / piece_s + kOfAPiece) + 1.0);
     return next_s < b.time_s - 0.5 * piece_s ? next_s : b.time_s;
   };
   double now_s = time_of(0);

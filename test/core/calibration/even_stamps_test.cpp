@@ -59,6 +59,22 @@ double unevenness_s(const Series& stamps, const Series& taken_s) {
   return std::sqrt(squares / n - sum / n * sum / n);
 }
 
+// A reading that lies between two marks is rounded up for a while and down later, as it is where sums of decimal
+// fractions are rounded.
+TEST(EvenStamps, OfAnEvenPeriodThatAreRoundedToHundredthsLieOnOneStraightLine) {
+  Series taken_s, stamps;
+  for (int i = 0; i < kRows; ++i) {
+    taken_s.push_back(0.025 * i);
+    const double hundredths = 2.5 * i;
+    stamps.push_back(0.01 * (i < kRows / 2 ? std::floor(hundredths + 0.5) : std::ceil(hundredths - 0.5)));
+  }
+  Series rad;
+  for (double t : taken_s) rad.push_back(counted_rad(turned_rad(t)));
+  const std::optional<EvenStamps> even = even_stamps(stamps, {rad});
+  ASSERT_TRUE(even);
+  EXPECT_LT(unevenness_s(even->time_s, taken_s), 1e-5);
+}
+
 TEST(EvenStamps, ReadingsThatArriveLateAreGivenTheirEvenTimesBack) {
   Random random(1);
   const Series taken = evenly(), rad = read_at(taken), stamps = arrived(taken, 0.004, random);

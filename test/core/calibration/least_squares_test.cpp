@@ -423,5 +423,22 @@ TEST(LeastSquares, IsNotBiasedByWheelsThatAreReadTenTimesASecond) {
   EXPECT_LT(named(*result, "wheelbase_m").stderr_value, 2e-4);  // a thousandth, as much as chords would err by
 }
 
+// A double knows such a stamp to a quarter of a microsecond.
+TEST(LeastSquares, SaysTheSameOfStampsThatCountFromNineteenSeventy) {
+  GeneratorSettings g = off_the_drawing();
+  g.wheel_period_s = 0.05;
+  g.truth_period_s = 0.023;
+  g.duration_s = 40.0;
+  Random random(22), drive(122);
+  Recording recording = generated(g, test::varied_driving(drive, g.duration_s), random);
+  const auto from_zero = calibrate_least_squares({recording}, labmate());
+  for (double& time_s : recording.time_s) time_s += 1713157448.23175;
+  const auto from_1970 = calibrate_least_squares({recording}, labmate());
+  ASSERT_TRUE(from_zero.ok() && from_1970.ok());
+  for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m"})
+    EXPECT_NEAR(named(*from_1970, name).value, named(*from_zero, name).value, 0.01 * named(*from_zero, name).stderr_value)
+        << name;
+}
+
 }  // namespace
 }  // namespace odolab
