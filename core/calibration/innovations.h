@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/calibration/wheel_accelerations.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -78,6 +79,7 @@ struct InnovationRun {
   std::string name;
   std::vector<WheelSample> wheels;     // two or more, times strictly increasing
   std::vector<WheelSample> smooth;     // the same smoothed, for derivatives; empty: as they are
+  std::vector<WheelAcceleration> accelerations;  // for each interval; empty: not reckoned yet
   std::vector<TruthSample> truth;      // two or more, times strictly increasing, about within the time of the wheels
   bool truth_has_heading = false;      // where not, the first heading is unknown and found with the path's shape
   bool speeds_are_held = false;        // between wheel samples, as a command is; else wheels speed up smoothly

@@ -102,40 +102,22 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   }
   view.longest_step_m = std::max(view.longest_step_m, std::sqrt(longest_m2));
   for (EffectStep& s : view.steps) s.cos_heading = std::cos(s.heading_rad), s.sin_heading = std::sin(s.heading_rad);
-  // Single counts would drown a speed. And a wheel that is kicked by the floor is slowed down or sped up by the same
-  // kick, so that over shorter times noise itself would depend on acceleration.
-  constexpr double kSpeedWindow_s = 0.0, kAccelerationWindow_s = 0.15;  // to either side
-  const auto smoothed = [&](int i, double half_s, double* left, double* right) {
-    const double t = view.steps[i].time_s;
-    int lo = i, hi = i;
-    while (lo > 0 && t - view.steps[lo - 1].time_s < half_s) --lo;
-    while (hi + 1 < n && view.steps[hi + 1].time_s - t < half_s) ++hi;
-    double span = 0.0, l = 0.0, r = 0.0;
-    for (int j = lo; j <= hi; ++j) {
-      span += view.steps[j].duration_s;
-      l += smooth[static_cast<std::size_t>(j) + 1].left_rad - smooth[static_cast<std::size_t>(j)].left_rad;
-      r += smooth[static_cast<std::size_t>(j) + 1].right_rad - smooth[static_cast<std::size_t>(j)].right_rad;
-    }
-    *left = span > 0.0 ? l / span : 0.0;  // two readings may have one stamp
-    *right = span > 0.0 ? r / span : 0.0;
-  };
+  const std::vector<WheelAcceleration> reckoned_now =
+      run.accelerations.empty() ? wheel_accelerations(run.wheels) : std::vector<WheelAcceleration>{};
+  const std::vector<WheelAcceleration>& accelerations = run.accelerations.empty() ? reckoned_now : run.accelerations;
   const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
   for (int i = 0; i < n; ++i) {
     EffectStep& s = view.steps[i];
-    smoothed(i, kSpeedWindow_s, &s.left_radps, &s.right_radps);
+    if (s.duration_s > 0.0) {  // two readings may have one stamp
+      s.left_radps = (smooth[i + 1].left_rad - smooth[i].left_rad) / s.duration_s;
+      s.right_radps = (smooth[i + 1].right_rad - smooth[i].right_rad) / s.duration_s;
+    }
     s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
     s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
-  }
-  for (int i = 0, lo = 0, hi = 0; i < n; ++i) {
-    const double t = view.steps[i].time_s;
-    while (lo < i && t - view.steps[lo + 1].time_s >= kAccelerationWindow_s) ++lo;
-    while (hi + 1 < n && (hi < i || view.steps[hi].time_s - t < kAccelerationWindow_s)) ++hi;
-    const double span = view.steps[hi].time_s - view.steps[lo].time_s;
-    if (span <= 0.0) continue;
-    view.steps[i].acceleration_mps2 = (view.steps[hi].speed_mps - view.steps[lo].speed_mps) / span;
-    view.steps[i].left_mps2 = rl * (view.steps[hi].left_radps - view.steps[lo].left_radps) / span;
-    view.steps[i].right_mps2 = rr * (view.steps[hi].right_radps - view.steps[lo].right_radps) / span;
-    view.steps[i].yaw_acceleration_radps2 = (view.steps[hi].yaw_rate_radps - view.steps[lo].yaw_rate_radps) / span;
+    s.left_mps2 = rl * accelerations[i].left_radps2;
+    s.right_mps2 = rr * accelerations[i].right_radps2;
+    s.acceleration_mps2 = 0.5 * (s.left_mps2 + s.right_mps2);
+    s.yaw_acceleration_radps2 = (s.right_mps2 - s.left_mps2) / base;
   }
   return view;
 }

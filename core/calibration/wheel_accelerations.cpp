@@ -1,0 +1,95 @@
+#include "core/calibration/wheel_accelerations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace odolab {
+
+namespace {
+
+constexpr double kShortest_s = 0.4, kLongest_s = 0.8;  // of which the weights leave some two thirds
+constexpr double kOfCurve = 1903.0;  // n T^4 times the second derivative's variance, for readings of variance 1
+constexpr double kShareOfTremble = 0.001;    // of the accelerations' variance
+constexpr std::size_t kFewest = 4;        // readings, two to either side of an interval
+
+// The second derivative of a parabola through readings at times `s` from the middle, by least squares.
+struct Parabola {
+  double n = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0, y = 0.0, sy = 0.0, ssy = 0.0;
+  void add(double s, double value, double weight) {
+    const double ws = weight * s, wss = ws * s;
+    n += weight, s1 += ws, s2 += wss, s3 += wss * s, s4 += wss * s * s;
+    y += weight * value, sy += ws * value, ssy += wss * value;
+  }
+  double second_derivative() const {
+    const double a = s1 * s3 - s2 * s2, b = n * s3 - s1 * s2, c = n * s2 - s1 * s1;
+    const double by = 2.0 * (y * a - sy * b + ssy * c) / (s2 * a - s3 * b + s4 * c);
+    return std::isfinite(by) ? by : 0.0;  // stamps may all be the same
+  }
+};
+
+std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel,
+                                     double over_s) {
+  const std::size_t n = readings.size();
+  std::vector<double> of(n - 1);
+  for (std::size_t i = 0, lo = 0, hi = 1; i + 1 < n; ++i) {
+    const double middle_s = 0.5 * (readings[i].time_s + readings[i + 1].time_s);
+    while (middle_s - readings[lo].time_s > 0.5 * over_s) ++lo;
+    while (hi + 1 < n && readings[hi + 1].time_s - middle_s <= 0.5 * over_s) ++hi;
+    const std::size_t from = std::min(lo, i >= 1 ? i - 1 : i);
+    const std::size_t to = std::max(hi, std::min(i + 2, n - 1));
+    if (to - from + 1 < kFewest) continue;
+    Parabola p;
+    const double reach_s = 1.05 * std::max({0.5 * over_s, middle_s - readings[from].time_s, readings[to].time_s - middle_s});
+    for (std::size_t k = from; k <= to; ++k) {
+      const double away_s = readings[k].time_s - middle_s, u = away_s / reach_s;
+      p.add(away_s, readings[k].*wheel - readings[i].*wheel, (1.0 - u * u) * (1.0 - u * u));
+    }
+    of[i] = p.second_derivative();
+  }
+  return of;
+}
+
+// Variance of what a reading trembles by, from third differences, to which smooth motion adds nothing; of the middle
+// one of those where the wheel moves: a wheel that starts is no tremble.
+double tremble_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
+  constexpr double kOfOne = 20.0;       // a third difference's variance for a reading's of one: 1 + 9 + 9 + 1
+  constexpr double kMiddle = 0.4549364;  // median of a squared standard normal number
+  std::vector<double> squares;
+  for (std::size_t i = 0; i + 3 < readings.size(); ++i) {
+    if (readings[i].*wheel == readings[i + 3].*wheel) continue;
+    const double third =
+        readings[i + 3].*wheel - 3.0 * readings[i + 2].*wheel + 3.0 * readings[i + 1].*wheel - readings[i].*wheel;
+    squares.push_back(third * third);
+  }
+  if (squares.empty()) return 0.0;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return *middle / kMiddle / kOfOne;
+}
+
+std::vector<double> of_wheel(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
+  const double whole_s = readings.back().time_s - readings.front().time_s;
+  const double rate_hz = static_cast<double>(readings.size() - 1) / std::max(whole_s, 1e-9);
+  const std::vector<double> at_most_smoothed = accelerations_of(readings, wheel, kLongest_s);
+  double square = 0.0;
+  for (double a : at_most_smoothed) square += a * a;
+  square /= static_cast<double>(at_most_smoothed.size());
+  const double needed_s =
+      square > 0.0 ? std::pow(kOfCurve * tremble_of(readings, wheel) / (rate_hz * kShareOfTremble * square), 0.2)
+                   : kLongest_s;
+  if (needed_s >= kLongest_s) return at_most_smoothed;
+  return accelerations_of(readings, wheel, std::max(needed_s, kShortest_s));
+}
+
+}  // namespace
+
+std::vector<WheelAcceleration> wheel_accelerations(const std::vector<WheelSample>& readings) {
+  if (readings.size() < kFewest) return std::vector<WheelAcceleration>(readings.empty() ? 0 : readings.size() - 1);
+  const std::vector<double> left = of_wheel(readings, &WheelSample::left_rad),
+                            right = of_wheel(readings, &WheelSample::right_rad);
+  std::vector<WheelAcceleration> of(left.size());
+  for (std::size_t i = 0; i < of.size(); ++i) of[i] = {left[i], right[i]};
+  return of;
+}
+
+}  // namespace odolab
