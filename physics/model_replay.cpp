@@ -63,13 +63,17 @@ bool is_of_the_truth(const ActiveEffect& active) {
   return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
 }
 
+int form_of(const ActiveEffect& fitted) { return static_cast<int>(fitted.parameter("form")); }
+
 // With wheels that have drifted since the session began: the simulation's own drift starts with the recording.
 Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects, const Recording& recording) {
   auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
   if (!drive || recording.time_s.empty()) return vehicle;
   for (const ActiveEffect& a : effects) {
     if (a.effect != "radius_drift" || !has(a, kSessionStart)) continue;
-    const double grown = 1.0 + a.parameter("per_s") * (recording.time_s.front() - a.parameter(kSessionStart));
+    const double grown =
+        1.0 + a.parameter("per_s") * effects::drifted_s(recording.time_s.front() - a.parameter(kSessionStart),
+                                                        effects::drift_time_constant_s(form_of(a)));
     if (a.component != "right_wheel") drive->wheel_radius_left_m *= grown;
     if (a.component != "left_wheel") drive->wheel_radius_right_m *= grown;
   }
@@ -89,8 +93,15 @@ std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, cons
                     [&](const EffectParameter& p) { return p.name == given.first; }))
       active.parameters.push_back(given);
   if (fitted.effect == "drivetrain_backlash")
-    if (const auto drag_mps2 = effects::backlash_drag_mps2(static_cast<int>(fitted.parameter("form"))))
+    if (const auto drag_mps2 = effects::backlash_drag_mps2(form_of(fitted)))
       active.parameters.emplace_back("drag_mps2", *drag_mps2);
+  if (const double end_s = fitted.effect == "radius_drift" ? effects::drift_time_constant_s(form_of(fitted)) : 0.0;
+      end_s > 0.0) {
+    active.parameters.emplace_back("time_constant_s", end_s);
+    if (has(fitted, kSessionStart) && !recording.time_s.empty())  // the simulation's own begins with the recording
+      for (auto& [name, value] : active.parameters)
+        if (name == "per_s") value *= std::exp(-(recording.time_s.front() - fitted.parameter(kSessionStart)) / end_s);
+  }
   if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
     if (const auto tracked = truth_at(recording, fitted.parameter("at_s") + vehicle.truth.time_offset_s)) {
       const Vec2 place = wheel_at(*tracked * inverse(vehicle.truth.axle_T_tracked), fitted.component, vehicle);

@@ -15,9 +15,10 @@ const std::vector<std::string> kVehicleOrAnyWheel = {"vehicle", "left_wheel", "r
 const std::vector<std::string> kTruth = {"truth"};
 
 constexpr double kFar = 1e6;  // metres or seconds
+constexpr double kEver_s = 1e11;  // stamps may count from 1970
 constexpr bool kRequired = true;
 
-const std::vector<EffectParameter> kWhen = {{"at_s", -kFar, kFar}, {"every_s", 1e-3, kFar}, {"lasts_s", 0.0, kFar}};
+const std::vector<EffectParameter> kWhen = {{"at_s", -kEver_s, kEver_s}, {"every_s", 1e-3, kFar}, {"lasts_s", 0.0, kFar}};
 
 std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) {
   parameters.insert(parameters.end(), kWhen.begin(), kWhen.end());
@@ -77,12 +78,12 @@ const std::vector<EffectEntry>& effect_catalogue() {
       {"drivetrain_backlash", kWheels, {{"gap_rad", 0.0, 3.0, kRequired}, {"drag_mps2", 0.0, 100.0}}},
       {"wheel_toe", kVehicleOrWheels, {{"sideways_per_metre", -0.5, 0.5, kRequired}}},
       {"castor_reversal_kick", kVehicle, {{"kick_rad", -1.0, 1.0, kRequired}, {"over_m", 1e-3, 1.0}}},
-      {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}}},
+      {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}, {"time_constant_s", 1e-3, kFar}}},
       {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}}},
       {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}}},
       {"payload_radius_change",
        kVehicleOrWheels,
-       {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kFar, kFar, kRequired}}},
+       {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kEver_s, kEver_s, kRequired}}},
       {"lateral_slip", kVehicleOrWheels, {{"m_per_s_per_mps2", -1.0, 1.0, kRequired}}},
       {"traction_slip", kVehicleOrAnyWheel, {{"per_mps2", -1.0, 1.0, kRequired}}},
       {"turn_scrub", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
@@ -105,7 +106,7 @@ const std::vector<EffectEntry>& effect_catalogue() {
        {{"dx_m", -1.0, 1.0},
         {"dy_m", -1.0, 1.0},
         {"dheading_rad", -4.0, 4.0},
-        {"at_s", -kFar, kFar, kRequired},
+        {"at_s", -kEver_s, kEver_s, kRequired},
         {"lasts_s", 0.01, 10.0}}},
       {"turn_speed_loss", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
       {"clock_rate", {"vehicle", "both_wheels", "truth"}, {{"rate", -0.5, 0.5, kRequired}}},

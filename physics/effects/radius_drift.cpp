@@ -1,4 +1,6 @@
-// Wheels grow or shrink evenly with time: warming, wear, loss of pressure.
+// Wheels grow or shrink with time: evenly (wear, loss of pressure) or towards an end (warming, Newton's law).
+#include <cmath>
+
 #include "physics/effects/effect.h"
 
 namespace odolab::planar {
@@ -7,15 +9,18 @@ namespace {
 
 class RadiusDrift final : public Effect {
  public:
-  explicit RadiusDrift(const ActiveEffect& a) : component_(a.component), per_s_(a.parameter("per_s")) {}
+  explicit RadiusDrift(const ActiveEffect& a)
+      : component_(a.component), per_s_(a.parameter("per_s")), time_constant_s_(a.parameter("time_constant_s", 0.0)) {}
 
   void roll(const VehicleMotion& motion, RollingWheel& wheel) override {
-    if (acts_on(component_, wheel.side)) wheel.radius_m *= 1.0 + per_s_ * motion.since_start_s;
+    if (!acts_on(component_, wheel.side)) return;
+    const double t = motion.since_start_s, end_s = time_constant_s_;
+    wheel.radius_m *= 1.0 + per_s_ * (end_s > 0.0 ? end_s * -std::expm1(-t / end_s) : t);
   }
 
  private:
   std::string component_;
-  double per_s_;
+  double per_s_, time_constant_s_;
 };
 
 }  // namespace

@@ -140,6 +140,11 @@ const Effect* catalogue_entry(const ActiveEffect& active);
 namespace effects {
 // How hard a wheel is braked that neither flank of its play touches, in that form; nothing where it stands at once.
 std::optional<double> backlash_drag_mps2(int form);
+// Of a drift in that form: whether it goes on from one recording to the next, and how soon it nears its end; 0: never.
+bool drifts_through_the_session(int form);
+double drift_time_constant_s(int form);
+// What a drift that begins at one per second comes to after a time: less than that time where it nears an end.
+double drifted_s(double since_s, double time_constant_s);
 std::vector<Effect> wheel_eccentricity();
 // The same where the runs start at other angles of the wheel: a phase of its own in each. Lives as long as the program.
 const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs);

@@ -1,7 +1,8 @@
 // Wheels that grow or shrink with time: warming, wear, pressure. The share of the radius is per_s times the time: since
 // each recording's start, or on through the session where recordings are stamped by one clock and wheels did not cool
-// between.
+// between. What warms does so towards an end, Newton's law of cooling: then per_s is the rate at which it begins.
 #include <algorithm>
+#include <cmath>
 
 #include "core/diagnosis/effects/effect.h"
 
@@ -9,7 +10,22 @@ namespace odolab::effects {
 
 namespace {
 constexpr std::size_t kFrom = 0, kForm = 1;  // of a shape
-constexpr double kThroughTheSession = 1.0;
+
+struct Form {
+  const char* in_words;
+  bool through_the_session;
+  double time_constant_s;  // 0: for ever
+};
+constexpr Form kForms[] = {
+    {"anew in each recording", false, 0.0},
+    {"on through all recordings, by their stamps", true, 0.0},
+    {"anew in each recording, towards an end that is half reached after 40 s", false, 60.0},
+    {"on through all recordings, by their stamps, towards an end that is half reached after 40 s", true, 60.0},
+    {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true, 240.0},
+};
+const Form& form_of(const std::vector<double>& shape) {
+  return kForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];
+}
 
 Effect of_wheel(Wheel wheel) {
   Effect e;
@@ -17,7 +33,7 @@ Effect of_wheel(Wheel wheel) {
   e.component = component_of(wheel);
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
   e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
-  e.forms = {"anew in each recording", "on through all recordings, by their stamps"};
+  for (const Form& form : kForms) e.forms.push_back(form.in_words);
   e.sentence = std::string("the radius of the ") +
                (wheel == Wheel::left    ? "left wheel"
                 : wheel == Wheel::right ? "right wheel"
@@ -34,10 +50,11 @@ Effect of_wheel(Wheel wheel) {
     return std::vector<std::vector<double>>{{first_s}};
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    const bool session = shape.size() > kForm && shape[kForm] == kThroughTheSession;
+    const Form& form = form_of(shape);
     Motions m;
     for (const EffectStep& s : view.steps) {
-      const double t = session ? s.time_s - shape[kFrom] : s.since_start_s;
+      const double t =
+          drifted_s(form.through_the_session ? s.time_s - shape[kFrom] : s.since_start_s, form.time_constant_s);
       if (wheel == Wheel::both)
         m.push_back({t * s.forward_m(), 0.0, t * s.turn_rad});
       else
@@ -48,6 +65,14 @@ Effect of_wheel(Wheel wheel) {
   return e;
 }
 }  // namespace
+
+double drifted_s(double since_s, double time_constant_s) {
+  return time_constant_s > 0.0 ? time_constant_s * -std::expm1(-since_s / time_constant_s) : since_s;
+}
+
+bool drifts_through_the_session(int form) { return kForms[form].through_the_session; }
+
+double drift_time_constant_s(int form) { return kForms[form].time_constant_s; }
 
 std::vector<Effect> radius_drift() { return {of_wheel(Wheel::both), of_wheel(Wheel::left), of_wheel(Wheel::right)}; }
 

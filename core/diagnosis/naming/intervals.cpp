@@ -178,9 +178,9 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
     out.push_back({a.effect->shapes[s].name, a.shape[s], std::hypot(se, known_to(a, s)), a.effect->shapes[s].unit});
     ++k;
   }
-  const bool in_another_form = a.effect->forms.size() > 1 && a.shape.back() > 0.0;
   for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
-    if (in_another_form && a.effect->shapes[k].name == kSessionStart)
+    if (a.effect->shapes[k].name == kSessionStart &&
+        effects::drifts_through_the_session(static_cast<int>(std::lround(a.shape.back()))))
       out.push_back({kSessionStart, a.shape[k], 0.0, a.effect->shapes[k].unit});
   return out;
 }

@@ -1,6 +1,9 @@
 // Effects of the wheels: their radius, their direction, their slip.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "test/physics/effects/effect_runs.h"
 
 namespace odolab {
@@ -29,6 +32,16 @@ TEST(RadiusDrift, RollsFurtherByHalfTheDriftTimesTheSquareOfTime) {
   // Distance without drift 4 m; 0.2 per_s (T^2/2) more, and the ramps make the mean time 10.25 s.
   EXPECT_NEAR(end.x_m, 4.0 + 4.0 * 1e-3 * 10.25, kExact_m);
   EXPECT_NEAR(end.heading_rad, 0.0, kExact_rad);
+}
+
+// Newton's law: what is left to warm falls by the same share in the same time. At 0.2 m/s for 20 s with ramps of 0.5 s.
+TEST(RadiusDrift, ThatNearsAnEndGrowsByTheIntegralOfItsExponential) {
+  const Pose end = end_pose(table_drive({phase(20.0, 0.2, 0.0)},
+                                        {{"radius_drift", "both_wheels", {{"per_s", 1e-3}, {"time_constant_s", 8.0}}}}));
+  double further_m = 0.0;
+  for (double t = 0.0005; t < 20.5; t += 0.001)
+    further_m += 0.001 * std::min({0.4 * t, 0.2, 0.4 * (20.5 - t)}) * 1e-3 * 8.0 * (1.0 - std::exp(-t / 8.0));
+  EXPECT_NEAR(end.x_m, 4.0 + further_m, kExact_m);
 }
 
 TEST(SpeedDependentRadius, ChangesTheWayByItsShareAtEachSpeed) {
