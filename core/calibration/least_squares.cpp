@@ -348,14 +348,15 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
 Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
                                                         const Vehicle& nominal, const LeastSquaresOptions& options,
                                                         const Progress& progress) {
-  // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts.
-  constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5;
+  // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts: then none that are
+  // further apart are white.
+  constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5, kWhite = 0.06, kWhiter = 0.33;
   const auto next = [](const LeastSquaresCalibration& c) {
     return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
   };
   Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, progress);
   const auto is_white = [&](const LeastSquaresCalibration& c) {
-    return next(c) < kNext && c.lasting_correlation < kLasting;
+    return next(c) < kNext && c.lasting_correlation < kWhite;
   };
   if (!all || is_white(*all) || all->correlation_after_1_s > kOfManoeuvres) return all;
   // Clocks that run apart correlate them just so, and that is no noise.
@@ -366,7 +367,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);
     if (put_right && is_white(*put_right)) return all;
   }
-  constexpr std::array<double, 4> kApart_s = {0.1, 0.2, 0.3, 0.5};
+  constexpr std::array<double, 5> kApart_s = {0.05, 0.1, 0.2, 0.3, 0.5};
   const auto of_samples_apart = [&](double apart_s, const LeastSquaresOptions& with) {
     std::vector<Recording> thinned;
     for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
@@ -378,20 +379,24 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     tried[at] = of_samples_apart(kApart_s[at], clocks_right);
   });
   if (!goes_on(progress, 1.0)) return Error{"calibration", "stopped before its end", ""};
-  for (std::size_t k = 0; k < tried.size(); ++k) {
-    const double apart_s = kApart_s[k];
-    Result<LeastSquaresCalibration> of_fewer = std::move(*tried[k]);
-    if (!of_fewer || next(*of_fewer) > kLasting || of_fewer->lasting_correlation > kLasting) continue;
-    if (clocks_are_off) of_fewer = of_samples_apart(apart_s, options);
-    if (!of_fewer) return of_fewer;
-    of_fewer->truth_apart_s = apart_s;
-    of_fewer->warnings.push_back(
-        text("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses: "
-             "only samples %.1f s apart were used",
-             next(*all), apart_s));
-    return of_fewer;
-  }
-  return all;
+  const auto first_within = [&](double lasting) {
+    return std::find_if(tried.begin(), tried.end(), [&](const auto& of_fewer) {
+      return *of_fewer && next(**of_fewer) <= kLasting && (*of_fewer)->lasting_correlation <= lasting;
+    });
+  };
+  auto found = first_within(std::max(kWhite, kWhiter * all->lasting_correlation));
+  if (found == tried.end() && (next(*all) >= kNext || all->lasting_correlation >= kLasting))
+    found = first_within(kLasting);
+  if (found == tried.end()) return all;
+  const double apart_s = kApart_s[static_cast<std::size_t>(found - tried.begin())];
+  Result<LeastSquaresCalibration> of_fewer = clocks_are_off ? of_samples_apart(apart_s, options) : std::move(**found);
+  if (!of_fewer) return of_fewer;
+  of_fewer->truth_apart_s = apart_s;
+  of_fewer->warnings.push_back(
+      text("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses: "
+           "only samples %.2g s apart were used",
+           next(*all), apart_s));
+  return of_fewer;
 }
 
 }  // namespace odolab

@@ -58,7 +58,7 @@ struct LeastSquaresCalibration {
   // of the score over batches of the recordings shows.
   double correlation[3] = {};
   bool innovations_are_correlated = false;
-  double lasting_correlation = 0.0;    // the largest of these at a reading and a half of the encoders
+  double lasting_correlation = 0.0;    // the largest of these two readings of the encoders apart
   double correlation_after_1_s = 0.0;  // and of innovations a second apart
   // Where these are large and pass within half a second, the truth's noise lasts: only samples so far apart are used
   // then (correlated_truth.h). Zero: all of them.

@@ -111,9 +111,9 @@ class JointModel {
     void add(const GatheredError& of_other_runs);
   };
   GatheredError gathered_error(int first_run = 0) const;  // of the runs from that one on
-  // How little the likelihood is to be believed, since innovations are correlated from one sample to the next or that
-  // is known before: from 0, white, to 1.
-  double distrust() const;
+  // How little the likelihood is to be believed, since innovations are correlated: from 0, white, to 1. `of_a_moment`:
+  // of what acts at one moment or place.
+  double distrust(bool of_a_moment = false) const;
   Track poses(int run) const;  // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;

@@ -93,12 +93,18 @@ void JointModel::gate() {
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const InnovationModel m = model_of(static_cast<int>(r));
     const InnovationRun run = prepared(static_cast<int>(r));
+    std::vector<double> squared(run.truth.size(), kGate);
+    options.on_innovation = [&](const Innovation& i) { squared[static_cast<std::size_t>(i.truth_index)] = i.squared; };
     std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
-    // More than a few in a row are no outliers: something happened there that is to be explained.
+    // More than a few in a row are no outliers: something happened there that is to be explained. But for a tracker that
+    // loses itself for a while: what is behind it lies where the wheels went on from what was before.
+    constexpr std::size_t kFew = 4;
+    constexpr double kBackOnItsWay = 0.25;
     for (std::size_t i = 0; i < aside.size();) {
       std::size_t j = i;
-      while (j < aside.size() && aside[j]) ++j;
-      if (j - i > 4) std::fill(aside.begin() + i, aside.begin() + j, 0);
+      while (j < aside.size() && aside[j] == 1) ++j;
+      const bool comes_back = j < aside.size() && aside[j] == 0 && squared[j] < kBackOnItsWay * kGate;
+      if (j - i > kFew && !comes_back) std::fill(aside.begin() + i, aside.begin() + j, 0);
       i = std::max(j, i + 1);
     }
     for (std::size_t i = 0; i < aside.size(); ++i) aside[i] = std::max(aside[i] ? char{1} : char{0}, masked_[r][i]);

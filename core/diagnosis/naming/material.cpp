@@ -10,10 +10,12 @@ namespace {
 constexpr double kMostLeftWhereSmoothed = 0.9;
 constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
 constexpr double kByChance = 2.5;   // standard deviations
+constexpr double kOfOneWindow = 3.0;  // what stays in it is of no chance beyond so many of all windows' standard deviations
 constexpr double kNoWorse = 1.05;   // where windows cannot be held against each other
 
 // Share of the squared error by which dead reckoning becomes worse, and by how much it may where the term is right:
-// what is taken away is independent of what stays, so the sum of squares should fall by its own, but for chance.
+// what is taken away is independent of what stays, so the sum of squares should fall by its own, but for chance: twice
+// the sum of their products, each as it is expected or, where few windows make it up, as it is.
 struct Change {
   double worse = 0.0, may_be_worse = 0.0;
 };
@@ -21,19 +23,23 @@ struct Change {
 Change change_of(const JointModel::GatheredError& before, const JointModel::GatheredError& after) {
   const double n = static_cast<double>(before.of_window.size());
   Change sum;
-  const auto add = [&](const auto& square) {
+  const auto add = [&](const auto& product) {
     double was = n * kNothing, is = n * kNothing, by = 0.0;
+    for (const Pose& e : before.of_window) was += product(e, e);
+    double crossed = 0.0;
     for (std::size_t i = 0; i < before.of_window.size(); ++i) {
       const Pose &e = before.of_window[i], &f = after.of_window[i];
-      was += square(e);
-      is += square(f);
-      by += square({f.x_m - e.x_m, f.y_m - e.y_m, f.heading_rad - e.heading_rad});
+      const Pose d{f.x_m - e.x_m, f.y_m - e.y_m, f.heading_rad - e.heading_rad};
+      is += product(f, f);
+      by += product(d, d);
+      const double p = product(f, d), most = kOfOneWindow * kOfOneWindow * was / n;
+      crossed += p * p * std::min(1.0, most / std::max(product(f, f), kNothing));
     }
     sum.worse += 0.5 * (is - was) / was;
-    sum.may_be_worse += 0.5 * (kByChance * 2.0 * std::sqrt(by / was / n) - by / was);
+    sum.may_be_worse += 0.5 * (kByChance * 2.0 * std::sqrt(std::max(by * was / n, crossed)) - by) / was;
   };
-  add([](const Pose& e) { return dot(e.position(), e.position()); });
-  add([](const Pose& e) { return e.heading_rad * e.heading_rad; });
+  add([](const Pose& a, const Pose& b) { return dot(a.position(), b.position()); });
+  add([](const Pose& a, const Pose& b) { return a.heading_rad * b.heading_rad; });
   return sum;
 }
 
@@ -58,14 +64,14 @@ double worse_than_chance(const JointModel::GatheredError& before, const JointMod
 }
 
 bool is_material(const JointModel& joint, const JointModel::GatheredError& before,
-                 const JointModel::GatheredError& after, std::size_t numbers) {
-  const double distrust = joint.distrust();
-  const double lower = std::min(0.5, (1.0 - kMaterial) * static_cast<double>(numbers));
-  if (joint.truth_noise_lasts) return lowers(before, after, std::min(kMostLeftWhereSmoothed, 1.0 - lower));
+                 const JointModel::GatheredError& after, std::size_t numbers, bool of_a_moment) {
+  const double distrust = joint.distrust(of_a_moment);
+  const double of_numbers = std::min(0.5, (1.0 - kMaterial) * static_cast<double>(numbers));
+  const double lower = joint.truth_noise_lasts ? std::max(of_numbers, 1.0 - kMostLeftWhereSmoothed) : of_numbers;
   if (before.windows == 0 || before.windows != after.windows)
     return lowers(before, after, std::lerp(kNoWorse, 1.0 - lower, distrust));
   const Change change = change_of(before, after);
-  return !is_nothing(before) && change.worse < std::lerp(change.may_be_worse, -lower, distrust);
+  return !is_nothing(before) && change.worse < std::lerp(std::max(change.may_be_worse, 0.0), -lower, distrust);
 }
 
 }  // namespace odolab

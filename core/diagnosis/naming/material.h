@@ -19,7 +19,7 @@ constexpr double kMaterial = 0.985;  // for each number that is fitted
 // each number, and by more where the truth was smoothed, since its own turns are then late. Where they are white the
 // likelihood is believed, unless dead reckoning contradicts it: README.md in this folder, Eq. 7.
 bool is_material(const JointModel& joint, const JointModel::GatheredError& before,
-                 const JointModel::GatheredError& after, std::size_t numbers = 1);
+                 const JointModel::GatheredError& after, std::size_t numbers = 1, bool of_a_moment = false);
 
 // By what share of the squared error a term makes dead reckoning worse beyond what chance does where it is right:
 // above zero it is contradicted. Zero where the windows of both are not the same.
