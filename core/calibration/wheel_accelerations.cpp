@@ -67,28 +67,34 @@ double tremble_of(const std::vector<WheelSample>& readings, double WheelSample::
   return *middle / kMiddle / kOfOne;
 }
 
-std::vector<double> of_wheel(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
+struct Accelerations {
+  std::vector<double> quick, steady;
+};
+
+Accelerations of_wheel(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
   const double whole_s = readings.back().time_s - readings.front().time_s;
   const double rate_hz = static_cast<double>(readings.size() - 1) / std::max(whole_s, 1e-9);
-  const std::vector<double> at_most_smoothed = accelerations_of(readings, wheel, kLongest_s);
+  Accelerations of;
+  of.steady = accelerations_of(readings, wheel, kLongest_s);
   double square = 0.0;
-  for (double a : at_most_smoothed) square += a * a;
-  square /= static_cast<double>(at_most_smoothed.size());
+  for (double a : of.steady) square += a * a;
+  square /= static_cast<double>(of.steady.size());
   const double needed_s =
       square > 0.0 ? std::pow(kOfCurve * tremble_of(readings, wheel) / (rate_hz * kShareOfTremble * square), 0.2)
                    : kLongest_s;
-  if (needed_s >= kLongest_s) return at_most_smoothed;
-  return accelerations_of(readings, wheel, std::max(needed_s, kShortest_s));
+  of.quick =
+      needed_s < kLongest_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortest_s)) : of.steady;
+  return of;
 }
 
 }  // namespace
 
 std::vector<WheelAcceleration> wheel_accelerations(const std::vector<WheelSample>& readings) {
   if (readings.size() < kFewest) return std::vector<WheelAcceleration>(readings.empty() ? 0 : readings.size() - 1);
-  const std::vector<double> left = of_wheel(readings, &WheelSample::left_rad),
-                            right = of_wheel(readings, &WheelSample::right_rad);
-  std::vector<WheelAcceleration> of(left.size());
-  for (std::size_t i = 0; i < of.size(); ++i) of[i] = {left[i], right[i]};
+  const Accelerations left = of_wheel(readings, &WheelSample::left_rad),
+                      right = of_wheel(readings, &WheelSample::right_rad);
+  std::vector<WheelAcceleration> of(left.quick.size());
+  for (std::size_t i = 0; i < of.size(); ++i) of[i] = {left.quick[i], right.quick[i], left.steady[i], right.steady[i]};
   return of;
 }
 

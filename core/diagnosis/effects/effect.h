@@ -24,8 +24,8 @@ struct EffectStep {
   double left_read_rad = 0.0, right_read_rad = 0.0;    // the same as it was read
   double speed_mps = 0.0, yaw_rate_radps = 0.0;        // smoothed over a few intervals
   double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
-  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;
-  double left_mps2 = 0.0, right_mps2 = 0.0;  // acceleration of each rim
+  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;  // over 0.8 s
+  double left_mps2 = 0.0, right_mps2 = 0.0;                       // of each rim, as quick as readings show
   double heading_rad = 0.0;
   double cos_heading = 1.0, sin_heading = 0.0;
   Vec2 position;

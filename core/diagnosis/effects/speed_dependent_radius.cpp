@@ -18,7 +18,7 @@ Effect of_wheel(Wheel wheel) {
                                     : std::string("the rolling radius of the ") +
                                           (wheel == Wheel::left ? "left" : "right") + " wheel changes with speed";
   e.regime = "grows with speed";
-  e.looks_like = {"traction_slip", "turn_scrub", "tyre_compression"};
+  e.looks_like = {"encoder_missed_counts", "traction_slip", "turn_scrub", "tyre_compression"};
   e.told_apart_by = "the same straight at two speeds or more";
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m;

@@ -54,9 +54,10 @@ Effect of_wheel(Wheel wheel) {
     const Form& form = kForms[wheel == Wheel::both ? std::lround(shape.back()) : 0];
     Tyre left, right;
     for (const EffectStep& step : view.steps) {
+      const double forward_mps2 = 0.5 * (step.left_mps2 + step.right_mps2);
       const double turning_mps2 = 0.5 * form.of_turning * (step.right_mps2 - step.left_mps2);
       const auto lost_m = [&](Tyre& tyre, double way_m, double turning) {
-        return tyre.slip_m(way_m, step.acceleration_mps2 + turning, step.duration_s, form.lag_s);
+        return tyre.slip_m(way_m, forward_mps2 + turning, step.duration_s, form.lag_s);
       };
       const double left_m = wheel == Wheel::right ? 0.0 : -lost_m(left, step.left_m, -turning_mps2);
       const double right_m = wheel == Wheel::left ? 0.0 : -lost_m(right, step.right_m, turning_mps2);

@@ -99,11 +99,13 @@ void JointModel::gate() {
     // More than a few in a row are no outliers: something happened there that is to be explained. But for a tracker that
     // loses itself for a while: what is behind it lies where the wheels went on from what was before.
     constexpr std::size_t kFew = 4;
-    constexpr double kBackOnItsWay = 0.25;
+    constexpr double kBackOnItsWay = 0.25, kOfTheJump = 0.05;
     for (std::size_t i = 0; i < aside.size();) {
       std::size_t j = i;
-      while (j < aside.size() && aside[j] == 1) ++j;
-      const bool comes_back = j < aside.size() && aside[j] == 0 && squared[j] < kBackOnItsWay * kGate;
+      double jump = 1e300;  // the least of those refused
+      for (; j < aside.size() && aside[j] == 1; ++j) jump = std::min(jump, squared[j]);
+      const bool comes_back =
+          j < aside.size() && aside[j] == 0 && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
       if (j - i > kFew && !comes_back) std::fill(aside.begin() + i, aside.begin() + j, 0);
       i = std::max(j, i + 1);
     }

@@ -14,14 +14,26 @@ namespace odolab {
 namespace {
 
 constexpr int kMostEffects = 4;
-// A form is never quite that of the world: what is left of a strong effect is not another one.
-constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03;
+// A form is never quite that of the world: what is left of a strong effect is not another one, the less so one that
+// looks like it.
+constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03, kLeastShareBesideItsLike = 0.05;
 
 // Share of the evidence that a right name may lose since its form is not quite the world's.
-constexpr double kFormError = 0.1;
+constexpr double kFormError = 0.15;
 
-// Where innovations are correlated a small share is believed as little as an event's.
-double least_share(const Effect& effect, double distrust) {
+bool looks_like(const Effect& a, const Effect& b) {
+  const auto names = [](const Effect& one, const Effect& other) {
+    return std::find(one.looks_like.begin(), one.looks_like.end(), other.name) != one.looks_like.end();
+  };
+  return a.name != b.name && (names(a, b) || names(b, a));
+}
+
+// Of all the evidence, that an effect must have beside those that are let in. Where innovations are correlated a small
+// share is believed as little as an event's.
+double least_share(const JointModel& joint, const Effect& effect, double distrust) {
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                  [&](const AcceptedEffect& a) { return looks_like(*a.effect, effect); }))
+    return kLeastShareBesideItsLike;
   return effect.local ? kLeastShareOfEvents : std::lerp(kLeastShare, kLeastShareOfEvents, distrust);
 }
 
@@ -155,12 +167,25 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
   });
 }
 
+// A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as much
+// it is the better name. So it is beside a patch, whose place and size were looked for in three directions.
+bool is_simpler(const ScoredCandidate& c, const ScoredCandidate& other) {
+  if (c.test.judged() < (1.0 - kFormError) * other.test.judged()) return false;
+  if (of_one_moment(c, other) || other.effect->name == "collision") return c.test.freedom < other.test.freedom;
+  return of_one_small_place(c, other) ||
+         (c.effect->name == "bump" && c.effect->of_one_recording && other.effect->name == "slip_zone");
+}
+
 }  // namespace
 
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
                         const std::vector<const Effect*>& refuted) {
   const auto is_refuted = [&](const ScoredCandidate& c) {
     return std::find(refuted.begin(), refuted.end(), c.effect) != refuted.end();
+  };
+  // Clocks that run apart by another rate in each recording are let in where they are beyond doubt, or not at all.
+  const auto is_a_clock_of_each = [](const ScoredCandidate& c) {
+    return c.effect->clock_rate && c.effect->of_each_recording;
   };
   Selected out;
   std::vector<ScoredCandidate> with_all;  // judged against the model that has all that was let in
@@ -178,8 +203,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     std::vector<const ScoredCandidate*> standing;
     const auto find_standing = [&] {
       for (const ScoredCandidate& c : scored)
-        if (stands(c, family_wise_error) && !is_refuted(c) && !of_the_same(joint, c) &&
-            c.test.statistic > explained * least_share(*c.effect, distrust))
+        if (stands(c, family_wise_error) && !is_refuted(c) && !of_the_same(joint, c) && !is_a_clock_of_each(c) &&
+            c.test.statistic > explained * least_share(joint, *c.effect, distrust))
           standing.push_back(&c);
     };
     find_standing();
@@ -189,16 +214,6 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     }
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
-    // A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as
-    // much it is the better name. So it is beside a patch, whose place and size were looked for in three directions,
-    // the more so beside one that is no wider.
-    const auto is_simpler = [](const ScoredCandidate& c, const ScoredCandidate& first) {
-      if (of_one_moment(c, first) || first.effect->name == "collision")
-        return c.test.freedom < first.test.freedom && c.test.judged() > (1.0 - kFormError) * first.test.judged();
-      if (of_one_small_place(c, first)) return c.test.judged() > (1.0 - kFormError) * first.test.judged();
-      return c.effect->name == "bump" && c.effect->of_one_recording && first.effect->name == "slip_zone" &&
-             c.test.judged() > first.test.judged() - 2.0 * kClearlyBeaten;
-    };
     bool is_simplest = false;
     for (std::size_t k = 1; k < standing.size() && !is_simplest; ++k)
       if (is_simpler(*standing[k], *standing[0])) {
@@ -273,7 +288,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                        [&](const AcceptedEffect& a) { return a.effect == top.effect; });
         if (own && !taken && !is_refuted(top) && stands(top, family_wise_error) &&
-            top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten) {
+            top.test.judged() > own->test.judged() + 2.0 * kClearlyBeaten && !is_simpler(*own, top)) {
           joint.accepted.erase(joint.accepted.begin() + static_cast<std::ptrdiff_t>(k));
           let_in(joint, top);
           joint.fit_noise_and_all();
@@ -303,7 +318,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
-    const double least = least_share(*joint.accepted[k].effect, joint.distrust());
+    const double least = least_share(joint, *joint.accepted[k].effect, joint.distrust());
     if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
       // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
       JointModel without = joint;
