@@ -112,9 +112,8 @@ void lay_line(const Series& time_s, int from, int to, double period_s, Series& e
 double grain_of(const Series& time_s) {
   constexpr double kDigits_s = 1e-6;  // of a stamp as it is written
   for (const double grain_s : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
-    if (std::all_of(time_s.begin(), time_s.end(), [&](double t) {
-          return std::abs(t - grain_s * std::round(t / grain_s)) < kDigits_s;
-        }))
+    if (std::all_of(time_s.begin(), time_s.end(),
+                    [&](double t) { return std::abs(t - grain_s * std::round(t / grain_s)) < kDigits_s; }))
       return grain_s;
   return 0.0;
 }

@@ -77,8 +77,8 @@ struct ExtraColumn {
 // One recording made ready for the filter.
 struct InnovationRun {
   std::string name;
-  std::vector<WheelSample> wheels;     // two or more, times strictly increasing
-  std::vector<WheelSample> smooth;     // the same smoothed, for derivatives; empty: as they are
+  std::vector<WheelSample> wheels;               // two or more, times strictly increasing
+  std::vector<WheelSample> smooth;               // the same smoothed, for derivatives; empty: as they are
   std::vector<WheelAcceleration> accelerations;  // for each interval; empty: not reckoned yet
   std::vector<TruthSample> truth;      // two or more, times strictly increasing, about within the time of the wheels
   bool truth_has_heading = false;      // where not, the first heading is unknown and found with the path's shape

@@ -268,7 +268,8 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
       return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
     };
     const auto add = [&](Products& sum, double apart_s) {
-      const auto lag = static_cast<std::size_t>(std::clamp(std::round(apart_s / period_s(runs_[r].truth)), 1.0, 1000.0));
+      const auto lag =
+          static_cast<std::size_t>(std::clamp(std::round(apart_s / period_s(runs_[r].truth)), 1.0, 1000.0));
       for (std::size_t i = lag; i < white.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
           sum.product[k] += white[i][k] * white[i - lag][k];

@@ -3,26 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/parabola.h"
+
 namespace odolab {
 
 namespace {
 
 constexpr double kHalfWindow_s = 0.25;
 constexpr int kFewestForACurve = 2;  // to either side; a parabola through three readings smooths nothing
-
-// The middle of a parabola through readings at times `s` from the middle one, by least squares.
-struct Parabola {
-  double n = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0, y = 0.0, sy = 0.0, ssy = 0.0;
-  void add(double s, double value) {
-    const double ss = s * s;
-    n += 1.0, s1 += s, s2 += ss, s3 += ss * s, s4 += ss * ss;
-    y += value, sy += s * value, ssy += ss * value;
-  }
-  double middle() const {
-    const double a = s2 * s4 - s3 * s3, b = s1 * s4 - s2 * s3, c = s1 * s3 - s2 * s2;
-    return (y * a - sy * b + ssy * c) / (n * a - s1 * b + s2 * c);
-  }
-};
 
 void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel, std::vector<WheelSample>& out) {
   const int n = static_cast<int>(readings.size());

@@ -3,29 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/parabola.h"
+
 namespace odolab {
 
 namespace {
 
 constexpr double kShortest_s = 0.4, kLongest_s = 0.8;  // of which the weights leave some two thirds
-constexpr double kOfCurve = 1903.0;  // n T^4 times the second derivative's variance, for readings of variance 1
-constexpr double kShareOfTremble = 0.001;    // of the accelerations' variance
-constexpr std::size_t kFewest = 4;        // readings, two to either side of an interval
-
-// The second derivative of a parabola through readings at times `s` from the middle, by least squares.
-struct Parabola {
-  double n = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0, s4 = 0.0, y = 0.0, sy = 0.0, ssy = 0.0;
-  void add(double s, double value, double weight) {
-    const double ws = weight * s, wss = ws * s;
-    n += weight, s1 += ws, s2 += wss, s3 += wss * s, s4 += wss * s * s;
-    y += weight * value, sy += ws * value, ssy += wss * value;
-  }
-  double second_derivative() const {
-    const double a = s1 * s3 - s2 * s2, b = n * s3 - s1 * s2, c = n * s2 - s1 * s1;
-    const double by = 2.0 * (y * a - sy * b + ssy * c) / (s2 * a - s3 * b + s4 * c);
-    return std::isfinite(by) ? by : 0.0;  // stamps may all be the same
-  }
-};
+constexpr double kOfCurve = 1903.0;        // n T^4 times the second derivative's variance, for readings of variance 1
+constexpr double kShareOfTremble = 0.001;  // of the accelerations' variance
+constexpr std::size_t kFewest = 4;         // readings, two to either side of an interval
 
 std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel,
                                      double over_s) {
@@ -39,12 +26,14 @@ std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, d
     const std::size_t to = std::max(hi, std::min(i + 2, n - 1));
     if (to - from + 1 < kFewest) continue;
     Parabola p;
-    const double reach_s = 1.05 * std::max({0.5 * over_s, middle_s - readings[from].time_s, readings[to].time_s - middle_s});
+    const double reach_s =
+        1.05 * std::max({0.5 * over_s, middle_s - readings[from].time_s, readings[to].time_s - middle_s});
     for (std::size_t k = from; k <= to; ++k) {
       const double away_s = readings[k].time_s - middle_s, u = away_s / reach_s;
       p.add(away_s, readings[k].*wheel - readings[i].*wheel, (1.0 - u * u) * (1.0 - u * u));
     }
-    of[i] = p.second_derivative();
+    const double by = p.second_derivative();
+    if (std::isfinite(by)) of[i] = by;  // stamps may all be the same
   }
   return of;
 }
@@ -52,7 +41,7 @@ std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, d
 // Variance of what a reading trembles by, from third differences, to which smooth motion adds nothing; of the middle
 // one of those where the wheel moves: a wheel that starts is no tremble.
 double tremble_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
-  constexpr double kOfOne = 20.0;       // a third difference's variance for a reading's of one: 1 + 9 + 9 + 1
+  constexpr double kOfOne = 20.0;        // a third difference's variance for a reading's of one: 1 + 9 + 9 + 1
   constexpr double kMiddle = 0.4549364;  // median of a squared standard normal number
   std::vector<double> squares;
   for (std::size_t i = 0; i + 3 < readings.size(); ++i) {
@@ -82,8 +71,7 @@ Accelerations of_wheel(const std::vector<WheelSample>& readings, double WheelSam
   const double needed_s =
       square > 0.0 ? std::pow(kOfCurve * tremble_of(readings, wheel) / (rate_hz * kShareOfTremble * square), 0.2)
                    : kLongest_s;
-  of.quick =
-      needed_s < kLongest_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortest_s)) : of.steady;
+  of.quick = needed_s < kLongest_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortest_s)) : of.steady;
   return of;
 }
 

@@ -14,11 +14,12 @@ const std::vector<std::string> kVehicleOrWheels = {"vehicle", "both_wheels"};
 const std::vector<std::string> kVehicleOrAnyWheel = {"vehicle", "left_wheel", "right_wheel", "both_wheels"};
 const std::vector<std::string> kTruth = {"truth"};
 
-constexpr double kFar = 1e6;  // metres or seconds
+constexpr double kFar = 1e6;      // metres or seconds
 constexpr double kEver_s = 1e11;  // stamps may count from 1970
 constexpr bool kRequired = true;
 
-const std::vector<EffectParameter> kWhen = {{"at_s", -kEver_s, kEver_s}, {"every_s", 1e-3, kFar}, {"lasts_s", 0.0, kFar}};
+const std::vector<EffectParameter> kWhen = {
+    {"at_s", -kEver_s, kEver_s}, {"every_s", 1e-3, kFar}, {"lasts_s", 0.0, kFar}};
 
 std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) {
   parameters.insert(parameters.end(), kWhen.begin(), kWhen.end());

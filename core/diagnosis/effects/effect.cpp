@@ -116,7 +116,8 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
     s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
     s.left_mps2 = rl * accelerations[i].left_radps2;
     s.right_mps2 = rr * accelerations[i].right_radps2;
-    const double left_mps2 = rl * accelerations[i].left_steady_radps2, right_mps2 = rr * accelerations[i].right_steady_radps2;
+    const double left_mps2 = rl * accelerations[i].left_steady_radps2,
+                 right_mps2 = rr * accelerations[i].right_steady_radps2;
     s.acceleration_mps2 = 0.5 * (left_mps2 + right_mps2);
     s.yaw_acceleration_radps2 = (right_mps2 - left_mps2) / base;
   }

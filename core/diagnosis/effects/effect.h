@@ -18,12 +18,12 @@ namespace odolab {
 struct EffectStep {
   double time_s = 0.0, duration_s = 0.0;
   double since_start_s = 0.0;
-  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;  // as the wheels say
-  double left_rad = 0.0, right_rad = 0.0;              // rotation since the start, at the middle
-  double left_by_rad = 0.0, right_by_rad = 0.0;        // rotation during the interval
-  double left_read_rad = 0.0, right_read_rad = 0.0;    // the same as it was read
-  double speed_mps = 0.0, yaw_rate_radps = 0.0;        // smoothed over a few intervals
-  double left_radps = 0.0, right_radps = 0.0;          // smoothed wheel speeds
+  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;             // as the wheels say
+  double left_rad = 0.0, right_rad = 0.0;                         // rotation since the start, at the middle
+  double left_by_rad = 0.0, right_by_rad = 0.0;                   // rotation during the interval
+  double left_read_rad = 0.0, right_read_rad = 0.0;               // the same as it was read
+  double speed_mps = 0.0, yaw_rate_radps = 0.0;                   // smoothed over a few intervals
+  double left_radps = 0.0, right_radps = 0.0;                     // smoothed wheel speeds
   double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;  // over 0.8 s
   double left_mps2 = 0.0, right_mps2 = 0.0;                       // of each rim, as quick as readings show
   double heading_rad = 0.0;

@@ -21,7 +21,8 @@ constexpr Form kForms[] = {
     {"on through all recordings, by their stamps", true, 0.0},
     {"anew in each recording, towards an end that is half reached after 40 s", false, 60.0},
     {"on through all recordings, by their stamps, towards an end that is half reached after 40 s", true, 60.0},
-    {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true, 240.0},
+    {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true,
+     240.0},
 };
 const Form& form_of(const std::vector<double>& shape) {
   return kForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];

@@ -96,8 +96,8 @@ void JointModel::gate() {
     std::vector<double> squared(run.truth.size(), kGate);
     options.on_innovation = [&](const Innovation& i) { squared[static_cast<std::size_t>(i.truth_index)] = i.squared; };
     std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
-    // More than a few in a row are no outliers: something happened there that is to be explained. But for a tracker that
-    // loses itself for a while: what is behind it lies where the wheels went on from what was before.
+    // More than a few in a row are no outliers: something happened there that is to be explained. But for a tracker
+    // that loses itself for a while: what is behind it lies where the wheels went on from what was before.
     constexpr std::size_t kFew = 4;
     constexpr double kBackOnItsWay = 0.25, kOfTheJump = 0.05;
     for (std::size_t i = 0; i < aside.size();) {

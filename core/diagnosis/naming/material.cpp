@@ -10,8 +10,9 @@ namespace {
 constexpr double kMostLeftWhereSmoothed = 0.9;
 constexpr double kNothing = 4e-10;  // square metres or radians: what no floor or camera resolves
 constexpr double kByChance = 2.5;   // standard deviations
-constexpr double kOfOneWindow = 3.0;  // what stays in it is of no chance beyond so many of all windows' standard deviations
-constexpr double kNoWorse = 1.05;   // where windows cannot be held against each other
+constexpr double kOfOneWindow =
+    3.0;  // what stays in it is of no chance beyond so many of all windows' standard deviations
+constexpr double kNoWorse = 1.05;  // where windows cannot be held against each other
 
 // Share of the squared error by which dead reckoning becomes worse, and by how much it may where the term is right:
 // what is taken away is independent of what stays, so the sum of squares should fall by its own, but for chance: twice

@@ -8,7 +8,7 @@ namespace odolab {
 namespace {
 
 constexpr double kAnglePrior_rad = 0.05, kLengthPrior_m = 0.02, kMountingPrior_m = 0.2, kMountingPrior_rad = 0.3;
-constexpr double kLeastAngle_rad = 0.003, kLeastLength_m = 0.004;  // as for the truth's mounting, core/diagnosis
+constexpr double kLeastAngle_rad = 0.001, kLeastLength_m = 0.004;  // as for the truth's mounting, core/diagnosis
 constexpr double kWithoutSteps = 1e7;                              // counts per turn of an encoder without resolution
 
 DifferentialDrive drive_of(const Castor& castor, double resolution_rad) {

@@ -436,7 +436,8 @@ TEST(LeastSquares, SaysTheSameOfStampsThatCountFromNineteenSeventy) {
   const auto from_1970 = calibrate_least_squares({recording}, labmate());
   ASSERT_TRUE(from_zero.ok() && from_1970.ok());
   for (const char* name : {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m"})
-    EXPECT_NEAR(named(*from_1970, name).value, named(*from_zero, name).value, 0.01 * named(*from_zero, name).stderr_value)
+    EXPECT_NEAR(named(*from_1970, name).value, named(*from_zero, name).value,
+                0.01 * named(*from_zero, name).stderr_value)
         << name;
 }
 
