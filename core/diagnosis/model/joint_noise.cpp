@@ -103,9 +103,13 @@ void JointModel::gate() {
     for (std::size_t i = 0; i < aside.size();) {
       std::size_t j = i;
       double jump = 1e300;  // the least of those refused
-      for (; j < aside.size() && aside[j] == 1; ++j) jump = std::min(jump, squared[j]);
+      bool begins_anew = false;
+      for (; j < aside.size() && aside[j]; ++j) {
+        jump = std::min(jump, squared[j]);
+        begins_anew = begins_anew || aside[j] != 1;
+      }
       const bool comes_back =
-          j < aside.size() && aside[j] == 0 && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
+          j < aside.size() && !begins_anew && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
       if (j - i > kFew && !comes_back) std::fill(aside.begin() + i, aside.begin() + j, 0);
       i = std::max(j, i + 1);
     }
