@@ -83,8 +83,8 @@ class LikelihoodFit {
 
   // Lag-one correlation of the whitened innovations of x, y and heading.
   void correlations(double* out) const;
-  // The largest of the three between samples two readings of the encoders apart, since those beside the same
-  // two readings share their rounding; and between samples a second apart.
+  // The largest of the three between samples two readings of the encoders apart, since those beside the same reading
+  // share its rounding; and between samples a second apart.
   struct Lasting {
     double a_reading = 0.0, a_second = 0.0;
   };

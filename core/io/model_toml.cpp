@@ -1,7 +1,9 @@
 #include "core/io/model_toml.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/diagnosis/effects/effect.h"
 #include "core/io/toml_table.h"
 #include "core/io/toml_text.h"
 #include "core/io/vehicle_toml.h"
@@ -52,6 +54,14 @@ FittedEffect read_effect(TomlTable& table) {
   return effect;
 }
 
+// A form is the number of one that the effect has.
+bool has_its_form(const ActiveEffect& active) {
+  const Effect* entry = catalogue_entry(active);
+  const double form = active.parameter("form");
+  return form == std::floor(form) && form >= 0.0 &&
+         (form == 0.0 || (entry && form < static_cast<double>(entry->forms.size())));
+}
+
 }  // namespace
 
 Result<FittedModel> read_model(const std::string& path) {
@@ -65,7 +75,12 @@ Result<FittedModel> read_model(const std::string& path) {
   if (!top.failure()) {
     TomlTable vehicle = top.table("vehicle");
     model.vehicle = vehicle_from(vehicle, "vehicle.");
-    for (TomlTable& element : top.tables("effect")) model.effects.push_back(read_effect(element));
+    for (TomlTable& element : top.tables("effect")) {
+      model.effects.push_back(read_effect(element));
+      if (has_its_form(model.effects.back().active)) continue;
+      const std::string key = "effect[" + std::to_string(model.effects.size()) + "].form";
+      top.fail({top.place_of(key) + ": form", "no such form", "the number of a form that the effect has"});
+    }
   }
   const Result<Done> done = top.finish();
   if (!done) return done.error();

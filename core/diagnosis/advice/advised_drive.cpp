@@ -142,6 +142,7 @@ InnovationRun run_of(const AdvisedDrive& m, const DrivingRange& range, const Dif
   }
   run.set_aside.assign(run.truth.size(), 0);
   run.smooth = smoothed(run.wheels);
+  run.accelerations = wheel_accelerations(run.wheels);
   return run;
 }
 

@@ -102,10 +102,11 @@ std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
   constexpr double kFewest_m = 1.0;            // that wheels must have rolled to show how they scatter
   const double scatter = joint.model.noise.wheel_m_per_sqrt_m;
+  if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
   double rolled_m = 0.0;
   for (const DriveView& view : joint.views())
     for (const EffectStep& s : view.steps) rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
-  if (scatter < kMost_m_per_sqrt_m || rolled_m < kFewest_m) return std::nullopt;
+  if (rolled_m < kFewest_m) return std::nullopt;
   char text[160];
   std::snprintf(text, sizeof text,
                 "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls",

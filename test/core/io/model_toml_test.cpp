@@ -78,6 +78,9 @@ TEST(ModelToml, RefusesWhatItDoesNotKnow) {
                 .find("the key 'amplitud', expected a known key; the nearest is 'amplitude'"),
             std::string::npos)
       << message_with("amplitude = 0.0061", "amplitud = 0.0061");
+  EXPECT_NE(message_with("amplitude = 0.0061", "amplitude = 0.0061\nform = 99").find("form: found no such form"),
+            std::string::npos)
+      << message_with("amplitude = 0.0061", "amplitude = 0.0061\nform = 99");
   EXPECT_NE(message_with("\"wheel_eccentricity\"", "\"wheel_excentricity\"").find("m.toml:"), std::string::npos);
   EXPECT_NE(message_with("component = \"left_wheel\"\n", "").find("component"), std::string::npos);
   EXPECT_NE(message_with("[vehicle]", "[vehicles]").find("no key 'kind'"), std::string::npos);
