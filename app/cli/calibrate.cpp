@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "app/cli/command.h"
+#include "app/cli/file_examples.h"
 #include "app/cli/internal_calibration.h"
 #include "app/cli/terminal.h"
 #include "core/calibration/external.h"
@@ -156,6 +157,7 @@ Command calibrate_command() {
   command.name = "calibrate";
   command.about = "Estimates a vehicle's parameters, with their uncertainty, from recordings with outside truth";
   command.example = "odolab calibrate --vehicle labmate.toml run-1.csv run-2.csv --out calibrated.toml";
+  command.files = kVehicleAndRecordings;
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
     arguments.files("RECORDING", options->recordings, "one run each; OdoLab's CSV or a format that import knows", true);

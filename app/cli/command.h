@@ -30,6 +30,7 @@ struct Command {
   std::string name;
   std::string about;    // one sentence
   std::string example;  // a whole command line
+  std::string files;    // what the files in it look like; empty where they need no word
   std::function<void(Arguments&)> declare;
   std::function<int()> execute;  // returns an exit code
 };

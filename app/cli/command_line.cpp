@@ -53,7 +53,7 @@ int run_command_line(int argc, char** argv) {
   std::vector<CLI::App*> subcommands;
   for (const Command& command : list) {
     CLI::App* sub = app.add_subcommand(command.name, command.about);
-    sub->footer("Example:\n  " + command.example);
+    sub->footer("Example:\n  " + command.example + (command.files.empty() ? "" : "\n\n" + command.files));
     CliArguments arguments(*sub);
     command.declare(arguments);
     subcommands.push_back(sub);

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "app/cli/command.h"
+#include "app/cli/file_examples.h"
 #include "app/cli/terminal.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/diagnosis.h"
@@ -139,6 +140,7 @@ Command diagnose_command() {
   command.example =
       "odolab diagnose --vehicle labmate.toml run-1.csv run-2.csv run-3.csv --hold-out run-4.csv --html report.html "
       "--model fitted.toml";
+  command.files = kVehicleAndRecordings;
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
     arguments.files("RECORDING", options->recordings,

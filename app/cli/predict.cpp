@@ -1,4 +1,5 @@
 #include "app/cli/command.h"
+#include "app/cli/file_examples.h"
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/io/import/imported_recording.h"
@@ -47,6 +48,7 @@ Command predict_command() {
   command.name = "predict";
   command.about = "Writes the track that a vehicle file predicts from a recording's encoders or commands alone";
   command.example = "odolab predict --vehicle labmate.toml --model fitted.toml run.csv --out track.csv";
+  command.files = kVehicleAndRecordings;
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle (TOML)", true);
     arguments.option("--model", options->model, "calibration and effects that diagnose found on it (TOML)");

@@ -4,21 +4,14 @@
 #include <set>
 
 #include "core/base/chi_square.h"
-#include "core/calibration/correlated_truth.h"
-#include "core/calibration/moved_mounting.h"
-#include "core/calibration/recording_fault.h"
 #include "core/diagnosis/advice/advice.h"
-#include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/adequacy.h"
 #include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
-#include "core/diagnosis/model/ready_run.h"
-#include "core/diagnosis/naming/intervals.h"
-#include "core/diagnosis/naming/select.h"
-#include "core/diagnosis/proof.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/named.h"
+#include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/where.h"
@@ -33,16 +26,6 @@ std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 
   char buffer[300];
   std::snprintf(buffer, sizeof buffer, format, a, b, c);
   return buffer;
-}
-
-// Well away from nothing and, where it is one moment, from all that is left out and from both ends of its recording.
-bool stands_out(const JointModel& joint, const AcceptedEffect& a) {
-  constexpr double kLeastSigmas = 3.0;
-  if (a.effect->local && a.effect->of_one_recording && !joint.is_well_inside(static_cast<int>(a.shape[0]), a.shape[1]))
-    return false;
-  for (std::size_t k = 0; k < a.value.size(); ++k)
-    if (std::abs(a.value[k]) > kLeastSigmas * a.stderr_value[k]) return true;
-  return false;
 }
 
 std::string in_words(const Finding& f) {
@@ -133,8 +116,8 @@ const char* headline(Verdict verdict) {
 }
 
 // Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
-Adequacy judged_adequacy(const JointModel& joint, const JointModel& calibrated, const Predictor& predictor,
-                         std::vector<ScoredCandidate> evidence, double of_mounting, double error) {
+Adequacy judged_by_both(const JointModel& joint, const JointModel& calibrated, const Predictor& predictor,
+                        std::vector<ScoredCandidate> evidence, double of_mounting, double error) {
   const std::optional<JointModel> all_named = predictor.fitted_to_all(joint);
   Adequacy adequacy = adequacy_of(joint, calibrated, evidence, of_mounting, all_named ? 0.5 * error : error);
   if (adequacy.unnamed || !all_named) return adequacy;
@@ -152,16 +135,29 @@ Adequacy judged_adequacy(const JointModel& joint, const JointModel& calibrated, 
   return adequacy;
 }
 
-std::vector<double> inflations_of(const Selected& selected) {
-  std::vector<double> inflations;
-  for (const ScoredCandidate& e : selected.evidence) inflations.push_back(e.test.inflation);
-  return inflations;
+Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
+                         const FittedNoise& of_calibration, const std::vector<Finding>& found, double error) {
+  // Wheels that do not stand square to the axle also slip in turns: that much belongs to them.
+  double of_toe = 0.0;
+  for (const Finding& f : found)
+    if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
+  Adequacy adequacy = judged_by_both(named.joint, calibrated, predictor, named.selected.evidence, of_toe, error);
+  if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
+  if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
+  if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
+  return adequacy;
 }
 
-std::string of_refuted(const Effect& effect) {
-  std::string name = effect.name + " of the " + effect.component;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name + " would describe the recordings that were fitted, but what was not fitted is predicted worse with it";
+// The verdict, its findings and the next drive in plain words.
+std::vector<std::string> sentences_of(const Diagnosis& d) {
+  std::vector<std::string> sentences = {headline(d.verdict)};
+  for (const Finding& f : d.findings) {
+    sentences.push_back(in_words(f));
+    for (const Alternative& a : f.alternatives)
+      sentences.push_back("  or " + a.effect + " (" + a.component + "); told apart by " + a.told_apart_by);
+  }
+  if (!d.next_drive.empty()) sentences.push_back("Drive next: " + d.next_drive + ".");
+  return sentences;
 }
 
 }  // namespace
@@ -182,131 +178,36 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
   if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
     return Error{nominal.name, "", problems.front()};
-  if (train.empty()) return Error{"recordings", "none", "one or more"};
-
-  Diagnosis d;
-  std::vector<CheckedRecording> ready, ready_held_out;
-  std::vector<Recording> clean;
-  std::vector<std::string> names;
-  bool from_commands = false;
-  for (const Recording& r : train) {
-    if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
-      return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
-    ready.push_back(checked(r, nominal));
-    clean.push_back(ready.back().recording);
-    names.push_back(r.name);
-    from_commands = from_commands || ready.back().from_commands;
-  }
-  for (const Recording& r : held_out) {
-    if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
-      return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
-    ready_held_out.push_back(checked(r, nominal));
-  }
   const Error stopped{"diagnosis", "stopped before its end", ""};
-  std::vector<CheckedRecording*> each;
-  for (std::vector<CheckedRecording>* of : {&ready, &ready_held_out})
-    for (CheckedRecording& c : *of) each.push_back(&c);
-  std::vector<Recording> all_recordings;
-  for (const CheckedRecording* c : each) all_recordings.push_back(c->recording);
-  for (const std::optional<Error>& fault : faults_in(all_recordings, nominal))
-    if (fault) return *fault;
-  const PutRight put_right =
-      mountings_put_right(all_recordings, nominal, [&](double) { return goes_on(progress, 0.0); });
-  for (const MovedMounting& m : put_right.moved) {
-    each[m.index]->recording = put_right.recordings[m.index];
-    if (m.index < clean.size()) clean[m.index] = put_right.recordings[m.index];
-  }
-  const Progress calibrating = [&](double share) { return goes_on(progress, 0.25 * share); };
-  LeastSquaresOptions with_faults_left_out;
-  for (const CheckedRecording& c : ready) with_faults_left_out.left_out.push_back(c.left_out_s);
-  Result<LeastSquaresCalibration> calibration =
-      calibrate_least_squares(clean, nominal, with_faults_left_out, calibrating);
-  if (!calibration) return calibration.error();
-  d.calibration = d.calibration_alone = *calibration;
-  for (const std::vector<CheckedRecording>* set : {&ready, &ready_held_out})
-    for (const CheckedRecording& c : *set) d.warnings.insert(d.warnings.end(), c.warnings.begin(), c.warnings.end());
-  d.warnings.insert(d.warnings.end(), calibration->warnings.begin(), calibration->warnings.end());
-  if (calibration->truth_apart_s > 0.0)
-    for (std::vector<CheckedRecording>* checked : {&ready, &ready_held_out})
-      for (CheckedRecording& c : *checked) c.recording = with_truth_apart(c.recording, calibration->truth_apart_s);
-
-  std::vector<InnovationRun> runs;
-  std::vector<char> commands;
-  for (const CheckedRecording& c : ready) {
-    Result<InnovationRun> run = ready_run(c, nominal);
-    if (!run) return run.error();
-    runs.push_back(std::move(*run));
-    commands.push_back(c.from_commands);
-  }
-  JointModel joint(std::move(runs), commands, *calibration, nominal);
-  joint.truth_noise_lasts = calibration->truth_apart_s > 0.0;
-  joint.linearise();
-  joint.gate();
-  joint.fit(3);
-  joint.fit_noise_and_all();
-  const JointModel calibrated = joint;
+  const Result<ReadyRecordings> ready =
+      ready_recordings(train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); });
+  if (!ready) return ready.error();
+  const Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
+  if (!calibrated_only) return calibrated_only.error();
+  const JointModel& calibrated = *calibrated_only;
   if (!goes_on(progress, 0.3)) return stopped;
 
-  Selected selected = select_effects(joint, options.family_wise_error, progress);
-  if (!goes_on(progress, 0.75)) return stopped;
+  Diagnosis d;
+  d.calibration = d.calibration_alone = ready->calibration;
+  d.warnings = ready->warnings;
+  const Predictor predictor(ready->held_out, d.calibration_alone, nominal);
+  const std::optional<Named> names = named(calibrated, predictor, options.family_wise_error, progress);
+  if (!names) return stopped;
+  const auto& [joint, selected, intervals, by_joint, by_calibrated, of_refuted] = *names;
+  d.warnings.insert(d.warnings.end(), of_refuted.begin(), of_refuted.end());
 
-  const Predictor predictor(ready_held_out, d.calibration_alone, nominal);
-  choose_by_unseen(predictor, joint, selected);
-  // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
-  if (joint.accepted.empty()) joint = calibrated;
-  Intervals intervals = refined(joint, inflations_of(selected));
-  // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
-  // it was not fitted to refute.
-  Predicted by_calibrated, by_joint;
-  const auto untenable = [&]() -> std::optional<std::size_t> {
-    for (std::size_t k = joint.accepted.size(); k-- > 0;)
-      if (!stands_out(joint, joint.accepted[k])) return k;
-    by_calibrated = predictor.of(calibrated, joint.model.noise);
-    by_joint = joint.accepted.empty() ? by_calibrated : predictor.of(joint, joint.model.noise);
-    const std::optional<std::size_t> k = refuted(predictor, joint, by_joint, by_calibrated);
-    if (k) d.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
-    return k;
-  };
-  constexpr std::size_t kMostUntenable = 2;
-  std::vector<const Effect*> untenables;
-  while (const std::optional<std::size_t> k = untenable()) {
-    untenables.push_back(joint.accepted[*k].effect);
-    const auto at = static_cast<std::ptrdiff_t>(*k);
-    joint.accepted.erase(joint.accepted.begin() + at);
-    selected.evidence.erase(selected.evidence.begin() + at);
-    selected.alternatives.erase(selected.alternatives.begin() + at);
-    if (joint.accepted.empty()) joint = calibrated;
-    if (joint.accepted.empty() && untenables.size() < kMostUntenable) {  // what it stood for may have another name
-      selected = select_effects(
-          joint, options.family_wise_error, [&](double) { return goes_on(progress, 0.75); }, untenables);
-      if (!goes_on(progress, 0.75)) return stopped;
-      if (joint.accepted.empty()) joint = calibrated;
-    } else if (!joint.accepted.empty()) {
-      joint.fit(3);
-      joint.fit_noise_and_all();
-    }
-    intervals = refined(joint, inflations_of(selected));
-  }
-
-  std::vector<Finding> named;
+  std::vector<Finding> found;
   double explained = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
-    named.push_back(
+    found.push_back(
         finding_of(joint, joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k]));
     explained += selected.evidence[k].test.statistic;
   }
-  add_mounting(named, joint, intervals, d.calibration_alone, nominal);
-  add_clock(named, joint, d.calibration_alone, nominal, from_commands);
+  add_mounting(found, joint, intervals, d.calibration_alone, nominal);
+  add_clock(found, joint, d.calibration_alone, nominal, ready->from_commands);
 
-  // Wheels that do not stand square to the axle also slip in turns: that much belongs to them.
-  double of_toe = 0.0;
-  for (const Finding& f : named)
-    if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  Adequacy adequacy =
-      judged_adequacy(joint, calibrated, predictor, selected.evidence, of_toe, 0.25 * options.family_wise_error);
-  if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(joint, calibrated, d.calibration_alone.noise);
-  if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(joint);
-  if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(joint);
+  const Adequacy adequacy = judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise, found,
+                                            0.25 * options.family_wise_error);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
@@ -314,44 +215,35 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
-    named[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
-  std::sort(named.begin(), named.end(),
+    found[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
+  std::sort(found.begin(), found.end(),
             [](const Finding& a, const Finding& b) { return a.log_likelihood_gain > b.log_likelihood_gain; });
-  if (adequacy.as_likely && !named.empty())
-    named.front().alternatives.push_back(
+  if (adequacy.as_likely && !found.empty())
+    found.front().alternatives.push_back(
         {"unknown", "vehicle", 0.5 * std::max(0.0, adequacy.as_likely->gain + explained),
          "the same ways driven in another order (it may be " + adequacy.as_likely->where.regime + ")"});
   bool ambiguous = false;
-  for (const Finding& f : named) ambiguous = ambiguous || !f.alternatives.empty();
+  for (const Finding& f : found) ambiguous = ambiguous || !f.alternatives.empty();
 
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
     const Finding unknown = unknown_of(*more, explained, joint, selected.evidence);
-    named.erase(std::remove_if(
-                    named.begin(), named.end(),
+    found.erase(std::remove_if(
+                    found.begin(), found.end(),
                     [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
-                named.end());
-    named.insert(named.begin(), unknown);
+                found.end());
+    found.insert(found.begin(), unknown);
     d.verdict = Verdict::unknown_effect;
-  } else if (!named.empty()) {
+  } else if (!found.empty()) {
     d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
   } else {
     const double freedom = joint.scalars() - 7.0;
     d.verdict = freedom < kFewestInnovations ? Verdict::cannot_say : Verdict::nothing_missing;
   }
-  d.findings = named;
-  for (const CheckedRecording& c : ready)
-    for (const DataFault& fault : c.faults) {
-      Finding f;
-      f.effect = fault.effect;
-      f.component = fault.component;
-      f.where.recording = fault.recording;
-      f.where.time_s = fault.time_s;
-      f.p_value = 0.0;
-      f.sentence = fault.sentence;
-      d.findings.push_back(f);
-    }
-  for (const MovedMounting& m : put_right.moved) d.findings.push_back(finding_of(m));
+  d.findings = found;
+  for (const CheckedRecording& c : ready->train)
+    for (const DataFault& fault : c.faults) d.findings.push_back(finding_of(fault));
+  for (const MovedMounting& m : ready->moved) d.findings.push_back(finding_of(m));
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
   const std::vector<Confusion> confused =
       d.verdict == Verdict::ambiguous ? confusions(joint, selected) : std::vector<Confusion>{};
@@ -363,12 +255,12 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);
-  if (clean.size() == 1 && held_out.empty() && !joint.accepted.empty())
+  if (train.size() == 1 && held_out.empty() && !joint.accepted.empty())
     d.warnings.push_back(
         "what was found rests on one recording alone: hold out another of the same vehicle, and it is borne out or "
         "taken away");
   prove(d, predictor, joint, calibrated, by_joint, by_calibrated, adequacy.generic.front().as_effect, train);
-  if (named.empty()) {  // then the calibration alone is the model, to the last digit
+  if (found.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;
     const std::vector<double>& clocks = d.calibration_alone.time_offset_s;
@@ -385,13 +277,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     d.next_legs = next.next_legs;
   }
 
-  d.sentences.push_back(headline(d.verdict));
-  for (const Finding& f : d.findings) {
-    d.sentences.push_back(in_words(f));
-    for (const Alternative& a : f.alternatives)
-      d.sentences.push_back("  or " + a.effect + " (" + a.component + "); told apart by " + a.told_apart_by);
-  }
-  if (!d.next_drive.empty()) d.sentences.push_back("Drive next: " + d.next_drive + ".");
+  d.sentences = sentences_of(d);
   return d;
 }
 

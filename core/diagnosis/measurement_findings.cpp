@@ -93,6 +93,17 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Le
   }
 }
 
+Finding finding_of(const DataFault& fault) {
+  Finding f;
+  f.effect = fault.effect;
+  f.component = fault.component;
+  f.where.recording = fault.recording;
+  f.where.time_s = fault.time_s;
+  f.p_value = 0.0;
+  f.sentence = fault.sentence;
+  return f;
+}
+
 Finding finding_of(const MovedMounting& m) {
   Finding f;
   f.effect = "truth_mounting_offset";

@@ -1,4 +1,4 @@
-// Findings that are of how the truth was measured: its mounting and its clock.
+// Findings that are of how it was measured: the truth's mounting, its clock, and faults of the data.
 #pragma once
 
 #include <vector>
@@ -6,6 +6,7 @@
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/quality.h"
 
 namespace odolab {
 
@@ -17,6 +18,9 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
 // A late base that follows commands, and a late truth, are the same: both are said.
 void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
                const Vehicle& nominal, bool from_commands);
+
+// A fault of the data, which stands beside all physics.
+Finding finding_of(const DataFault& fault);
 
 // The tracked point of one recording that sat elsewhere: a fault of its data, put right before all else.
 Finding finding_of(const MovedMounting& moved);

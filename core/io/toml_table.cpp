@@ -14,6 +14,7 @@ namespace odolab {
 // A table that was visited: null where the file does not have it, and every key that was asked for in it.
 struct TomlTable::Node {
   const toml::table* table = nullptr;
+  std::string path;  // as its header says it, with a dot behind; empty for the top
   std::vector<std::string> asked;
 };
 
@@ -22,16 +23,18 @@ struct TomlTable::File {
   toml::table top;
   std::vector<std::unique_ptr<Node>> nodes;
   std::optional<Error> failure;
-  // A key that had to be given and was not. If the same table has a key much like it, that one is misspelt.
+  // Keys of one table that had to be given and were not. If it has a key much like the first, that one is misspelt.
   std::optional<Error> missing;
+  const Node* missing_in = nullptr;
   std::string missing_key;
 
-  Node* visit(const toml::table* table) {
+  Node* visit(const toml::table* table, const std::string& path) {
     if (table)
       for (const std::unique_ptr<Node>& known : nodes)
         if (known->table == table) return known.get();
     nodes.push_back(std::make_unique<Node>());
     nodes.back()->table = table;
+    nodes.back()->path = path;
     return nodes.back().get();
   }
 };
@@ -130,7 +133,7 @@ Result<TomlTable> TomlTable::parse(const std::string& text, const std::string& p
     return Error{place(path, error.source()), "broken TOML (" + one_line(error.description()) + ")",
                  "key = value, [table] or [[table]]"};
   }
-  Node* top = file->visit(&file->top);
+  Node* top = file->visit(&file->top, "");
   return TomlTable(std::move(file), top);
 }
 
@@ -153,13 +156,22 @@ void TomlTable::fail(Error error) {
 
 const std::optional<Error>& TomlTable::failure() const { return file_->failure ? file_->failure : file_->missing; }
 
-void TomlTable::require(const char* key) {
+void TomlTable::require(const char* key) { require(key, "key '" + std::string(key) + "'"); }
+void TomlTable::require_table(const char* key) { require(key, "table [" + node_->path + key + "]"); }
+
+void TomlTable::require(const char* key, const std::string& named) {
   asked_for(node_->table, node_->asked, key);
-  if (has(key)) return;
+  if (has(key) || file_->failure) return;
+  if (file_->missing) {  // all that one table lacks is said at once
+    if (file_->missing_in != node_) return;
+    file_->missing->found += ", no " + named;
+    file_->missing->expected = "them to be given";
+    return;
+  }
   const bool top = node_->table == &file_->top;
   const std::string where = node_->table && !top ? place(file_->path, node_->table->source()) : file_->path;
-  if (file_->missing || file_->failure) return;
-  file_->missing = Error{where, "no key '" + std::string(key) + "'", "it to be given"};
+  file_->missing = Error{where, "no " + named, "it to be given"};
+  file_->missing_in = node_;
   file_->missing_key = key;
 }
 
@@ -262,7 +274,7 @@ std::size_t TomlTable::index_of_choice(const char* key, std::size_t otherwise, c
 TomlTable TomlTable::table(const char* key) {
   const toml::node* node = asked_for(node_->table, node_->asked, key);
   if (node && !node->is_table()) fail({place(file_->path, node->source()) + ": " + key, shown(*node), "a table"});
-  return TomlTable(file_, file_->visit(node ? node->as_table() : nullptr));
+  return TomlTable(file_, file_->visit(node ? node->as_table() : nullptr, node_->path + key + "."));
 }
 
 std::vector<TomlTable> TomlTable::tables(const char* key) {
@@ -276,7 +288,7 @@ std::vector<TomlTable> TomlTable::tables(const char* key) {
     return {};
   }
   std::vector<TomlTable> result;
-  for (const toml::node& element : *array) result.push_back(TomlTable(file_, file_->visit(element.as_table())));
+  for (const toml::node& element : *array) result.push_back(TomlTable(file_, file_->visit(element.as_table(), node_->path + key + ".")));
   return result;
 }
 

@@ -26,7 +26,8 @@ class TomlTable {
   bool present() const;             // false for a sub-table that the file does not have
   bool has(const char* key) const;  // does not count as asking
   bool has_table(const char* key) const;
-  void require(const char* key);  // an error where the key is absent
+  void require(const char* key);  // an error where the key is absent, that names all that one table lacks
+  void require_table(const char* key);
 
   void field(const char* key, double& value);  // integers are read too; infinities are an error
   void field(const char* key, int& value);
@@ -64,6 +65,7 @@ class TomlTable {
   Result<Done> finish() const;
 
  private:
+  void require(const char* key, const std::string& named);
   struct File;
   struct Node;
   TomlTable(std::shared_ptr<File> file, Node* node) : file_(std::move(file)), node_(node) {}

@@ -22,7 +22,7 @@ using Constness = std::conditional_t<std::is_same_v<Toml, TomlText>, const T, T>
 // A sub-table of a kind's own table, for reading and for writing.
 template <typename Fields>
 void in_table(TomlTable& table, const std::string&, const char* name, const Fields& fields) {
-  table.require(name);
+  table.require_table(name);
   if (table.failure()) return;
   TomlTable inner = table.table(name);
   if (!table.failure()) fields(inner);
@@ -209,7 +209,7 @@ Vehicle vehicle_from(TomlTable& table, const std::string& key_path) {
   const Kind& kind = kKinds[table.index_of_choice("kind", 0, names)];
   if (table.failure()) return vehicle;
   table.field("name", vehicle.name);
-  table.require(kind.name);
+  table.require_table(kind.name);
   if (table.failure()) return vehicle;
   TomlTable of_kind = table.table(kind.name);
   if (table.failure()) return vehicle;

@@ -179,7 +179,11 @@ class JointModel {
   Standing standing() const;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const DriveView& view) const;
+  // Radii, wheelbase and mounting by their column, 0 to 5.
+  static double& nuisance(InnovationModel& model, int c);
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
+  // As in calibration: wide, so that what these runs do not determine stays where it was.
+  void add_priors();
   int columns() const;
   std::vector<int> held_columns() const;
   int clock_column(int run) const { return 6 + run; }

@@ -129,7 +129,10 @@ TEST(VehicleKindsToml, SayInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint(replaced(kClapper, "wheelbase_m = 0.341", "wheelbase_m = 0")),
             "x.toml:16: clapper.truck_b.wheelbase_m: found 0, expected a length in metres above 0");
   EXPECT_EQ(complaint(kClapper.substr(0, kClapper.find("[clapper.truck_b]"))),
-            "x.toml:3: found no key 'truck_b', expected it to be given");
+            "x.toml:3: found no table [clapper.truck_b], expected it to be given");
+  EXPECT_EQ(complaint("kind = \"encoder_trailer\"\n[encoder_trailer]\n"),
+            "x.toml:2: found no key 'hitch_offset_m', no key 'drawbar_length_m', no table [encoder_trailer.tow], no "
+            "table [encoder_trailer.trailer], expected them to be given");
   EXPECT_EQ(complaint(replaced(kTwoCastors, "offset_m = 0.05", "offset = 0.05")).substr(0, 34),
             "x.toml:8: found the key 'offset', ");
   EXPECT_EQ(

@@ -93,7 +93,7 @@ TEST(VehicleToml, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint(replaced(kLabMate, "kind = \"differential_drive\"\n", "")),
             "x.toml: found no key 'kind', expected it to be given");
   EXPECT_EQ(complaint("kind = \"differential_drive\"\n"),
-            "x.toml: found no key 'differential_drive', expected it to be given");
+            "x.toml: found no table [differential_drive], expected it to be given");
   EXPECT_EQ(complaint(std::string(kLabMate) + "counter_bits = 70\n"),
             "x.toml:9: differential_drive.counter_bits: found 70, expected 0 (never wraps) to 62");
   EXPECT_EQ(complaint(std::string(kLabMate) + "counter_bits = 1.5\n"),

@@ -1,0 +1,84 @@
+#include "core/diagnosis/named.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/chosen_by_unseen.h"
+
+namespace odolab {
+
+namespace {
+
+// Well away from nothing and, where it is one moment, from all that is left out and from both ends of its recording.
+bool stands_out(const JointModel& joint, const AcceptedEffect& a) {
+  constexpr double kLeastSigmas = 3.0;
+  if (a.effect->local && a.effect->of_one_recording && !joint.is_well_inside(static_cast<int>(a.shape[0]), a.shape[1]))
+    return false;
+  for (std::size_t k = 0; k < a.value.size(); ++k)
+    if (std::abs(a.value[k]) > kLeastSigmas * a.stderr_value[k]) return true;
+  return false;
+}
+
+std::vector<double> inflations_of(const Selected& selected) {
+  std::vector<double> inflations;
+  for (const ScoredCandidate& e : selected.evidence) inflations.push_back(e.test.inflation);
+  return inflations;
+}
+
+std::string of_refuted(const Effect& effect) {
+  std::string name = effect.name + " of the " + effect.component;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name + " would describe the recordings that were fitted, but what was not fitted is predicted worse with it";
+}
+
+}  // namespace
+
+std::optional<Named> named(const JointModel& calibrated, const Predictor& predictor, double family_wise_error,
+                           const Progress& progress) {
+  constexpr double kSelected = 0.75;  // of the progress
+  Named now{calibrated, {}, {}, {}, {}, {}};
+  JointModel& joint = now.joint;
+  Selected& selected = now.selected;
+  selected = select_effects(joint, family_wise_error, progress);
+  if (!goes_on(progress, kSelected)) return {};
+  choose_by_unseen(predictor, joint, selected);
+  // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
+  if (joint.accepted.empty()) joint = calibrated;
+  now.intervals = refined(joint, inflations_of(selected));
+  // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
+  // it was not fitted to refute.
+  const auto untenable = [&]() -> std::optional<std::size_t> {
+    for (std::size_t k = joint.accepted.size(); k-- > 0;)
+      if (!stands_out(joint, joint.accepted[k])) return k;
+    now.by_calibrated = predictor.of(calibrated, joint.model.noise);
+    now.by_joint = joint.accepted.empty() ? now.by_calibrated : predictor.of(joint, joint.model.noise);
+    const std::optional<std::size_t> k = refuted(predictor, joint, now.by_joint, now.by_calibrated);
+    if (k) now.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
+    return k;
+  };
+  constexpr std::size_t kMostUntenable = 2;
+  std::vector<const Effect*> untenables;
+  while (const std::optional<std::size_t> k = untenable()) {
+    untenables.push_back(joint.accepted[*k].effect);
+    const auto at = static_cast<std::ptrdiff_t>(*k);
+    joint.accepted.erase(joint.accepted.begin() + at);
+    selected.evidence.erase(selected.evidence.begin() + at);
+    selected.alternatives.erase(selected.alternatives.begin() + at);
+    if (!joint.accepted.empty()) {
+      joint.fit(3);
+      joint.fit_noise_and_all();
+    } else {
+      joint = calibrated;
+      if (untenables.size() < kMostUntenable) {  // what it stood for may have another name
+        selected = select_effects(
+            joint, family_wise_error, [&](double) { return goes_on(progress, kSelected); }, untenables);
+        if (!goes_on(progress, kSelected)) return {};
+        if (joint.accepted.empty()) joint = calibrated;
+      }
+    }
+    now.intervals = refined(joint, inflations_of(selected));
+  }
+  return now;
+}
+
+}  // namespace odolab

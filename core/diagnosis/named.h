@@ -1,0 +1,26 @@
+// Names for what is missing that stand: chosen, asked of what was held out, and well away from nothing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/naming/select.h"
+#include "core/diagnosis/proof.h"
+
+namespace odolab {
+
+struct Named {
+  JointModel joint;
+  Selected selected;  // of the joint model's effects
+  Intervals intervals;
+  Predicted by_joint, by_calibrated;  // under the joint model's noise
+  std::vector<std::string> warnings;  // what was named and refuted
+};
+
+// Beside a model that is calibrated only. Unset where `progress` stops it.
+std::optional<Named> named(const JointModel& calibrated, const Predictor& predictor, double family_wise_error,
+                           const Progress& progress);
+
+}  // namespace odolab
