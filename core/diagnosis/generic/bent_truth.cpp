@@ -83,8 +83,8 @@ GenericCurve curve_along(bool x, const Square& floor) {
 
 }  // namespace
 
-std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked_at) {
-  const Square floor = square_around(floor_of(joint.views()));
+std::vector<GenericTest> bent_truth_tests(const AskedModel& asked, double looked_at) {
+  const Square floor = square_around(floor_of(asked.joint.views()));
   if (floor.half_m < 1e-3) return {};
   std::vector<GenericTest> tests(kBentTruthTests);
   parallel_for(kBentTruthTests, [&](int i) {
@@ -97,7 +97,7 @@ std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked
     term->motions = [floor, headings_too](const DriveView& view, const std::vector<double>&) {
       return motions_of(view, floor, headings_too);
     };
-    ask(t, joint, term, looked_at);
+    ask(t, asked, term, looked_at);
     t.curves = {curve_along(true, floor), curve_along(false, floor)};
   });
   return tests;

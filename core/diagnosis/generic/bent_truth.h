@@ -8,7 +8,7 @@ namespace odolab {
 
 // Cubic polynomials of the place on what the truth says of it, but for what turning, shifting and scaling alike do:
 // once with headings that are true, once with headings taken off the same picture. p values are over `looked_at` tests.
-std::vector<GenericTest> bent_truth_tests(const JointModel& joint, double looked_at);
+std::vector<GenericTest> bent_truth_tests(const AskedModel& asked, double looked_at);
 constexpr int kBentTruthTests = 2;
 
 }  // namespace odolab

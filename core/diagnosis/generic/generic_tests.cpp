@@ -88,18 +88,23 @@ double GenericTest::p_value_of(const CandidateTest& of) const {
   return std::min(1.0, tests * scaled_chi_square_tail(of.judged(), of.freedom, of.batches));
 }
 
-void ask(GenericTest& t, const JointModel& joint, std::shared_ptr<const Effect> term, double looked_at) {
-  CandidateColumns columns = joint.columns_of(*term, {});
+AskedModel::AskedModel(const JointModel& model) : joint(model), with_and_without{model.asked()} {
+  if (!model.accepted.empty()) with_and_without.push_back(model.asked(JointModel::kAll));
+}
+
+void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at) {
+  CandidateColumns columns = asked.joint.columns_of(*term, {});
   columns.least_surviving = kLeastSurvivingOfGeneric;
-  std::vector<CandidateTest> tests = joint.tests(columns, {JointModel::kNone, JointModel::kAll});
-  t.test = std::move(tests[0]);
-  t.instead = std::move(tests[1]);
+  const std::vector<CandidateTest> tests = asked.joint.tests(columns, asked.with_and_without);
+  t.test = tests.front();
+  t.instead = tests.back();
   t.tests = looked_at;
   t.p_value = t.p_value_of(t.test);
   t.as_effect = std::move(term);
 }
 
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
+  const AskedModel asked_model(joint);
   const std::vector<DriveView>& views = joint.views();
   std::vector<Group> groups;
   // Counts and uneven wheels shake these variables as they shake the way itself, because a wheel that is held up turns
@@ -287,10 +292,10 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
     term->name = tests[i].variable;
     term->component = tests[i].channel;
-    ask(tests[i], joint, std::move(term), n);
+    ask(tests[i], asked_model, std::move(term), n);
   });
-  for (const std::vector<GenericTest>& more :
-       {uneven_wheel_tests(joint, n), lagging_tests(joint, n), bent_truth_tests(joint, n), wave_tests(joint, n)})
+  for (const std::vector<GenericTest>& more : {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n),
+                                               bent_truth_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

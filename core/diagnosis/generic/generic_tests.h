@@ -36,8 +36,9 @@ struct GenericTest {
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
 };
 
-// Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is turned,
-// as where the wheelbase is another one. Their names, and the motion of one unit of a channel, but the last, in a step.
+// Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is
+// turned, as where the wheelbase is another one. Their names, and the motion of one unit of a channel, but the last, in
+// a step.
 constexpr int kGenericChannels = 4, kTurnOfItself = 3;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
@@ -47,8 +48,15 @@ BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int chann
 // its error, and are not tested.
 constexpr double kLeastSurvivingOfGeneric = 0.04;
 
+// A model, and what it comes to with all that was let in and without.
+struct AskedModel {
+  explicit AskedModel(const JointModel& model);
+  const JointModel& joint;
+  std::vector<std::shared_ptr<const JointModel::Asked>> with_and_without;  // one where nothing was let in
+};
+
 // Tests a group's term against the model, as one of so many that were looked at.
-void ask(GenericTest& test, const JointModel& joint, std::shared_ptr<const Effect> term, double looked_at);
+void ask(GenericTest& test, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at);
 
 // Hats, harmonics and polynomials of what the vehicle does and where it is, waves (`waves.h`) and what bends the truth
 // (`bent_truth.h`). Best first.

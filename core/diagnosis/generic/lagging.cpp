@@ -27,7 +27,7 @@ std::vector<Motions> of_a_bending_mast(const DriveView& view, const std::vector<
 
 }  // namespace
 
-std::vector<GenericTest> lagging_tests(const JointModel& joint, double looked_at) {
+std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at) {
   std::vector<GenericTest> tests(kLaggingTests);
   parallel_for(kLaggingTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
@@ -36,7 +36,7 @@ std::vector<GenericTest> lagging_tests(const JointModel& joint, double looked_at
     term->component = t.channel = i == 0 ? "way of the right wheel [s]" : "marker, ahead and aside [s2]";
     term->amplitudes.resize(i == 0 ? 1 : 2);
     term->motions = i == 0 ? of_a_late_wheel : of_a_bending_mast;
-    ask(t, joint, term, looked_at);
+    ask(t, asked, term, looked_at);
   });
   return tests;
 }

@@ -8,7 +8,7 @@ namespace odolab {
 // A reading that is late by so many seconds errs by that times the speed, and so in each interval by that times the
 // change of speed; what both wheels are late by is the clock's offset. A mast that bends under its marker errs in
 // proportion to the acceleration, ahead and aside, and so by its change. p values are over `looked_at` tests.
-std::vector<GenericTest> lagging_tests(const JointModel& joint, double looked_at);
+std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at);
 constexpr int kLaggingTests = 2;
 
 }  // namespace odolab

@@ -29,8 +29,8 @@ std::vector<Motions> motions_of(const DriveView& view, Wheel wheel, int times_a_
 
 }  // namespace
 
-std::vector<GenericTest> uneven_wheel_tests(const JointModel& joint, double looked_at) {
-  const std::size_t runs = joint.views().size();
+std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double looked_at) {
+  const std::size_t runs = asked.joint.views().size();
   std::vector<GenericTest> tests(kUnevenWheelTests);
   parallel_for(kUnevenWheelTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
@@ -44,7 +44,7 @@ std::vector<GenericTest> uneven_wheel_tests(const JointModel& joint, double look
     term->motions = [=](const DriveView& view, const std::vector<double>&) {
       return motions_of(view, wheel, times_a_turn, runs);
     };
-    ask(t, joint, term, looked_at);
+    ask(t, asked, term, looked_at);
     for (std::size_t r = 0; r < runs; ++r)
       t.waves.push_back({"phase of " + t.variable + (runs > 1 ? ", recording " + std::to_string(r + 1) : "") + " [rad]",
                          {2 * r},

@@ -7,7 +7,7 @@ namespace odolab {
 
 // Of each wheel twice and three times a turn, in each recording with a phase of its own, since encoders begin to count
 // where the wheel happens to stand. p values are over `looked_at` tests.
-std::vector<GenericTest> uneven_wheel_tests(const JointModel& joint, double looked_at);
+std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double looked_at);
 constexpr int kUnevenWheelTests = 4;
 
 }  // namespace odolab

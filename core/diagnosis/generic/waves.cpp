@@ -329,14 +329,14 @@ std::string name_of(const Wave& wave) {
 
 }  // namespace
 
-std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests) {
-  const std::vector<DriveView>& views = joint.views();
+std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests) {
+  const std::vector<DriveView>& views = asked.joint.views();
   const std::size_t runs = views.size();
   std::vector<std::vector<Bin>> bins(runs);
   std::vector<std::vector<BodyMotion>> scores(runs);
   parallel_for(static_cast<int>(runs), [&](int run) {
     const auto r = static_cast<std::size_t>(run);
-    scores[r] = joint.score_of_motions(run);
+    scores[r] = asked.joint.score_of_motions(run);
     bins[r] = bins_of(views[r], scores[r]);
   });
   constexpr std::size_t kMany = std::size(kAxes) + 1;
@@ -381,7 +381,7 @@ std::vector<GenericTest> wave_tests(const JointModel& joint, double other_tests)
                     ? wave.in_time() ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
-    ask(t, joint, term, looked_at);
+    ask(t, asked, term, looked_at);
     const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.on_the_floor() ? 1 : runs); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {

@@ -54,52 +54,49 @@ VectorXd JointModel::inflation_of_columns() const {
   return inflation;
 }
 
-MatrixXd JointModel::absorbed(const CandidateColumns& c) const {
-  Eigen::Index k = 0;
-  for (const MatrixXd& m : c.of_run) k = std::max(k, m.cols());
-  MatrixXd cross = MatrixXd::Zero(gram_.rows(), k);
-  for (std::size_t r = 0; r < runs_.size(); ++r)
-    if (c.of_run[r].size() > 0)
-      now_->add_products(r, now_->z[r].middleRows(3 * c.stretch[r].first, c.of_run[r].rows()), c.of_run[r], cross);
-  return gram_.ldlt().solve(cross);
-}
+MatrixXd JointModel::absorbed(const CandidateColumns& c) const { return gram_.ldlt().solve(products_of(c).with_model); }
 
 CandidateColumns JointModel::columns_of(const Effect& effect, const std::vector<double>& shape) const {
   CandidateColumns out;
+  out.amplitudes = static_cast<int>(effect.amplitudes.size());
   out.of_run.resize(runs_.size());
-  out.stretch.resize(runs_.size());
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     if (effect.of_one_recording && static_cast<int>(shape[0]) != static_cast<int>(r)) continue;
     const int n = now_->runs[r].samples();
-    const auto k = static_cast<Eigen::Index>(effect.amplitudes.size());
-    MatrixXd& made = out.of_run[r];
+    CandidateColumns::OfRun& of = out.of_run[r];
     if (effect.clock_rate) {
-      out.stretch[r] = {0, n};
-      made = MatrixXd::Zero(3 * n, k);
-      now_->runs[r].of_clock_rate(made.col(static_cast<Eigen::Index>(effect.clock_amplitude(numbers_[r]))).data());
+      of.acting = {static_cast<int>(effect.clock_amplitude(numbers_[r]))};
+      of.stretch = {0, n};
+      of.z.resize(3 * n, 1);
+      now_->runs[r].of_clock_rate(of.z.data());
       continue;
     }
     const std::vector<Motions> motions = effect.motions(now_->views[r], shape);
-    made.resize(3 * n, k);
-    std::vector<Stretch> part(motions.size());
+    of.z.resize(3 * n, static_cast<Eigen::Index>(
+                           std::count_if(motions.begin(), motions.end(), [](const Motions& m) { return !m.empty(); })));
+    std::vector<Stretch> part;
     Stretch all{n, 0};
-    for (Eigen::Index j = 0; j < k; ++j) {
-      Stretch& p = part[static_cast<std::size_t>(j)];
-      p = now_->runs[r].of_motion(motions[static_cast<std::size_t>(j)], made.col(j).data());
-      if (p.last > p.first) all = {std::min(all.first, p.first), std::max(all.last, p.last)};
+    for (std::size_t j = 0; j < motions.size(); ++j) {
+      if (motions[j].empty()) continue;
+      const Stretch p = now_->runs[r].of_motion(motions[j], of.z.col(static_cast<Eigen::Index>(part.size())).data());
+      if (p.last <= p.first) continue;
+      part.push_back(p);
+      of.acting.push_back(static_cast<int>(j));
+      all = {std::min(all.first, p.first), std::max(all.last, p.last)};
     }
-    if (all.last <= all.first) {
-      made.resize(0, 0);
+    if (part.empty()) {
+      of.z.resize(0, 0);
       continue;
     }
-    for (Eigen::Index j = 0; j < k; ++j) {
-      const Stretch& p = part[static_cast<std::size_t>(j)];
-      const int first = p.last > p.first ? p.first : all.last, last = std::max(first, p.last);
-      made.col(j).segment(3 * all.first, 3 * (first - all.first)).setZero();
-      if (last < all.last) made.col(j).segment(3 * last, 3 * (all.last - last)).setZero();
+    for (std::size_t j = 0; j < part.size(); ++j) {
+      auto column = of.z.col(static_cast<Eigen::Index>(j));
+      column.segment(3 * all.first, 3 * (part[j].first - all.first)).setZero();
+      column.segment(3 * part[j].last, 3 * (all.last - part[j].last)).setZero();
     }
-    out.stretch[r] = all;
-    if (all.last - all.first < n) made = made.middleRows(3 * all.first, 3 * (all.last - all.first)).eval();
+    of.stretch = all;
+    const auto acting = static_cast<Eigen::Index>(part.size());
+    if (all.last - all.first < n || acting < of.z.cols())
+      of.z = of.z.block(3 * all.first, 0, 3 * (all.last - all.first), acting).eval();
   }
   return out;
 }
@@ -184,24 +181,15 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
 }
 
 CandidateProducts JointModel::products_of(const CandidateColumns& c) const {
-  int k = 0;
-  for (const MatrixXd& m : c.of_run) k = std::max(k, static_cast<int>(m.cols()));
-  const int q = static_cast<int>(gram_.rows());
+  const Eigen::Index k = c.amplitudes, q = gram_.rows();
   CandidateProducts products{MatrixXd::Zero(k, k), MatrixXd::Zero(q, k), VectorXd::Zero(k)};
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    if (c.of_run[r].size() == 0) continue;
-    const auto rows = c.of_run[r].rows(), from = static_cast<Eigen::Index>(3 * c.stretch[r].first);
-    std::vector<Eigen::Index> acting;  // what belongs to one run each is zero in all others
-    for (Eigen::Index j = 0; j < c.of_run[r].cols(); ++j)
-      if (!c.of_run[r].col(j).isZero(0.0)) acting.push_back(j);
+    const auto& [acting, z, stretch] = c.of_run[r];
     if (acting.empty()) continue;
-    const MatrixXd some = static_cast<Eigen::Index>(acting.size()) < c.of_run[r].cols()
-                              ? MatrixXd(c.of_run[r](Eigen::all, acting))
-                              : MatrixXd();
-    const MatrixXd& own = some.size() > 0 ? some : c.of_run[r];
-    const MatrixXd with_itself = own.transpose() * own;
-    const MatrixXd with_model = now_->z[r].middleRows(from, rows).transpose() * own;
-    const VectorXd with_residual = own.transpose() * residual_[r].segment(from, rows);
+    const Eigen::Index from = 3 * stretch.first;
+    const MatrixXd with_itself = z.transpose() * z;
+    const MatrixXd with_model = now_->z[r].middleRows(from, z.rows()).transpose() * z;
+    const VectorXd with_residual = z.transpose() * residual_[r].segment(from, z.rows());
     for (std::size_t i = 0; i < acting.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       for (std::size_t j = 0; j < acting.size(); ++j)
@@ -214,48 +202,62 @@ CandidateProducts JointModel::products_of(const CandidateColumns& c) const {
   return products;
 }
 
-CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
-  const Absorbing by = absorbing(without);
-  if (thorough) return tested_thoroughly(by, products_of(c), c);
-  return tested(by, products_of(c), c.least_surviving, nullptr);
-}
+class JointModel::Asked {
+ public:
+  Absorbing by;
+  std::vector<VectorXd> residual;  // of each run, with all that is kept at its best
+  int batch = 1;                   // samples
+};
 
-std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c, std::initializer_list<int> without) const {
-  const CandidateProducts products = products_of(c);
-  std::vector<CandidateTest> out;
-  for (int effect : without) out.push_back(tested_thoroughly(absorbing(effect), products, c));
+std::shared_ptr<const JointModel::Asked> JointModel::asked(int without) const {
+  const auto out = std::make_shared<Asked>();
+  out->by = absorbing(without);
+  VectorXd gone = -out->by.taken;
+  for (std::size_t i = 0; i < out->by.kept.size(); ++i)
+    gone(out->by.kept[i]) += out->by.step(static_cast<Eigen::Index>(i));
+  int samples = 0;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    out->residual.push_back(residual_[r] - now_->z[r] * now_->acting(r, gone));
+    samples += now_->runs[r].samples();
+  }
+  out->batch = std::max(1, samples / kBatches);
   return out;
 }
 
-CandidateTest JointModel::tested_thoroughly(const Absorbing& by, CandidateProducts products,
+CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
+  if (thorough) return tested_thoroughly(*asked(without), products_of(c), c);
+  return tested(absorbing(without), products_of(c), c.least_surviving, nullptr);
+}
+
+std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c,
+                                             const std::vector<std::shared_ptr<const Asked>>& against) const {
+  const CandidateProducts products = products_of(c);
+  std::vector<CandidateTest> out;
+  for (const std::shared_ptr<const Asked>& by : against) out.push_back(tested_thoroughly(*by, products, c));
+  return out;
+}
+
+CandidateTest JointModel::tested_thoroughly(const Asked& asked, CandidateProducts products,
                                             const CandidateColumns& c) const {
-  const auto k = products.with_itself.rows(), q = gram_.rows();
-  MatrixXd beta;
-  CandidateTest out = tested(by, std::move(products), c.least_surviving, &beta);
+  MatrixXd absorbed;
+  CandidateTest out = tested(asked.by, std::move(products), c.least_surviving, &absorbed);
   if (out.statistic <= 0.0) return out;
-  const VectorXd value = Eigen::Map<const VectorXd>(out.value.data(), k), &taken = by.taken, &base = by.step;
-  const std::vector<int>& kept = by.kept;
 
   // The score along the fitted direction, batch by batch.
-  const VectorXd on_z_kept = beta * value;
-  VectorXd on_z = VectorXd::Zero(q);
-  for (std::size_t i = 0; i < kept.size(); ++i) on_z(kept[i]) = on_z_kept(static_cast<Eigen::Index>(i));
-  VectorXd base_z = -taken;  // residual = r + Z taken - Z_kept base
-  for (std::size_t i = 0; i < kept.size(); ++i) base_z(kept[i]) += base(static_cast<Eigen::Index>(i));
-  int samples = 0;
-  for (const LinearisedRun& l : now_->runs) samples += l.samples();
-  const int batch = std::max(1, samples / kBatches);
+  const VectorXd value = Eigen::Map<const VectorXd>(out.value.data(), c.amplitudes), of_kept = absorbed * value;
+  VectorXd of_model = VectorXd::Zero(gram_.rows());
+  for (std::size_t i = 0; i < asked.by.kept.size(); ++i)
+    of_model(asked.by.kept[i]) = of_kept(static_cast<Eigen::Index>(i));
   std::vector<double> u, i;
   double square_all = 0.0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    VectorXd column = -(now_->z[r] * now_->acting(r, on_z));
-    if (c.of_run[r].size() > 0)
-      column.segment(3 * c.stretch[r].first, c.of_run[r].rows()).noalias() += c.of_run[r] * value;
-    const VectorXd res = residual_[r] - now_->z[r] * now_->acting(r, base_z);
+    VectorXd column = -(now_->z[r] * now_->acting(r, of_model));
+    const auto& [acting, z, stretch] = c.of_run[r];
+    if (!acting.empty()) column.segment(3 * stretch.first, z.rows()).noalias() += z * value(acting);
     const int n = now_->runs[r].samples();
-    for (int from = 0; from < n; from += batch) {
-      const int rows = 3 * (std::min(n, from + batch) - from);
-      u.push_back(column.segment(3 * from, rows).dot(res.segment(3 * from, rows)));
+    for (int from = 0; from < n; from += asked.batch) {
+      const int rows = 3 * (std::min(n, from + asked.batch) - from);
+      u.push_back(column.segment(3 * from, rows).dot(asked.residual[r].segment(3 * from, rows)));
       i.push_back(column.segment(3 * from, rows).squaredNorm());
       square_all += i.back() * i.back();
     }

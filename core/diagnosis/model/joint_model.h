@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,10 +32,15 @@ struct CandidateTest {
   double judged() const { return statistic / inflation; }
 };
 
-// Columns of a candidate over all runs: rows as the whitened innovations of that run, empty where it does not act.
+// Columns of a candidate over all runs, of each run those that act in it: rows as the whitened innovations.
 struct CandidateColumns {
-  std::vector<Eigen::MatrixXd> of_run;  // rows of the stretch only
-  std::vector<Stretch> stretch;
+  struct OfRun {
+    std::vector<int> acting;  // amplitudes
+    Eigen::MatrixXd z;        // rows of the stretch only; a column for each that acts
+    Stretch stretch;
+  };
+  int amplitudes = 0;
+  std::vector<OfRun> of_run;
   double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
 };
 
@@ -120,8 +124,12 @@ class JointModel {
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
   static constexpr int kNone = -1, kAll = -2;
   CandidateTest test(const CandidateColumns& columns, int without = kNone, bool thorough = false) const;
-  // Thoroughly, without each of these in turn: what they have in common is reckoned once.
-  std::vector<CandidateTest> tests(const CandidateColumns& columns, std::initializer_list<int> without) const;
+  // What thorough tests of many candidates have in common: the model without an effect, and what that leaves.
+  class Asked;
+  std::shared_ptr<const Asked> asked(int without = kNone) const;
+  // Thoroughly, against each of these.
+  std::vector<CandidateTest> tests(const CandidateColumns& columns,
+                                   const std::vector<std::shared_ptr<const Asked>>& against) const;
   // How fast the log-likelihood grows with the motion of each wheel interval of a run, everything in the model fitted
   // anew: the score of any column is its product with this.
   std::vector<BodyMotion> score_of_motions(int run) const;
@@ -164,7 +172,7 @@ class JointModel {
   // The test without its thorough part; `absorbed`: what the kept columns take of each of the candidate's.
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
-  CandidateTest tested_thoroughly(const Absorbing& by, CandidateProducts products, const CandidateColumns& c) const;
+  CandidateTest tested_thoroughly(const Asked& by, CandidateProducts products, const CandidateColumns& c) const;
   CandidateProducts products_of(const CandidateColumns& columns) const;
   // Of the linearisation as it is. Not to be asked for the first time by several threads.
   std::shared_ptr<ScannedProducts> scanned_products() const;

@@ -63,7 +63,7 @@ TEST(LinearisedRun, ScoreOfMotionsIsTheProductWithTheColumnOfAnyMotion) {
 
 TEST(Waves, OfTheFloorAreFoundWithTheirLengthAndDirection) {
   const JointModel joint = calibrated(short_case("waves"));
-  const std::vector<GenericTest> tests = wave_tests(joint, 0);
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(joint), 0);
   const GenericTest& t = strongest(tests);
   EXPECT_LT(t.p_value, 1e-6);
   EXPECT_EQ(t.channel, "turn per metre [rad/m]");
@@ -80,7 +80,7 @@ TEST(Waves, OfTheFloorAreFoundInALargeHallToo) {
   for (Channel& channel : c.recordings[1].channels)
     if (channel.name == "truth_x_m" || channel.name == "truth_y_m")
       for (double& v : channel.values) v += 13.5;  // nine waves further on
-  const std::vector<GenericTest> tests = wave_tests(calibrated(c), 0);
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(calibrated(c)), 0);
   double length_m = 0.0, degrees = 90.0;
   ASSERT_EQ(std::sscanf(strongest(tests).variable.c_str(), "place, in waves of %lf m towards %lf", &length_m, &degrees),
             2)
@@ -91,7 +91,7 @@ TEST(Waves, OfTheFloorAreFoundInALargeHallToo) {
 
 TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   const JointModel joint = calibrated(short_case("gusts"));
-  const std::vector<GenericTest> tests = wave_tests(joint, 0);
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(joint), 0);
   const GenericTest& t = strongest(tests);
   // Over all waves; both runs have phases of their own. Gusts are three times the noise, which has grown with them.
   JointModel with = joint;
@@ -108,7 +108,7 @@ TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
 
 TEST(Waves, AreNotFoundInNoise) {
   // p is over all that was looked at; one case in a thousand would fail
-  for (const GenericTest& t : wave_tests(calibrated(short_case("")), 0)) EXPECT_GT(t.p_value, 1e-3) << t.variable;
+  for (const GenericTest& t : wave_tests(AskedModel(calibrated(short_case(""))), 0)) EXPECT_GT(t.p_value, 1e-3) << t.variable;
 }
 
 }  // namespace
