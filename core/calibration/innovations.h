@@ -29,6 +29,9 @@ struct FittedNoise {
   double along_m_per_sqrt_m = 0.0, turning_m_per_sqrt_m = 0.0;
   // The same sideways, where nothing rolls: another cause, and mostly far smaller.
   double sideways_m_per_sqrt_m = 0.0;
+  // Of the truth's frame against the room, each coordinate: it grows with the square root of time, where the vehicle
+  // stands as where it drives. Satellites, radio beacons and maps wander; cameras that are bolted to a wall do not.
+  double wander_m_per_sqrt_s = 0.0;
 };
 
 // The same, none of them so small that no floor, no wheel and no camera could have it: 0.02 mm, 0.02 mrad and 0.02 mm

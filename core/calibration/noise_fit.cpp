@@ -26,10 +26,14 @@ double& size_of(FittedNoise& noise, int size) {
       return noise.along_m_per_sqrt_m;
     case noise_size::turning:
       return noise.turning_m_per_sqrt_m;
+    case noise_size::wander:
+      return noise.wander_m_per_sqrt_s;
     default:
       return noise.sideways_m_per_sqrt_m;
   }
 }
+
+void NoiseFit::add_wander() { free.push_back(noise_size::wander); }
 
 void NoiseFit::add_body() {
   free.insert(free.end(), {noise_size::along, noise_size::turning, noise_size::sideways});
@@ -37,10 +41,21 @@ void NoiseFit::add_body() {
   least_sideways = 0.02;
 }
 
+namespace {
+constexpr double kShare = 0.3;  // of the wheels' noise, to start from
+}
+
 FittedNoise with_body(FittedNoise noise) {
   if (noise.along_m_per_sqrt_m <= 0.0)
     noise.along_m_per_sqrt_m = noise.turning_m_per_sqrt_m = noise.sideways_m_per_sqrt_m =
-        0.3 * noise.wheel_m_per_sqrt_m;
+        kShare * noise.wheel_m_per_sqrt_m;
+  return noise;
+}
+
+FittedNoise with_wander(FittedNoise noise) {
+  constexpr double kWalking_mps = 1.0;
+  noise.wander_m_per_sqrt_s =
+      std::max(noise.wander_m_per_sqrt_s, kShare * noise.wheel_m_per_sqrt_m * std::sqrt(kWalking_mps));
   return noise;
 }
 

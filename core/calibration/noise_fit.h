@@ -15,14 +15,19 @@ struct NoiseFit {
   // Shares of the wheels' noise: what is usual sideways, where nothing rolls, and what nobody is truer than.
   double usual_sideways = 0.0, least_sideways = 0.0;
 
+  // Lets the truth's wander free too. Not while samples are still thinned until they are white: it would take the noise
+  // of neighbours, which ends, for one that goes on.
+  void add_wander();
   // Lets the body's sizes free too. Sideways a tenth of the wheels' noise is usual, and less than a fiftieth is not
   // believed.
   void add_body();
 };
 
-constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005};
+constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001};
 // Gives a noise that has none of the body a little, to start a fit from.
 FittedNoise with_body(FittedNoise noise);
+// Wander, too, if it has less: from next to nothing a fit would not come back.
+FittedNoise with_wander(FittedNoise noise);
 
 // Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.
 FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,

@@ -15,7 +15,8 @@ constexpr int heading = 2;
 constexpr int along = 3;
 constexpr int turning = 4;
 constexpr int sideways = 5;
-constexpr int count = 6;
+constexpr int wander = 6;
+constexpr int count = 7;
 }  // namespace noise_size
 
 double& size_of(FittedNoise& noise, int size);

@@ -1,10 +1,65 @@
 #include "core/diagnosis/ready_recordings.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
 #include "core/calibration/correlated_truth.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/truth_jumps.h"
 
 namespace odolab {
+
+namespace {
+
+// Where the truth jumps time and again, these moments are left out of all recordings. Returns the jumps.
+std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
+                                       const Vehicle& nominal) {
+  InnovationModel model;
+  model.drive = std::get<DifferentialDrive>(ready.calibration.vehicle.kind);
+  model.truth = ready.calibration.vehicle.truth;
+  model.noise = ready.calibration.noise;
+  std::vector<TruthJump> all;
+  std::vector<std::vector<std::pair<double, double>>> of_each;
+  for (std::size_t r = 0; r < each.size(); ++r) {
+    const std::vector<double>& clocks = ready.calibration.time_offset_s;
+    model.truth.time_offset_s = r < clocks.size() ? clocks[r] : ready.calibration.vehicle.truth.time_offset_s;
+    const Result<InnovationRun> run = ready_run(*each[r], nominal);
+    of_each.emplace_back();
+    if (!run) continue;
+    for (const TruthJump& jump : truth_jumps(*run, model)) {
+      all.push_back(jump);
+      // On the wheels' clock, from one reading to another.
+      const auto by_time = [](const WheelSample& w, double t) { return w.time_s < t; };
+      const auto begin = run->wheels.begin(), end = run->wheels.end() - 1;
+      const auto from = std::lower_bound(begin, end, jump.time_s.first - model.truth.time_offset_s, by_time),
+                 to = std::lower_bound(begin, end, jump.time_s.second - model.truth.time_offset_s, by_time);
+      of_each.back().emplace_back((from == begin ? from : from - 1)->time_s, to->time_s);
+    }
+  }
+  if (!ready.truth_jumps && !are_of_the_truth(all)) return {};
+  for (std::size_t r = 0; r < each.size(); ++r) {
+    TimeStretches& left_out_s = each[r]->left_out_s;
+    left_out_s.insert(left_out_s.end(), of_each[r].begin(), of_each[r].end());
+    left_out_s = joined(std::move(left_out_s));
+  }
+  return all;
+}
+
+std::string in_words(const std::vector<TruthJump>& jumps) {
+  double squares_m2 = 0.0;
+  for (const TruthJump& j : jumps) squares_m2 += dot(j.by, j.by);
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "the truth jumps at %d moments, by %.1f mm root mean square, sideways as much as ahead: they are left "
+                "out, and no push or bump at one moment can be told from them",
+                static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
+  return text;
+}
+
+}  // namespace
 
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress) {
@@ -33,16 +88,28 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   ready.moved = put_right.moved;
 
   std::vector<Recording> fitted;
-  LeastSquaresOptions with_faults_left_out;
   for (const CheckedRecording& c : ready.train) {
     fitted.push_back(c.recording);
-    with_faults_left_out.left_out.push_back(c.left_out_s);
     ready.from_commands = ready.from_commands || c.from_commands;
   }
-  Result<LeastSquaresCalibration> calibration = calibrate_least_squares(
-      fitted, nominal, with_faults_left_out, [&](double share) { return goes_on(progress, share); });
-  if (!calibration) return calibration.error();
-  ready.calibration = *std::move(calibration);
+  const auto calibrate = [&]() -> Result<Done> {
+    LeastSquaresOptions with_faults_left_out;
+    for (const CheckedRecording& c : ready.train) with_faults_left_out.left_out.push_back(c.left_out_s);
+    Result<LeastSquaresCalibration> calibration = calibrate_least_squares(
+        fitted, nominal, with_faults_left_out, [&](double share) { return goes_on(progress, share); });
+    if (!calibration) return calibration.error();
+    ready.calibration = *std::move(calibration);
+    return Done{};
+  };
+  if (const Result<Done> done = calibrate(); !done) return done.error();
+  constexpr int kMostRounds = 3;  // without the largest, smaller ones show
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::vector<TruthJump> jumps = leave_out_jumps(ready, each, nominal);
+    if (jumps.empty()) break;
+    ready.truth_jumps = true;
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+    if (round == 0) ready.warnings.push_back(in_words(jumps));
+  }
   for (CheckedRecording* c : each) {
     ready.warnings.insert(ready.warnings.end(), c->warnings.begin(), c->warnings.end());
     if (ready.calibration.truth_apart_s > 0.0)
@@ -62,6 +129,7 @@ Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle&
     commands.push_back(c.from_commands);
   }
   JointModel joint(std::move(runs), commands, ready.calibration, nominal);
+  joint.truth_jumps = ready.truth_jumps;
   joint.truth_noise_lasts = ready.calibration.truth_apart_s > 0.0;
   joint.linearise();
   joint.gate();

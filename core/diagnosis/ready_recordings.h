@@ -17,6 +17,7 @@ struct ReadyRecordings {
   std::vector<MovedMounting> moved;               // of both, the train first
   LeastSquaresCalibration calibration;            // of the train
   bool from_commands = false;                     // any of the train
+  bool truth_jumps = false;                       // time and again: left out, and no moment by itself says anything
   std::vector<std::string> warnings;
 };
 

@@ -35,9 +35,10 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
                along2 = noise.along_m_per_sqrt_m * noise.along_m_per_sqrt_m,
                turning2 = noise.turning_m_per_sqrt_m * noise.turning_m_per_sqrt_m,
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
+  const double wandered2 = 2.0 * noise.wander_m_per_sqrt_s * noise.wander_m_per_sqrt_s * (to_s - from_s);
   const double turn2_per_m = (q2 + 2.0 * turning2) / (wheelbase_m * wheelbase_m);
   sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m +
-                           turn2_per_m * swung_m3;
+                           wandered2 + turn2_per_m * swung_m3;
   sum.noise_heading_rad2 += 2.0 * h2 + turn2_per_m * left_and_right_m;
 }
 

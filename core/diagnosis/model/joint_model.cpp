@@ -42,7 +42,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   model.truth = start.vehicle.truth;
   model.noise = start.noise;
   if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
-  model.noise = with_body(model.noise);
+  model.noise = with_wander(with_body(model.noise));
   clock_s = start.time_offset_s;
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);
@@ -153,6 +153,7 @@ JointModel::Standing JointModel::standing() const {
                noise.along_m_per_sqrt_m,
                noise.turning_m_per_sqrt_m,
                noise.sideways_m_per_sqrt_m,
+               noise.wander_m_per_sqrt_s,
                half_counts[0],
                half_counts[1]};
   const auto append = [](auto& to, const auto& of) { to.insert(to.end(), of.begin(), of.end()); };

@@ -89,6 +89,7 @@ class JointModel {
   bool is_foretold = true;
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
   bool truth_noise_lasts = false;
+  bool truth_jumps = false;  // time and again, so that what happens at one moment is not told from these
 
   const std::vector<DriveView>& views() const { return now_->views; }
   const std::vector<InnovationRun>& runs() const { return runs_; }

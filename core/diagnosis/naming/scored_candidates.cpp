@@ -301,6 +301,13 @@ bool is_finer(const Effect& own, const Effect& shared) {
          own.component == shared.component;
 }
 
+namespace {
+
+// What is over in a moment, so that a truth that jumps looks like it.
+bool is_short(const Effect& e) { return e.local && (e.of_one_recording || e.name == "bump"); }
+
+}  // namespace
+
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int without) {
   std::vector<const Effect*> all;
   for (const Effect& e : catalogue()) all.push_back(&e);
@@ -320,6 +327,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     const Effect& e = *all[i];
     scored[i].effect = &e;
     if (e.only_commands && !commands) return;
+    if (joint.truth_jumps && is_short(e)) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
     scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);

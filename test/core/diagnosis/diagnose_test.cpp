@@ -95,6 +95,58 @@ TEST(Diagnose, NamesWhatIsMissingUnderATruthWhoseNoiseLastsForSomeSamples) {
   EXPECT_EQ(d.findings[0].effect, "one_sided_drag");
 }
 
+// As of localisation in a map: it is matched anew each time it is far enough off.
+void let_truth_jump(Case& c, std::uint64_t seed) {
+  constexpr std::size_t kSamples = 240;  // from one jump to the next, 4 s
+  constexpr double kBy_m = 0.008, kBy_rad = 0.005;
+  Random random(seed);
+  for (Recording& r : c.recordings) {
+    double dx = 0.0, dy = 0.0, dheading = 0.0;
+    change_truth(r, [&](std::size_t k, double& x, double& y, double& heading) {
+      if (k % kSamples == kSamples / 2)
+        dx = kBy_m * random.normal(), dy = kBy_m * random.normal(), dheading = kBy_rad * random.normal();
+      x += dx, y += dy, heading += dheading;
+    });
+  }
+}
+
+TEST(Diagnose, TakesATruthThatJumpsTimeAndAgainForNoPushes) {
+  Case c = generated_case(short_case("", 0.0), 7064);
+  let_truth_jump(c, 7065);
+  const Diagnosis d = diagnosed(c);
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
+                          [](const std::string& w) { return w.find("the truth jumps at ") == 0; }));
+}
+
+TEST(Diagnose, NamesWhatIsMissingUnderATruthThatJumps) {
+  Case c = generated_case(short_case("one_sided_drag", 1.0), 7066);
+  let_truth_jump(c, 7067);
+  const Diagnosis d = diagnosed(c);
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "one_sided_drag");
+}
+
+// As of satellites: exact from sample to sample, and a centimetre off after some seconds, whether it drives or stands.
+TEST(Diagnose, TakesATruthThatWandersForNoPush) {
+  constexpr double kAfter_s = 30.0, kOff_m = 0.015, kSample_s = 1.0 / 60.0;
+  for (std::uint64_t seed = 7068; seed < 7072; ++seed) {
+    Case c = generated_case(short_case("", 0.0), seed);
+    Random random(seed + 100);
+    const double stays = std::exp(-kSample_s / kAfter_s), step_m = kOff_m * std::sqrt(1.0 - stays * stays);
+    for (Recording& r : c.recordings) {
+      double dx = kOff_m * random.normal(), dy = kOff_m * random.normal();
+      change_truth(r, [&](std::size_t, double& x, double& y, double&) {
+        dx = stays * dx + step_m * random.normal();
+        dy = stays * dy + step_m * random.normal();
+        x += dx, y += dy;
+      });
+    }
+    const Diagnosis d = diagnosed(c);
+    EXPECT_TRUE(d.findings.empty()) << seed << ": " << said(d);
+  }
+}
+
 TEST(Diagnose, TakesNothingForAnEffectWhereThereIsNoNoiseAtAll) {
   // Only the path between two readings is left, some hundredths of a millimetre.
   CaseSettings c = short_case("", 0.0);
