@@ -13,7 +13,9 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
   noise.wheel_m_per_sqrt_m = std::max(noise.wheel_m_per_sqrt_m, kLeast);
   noise.truth_position_m = std::max(noise.truth_position_m, kLeast);
   noise.truth_heading_rad = std::max(noise.truth_heading_rad, kLeast);
-  noise.wander_m_per_sqrt_s = std::max(noise.wander_m_per_sqrt_s, 0.1 * kLeast);
+  constexpr double kLeastWander = 0.1 * kLeast;
+  noise.wander_m_per_sqrt_s = std::max(noise.wander_m_per_sqrt_s, kLeastWander);
+  noise.heading_wander_rad_per_sqrt_s = std::max(noise.heading_wander_rad_per_sqrt_s, kLeastWander);
   return noise;
 }
 

@@ -32,6 +32,7 @@ struct FittedNoise {
   // Of the truth's frame against the room, each coordinate: it grows with the square root of time, where the vehicle
   // stands as where it drives. Satellites, radio beacons and maps wander; cameras that are bolted to a wall do not.
   double wander_m_per_sqrt_s = 0.0;
+  double heading_wander_rad_per_sqrt_s = 0.0;
 };
 
 // The same, none of them so small that no floor, no wheel and no camera could have it: 0.02 mm, 0.02 mrad and 0.02 mm

@@ -28,12 +28,17 @@ double& size_of(FittedNoise& noise, int size) {
       return noise.turning_m_per_sqrt_m;
     case noise_size::wander:
       return noise.wander_m_per_sqrt_s;
+    case noise_size::heading_wander:
+      return noise.heading_wander_rad_per_sqrt_s;
     default:
       return noise.sideways_m_per_sqrt_m;
   }
 }
 
-void NoiseFit::add_wander() { free.push_back(noise_size::wander); }
+void NoiseFit::add_wander(bool of_headings) {
+  free.push_back(noise_size::wander);
+  if (of_headings) free.push_back(noise_size::heading_wander);
+}
 
 void NoiseFit::add_body() {
   free.insert(free.end(), {noise_size::along, noise_size::turning, noise_size::sideways});
@@ -53,9 +58,10 @@ FittedNoise with_body(FittedNoise noise) {
 }
 
 FittedNoise with_wander(FittedNoise noise) {
-  constexpr double kWalking_mps = 1.0;
-  noise.wander_m_per_sqrt_s =
-      std::max(noise.wander_m_per_sqrt_s, kShare * noise.wheel_m_per_sqrt_m * std::sqrt(kWalking_mps));
+  constexpr double kWalking_mps = 1.0, kBase_m = 1.0;
+  const double start = kShare * noise.wheel_m_per_sqrt_m * std::sqrt(kWalking_mps);
+  noise.wander_m_per_sqrt_s = std::max(noise.wander_m_per_sqrt_s, start);
+  noise.heading_wander_rad_per_sqrt_s = std::max(noise.heading_wander_rad_per_sqrt_s, start / kBase_m);
   return noise;
 }
 

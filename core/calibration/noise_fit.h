@@ -17,13 +17,13 @@ struct NoiseFit {
 
   // Lets the truth's wander free too. Not while samples are still thinned until they are white: it would take the noise
   // of neighbours, which ends, for one that goes on.
-  void add_wander();
+  void add_wander(bool of_headings);
   // Lets the body's sizes free too. Sideways a tenth of the wheels' noise is usual, and less than a fiftieth is not
   // believed.
   void add_body();
 };
 
-constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001};
+constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001, 0.00001};
 // Gives a noise that has none of the body a little, to start a fit from.
 FittedNoise with_body(FittedNoise noise);
 // Wander, too, if it has less: from next to nothing a fit would not come back.

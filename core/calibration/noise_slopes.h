@@ -16,7 +16,8 @@ constexpr int along = 3;
 constexpr int turning = 4;
 constexpr int sideways = 5;
 constexpr int wander = 6;
-constexpr int count = 7;
+constexpr int heading_wander = 7;
+constexpr int count = 8;
 }  // namespace noise_size
 
 double& size_of(FittedNoise& noise, int size);

@@ -58,6 +58,7 @@ class PoseFilter {
     turning2_ = model.noise.turning_m_per_sqrt_m * model.noise.turning_m_per_sqrt_m;
     sideways2_ = model.noise.sideways_m_per_sqrt_m * model.noise.sideways_m_per_sqrt_m;
     wander2_ = model.noise.wander_m_per_sqrt_s * model.noise.wander_m_per_sqrt_s;
+    heading_wander2_ = model.noise.heading_wander_rad_per_sqrt_s * model.noise.heading_wander_rad_per_sqrt_s;
   }
 
   InnovationSums run() {
@@ -173,10 +174,12 @@ class PoseFilter {
     noise.add(along);
     noise.add(turning);
     noise.add(sideways);
-    const double wandered2 = wander2_ * (run_.truth[t + 1].time_s - run_.truth[t].time_s);
+    const double took_s = run_.truth[t + 1].time_s - run_.truth[t].time_s;
+    const double wandered2 = wander2_ * took_s, turned2 = heading_wander2_ * took_s;
     if (slopes_) {
       slopes_->carry(dx, dy);
       slopes_->grow(noise_size::wander, {wandered2, 0.0, 0.0, wandered2, 0.0, 0.0});
+      slopes_->grow(noise_size::heading_wander, {0.0, 0.0, 0.0, 0.0, 0.0, turned2});
       slopes_->grow(noise_size::wheel, of_wheels.turned(c, s));
       slopes_->grow(noise_size::along, along.turned(c, s));
       slopes_->grow(noise_size::turning, turning.turned(c, s));
@@ -186,6 +189,7 @@ class PoseFilter {
     covariance_.add(noise.turned(c, s));
     covariance_.xx += wandered2;
     covariance_.yy += wandered2;
+    covariance_.hh += turned2;
     if (options_.on_step) {
       step_.moved = {dx, dy};
       step_.heading_before_rad = state_.heading_rad;
@@ -361,7 +365,7 @@ class PoseFilter {
   Turn facing_;  // cosine and sine of its heading
   int turns_ = 0;
   PoseCovariance covariance_, count_error_;
-  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_, wander2_;  // variances
+  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_, wander2_, heading_wander2_;  // variances
   double determinant_ = 1.0;  // of the samples since the last logarithm
   Eigen::Matrix<double, 3, columns, Eigen::RowMajor> derivative_, jacobian_;
   Eigen::Matrix<double, columns, columns, Eigen::RowMajor> information_;

@@ -108,7 +108,7 @@ bool are_of_the_truth(const std::vector<TruthJump>& jumps) {
     aside.push_back(std::abs(j.of_axle.sideways_m));
     by_chance.push_back(j.by_chance_m);
   }
-  constexpr double kAsMuch = 0.5, kBeyondChance = 2.0;
+  constexpr double kAsMuch = 0.5, kBeyondChance = 1.5;
   if (median(aside) < kAsMuch * median(ahead) || median(aside) < kBeyondChance * median(by_chance)) return false;
   constexpr double kNear_m = 0.5, kAlong = 0.95, kOfOneSize = 0.3;
   const auto is_of_its_place = [&](const TruthJump& a) {

@@ -18,7 +18,7 @@ std::vector<Effect> tyre_compression() {
   Effect e;
   e.name = "tyre_compression";
   e.component = "both_wheels";
-  e.amplitudes = {{"radius_change_m_per_mps2", "m/(m/s2)", 0.0003, 0.0, 0.005}};
+  e.amplitudes = {{"radius_change_m_per_mps2", "m/(m/s2)", 0.0003, 0.0, 0.03}};
   e.forms = {"the outer tyre alone", "the outer tyre is squeezed and the inner one relieved"};
   e.sentence = "load transfer in bends squeezes the outer tyre";
   e.regime = "in arcs, grows with speed times turn rate";

@@ -219,6 +219,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.push_back(heat);
   Group rest;
   rest.variable = "way since it stood [m]";
+  rest.is_memory = true;
   rest.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     constexpr double kForgotten_m[] = {0.1, 0.5, 2.0};
     constexpr double kStands_s = 0.5;

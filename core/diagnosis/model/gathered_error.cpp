@@ -36,10 +36,11 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
                turning2 = noise.turning_m_per_sqrt_m * noise.turning_m_per_sqrt_m,
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
   const double wandered2 = 2.0 * noise.wander_m_per_sqrt_s * noise.wander_m_per_sqrt_s * (to_s - from_s);
+  const double turned2 = noise.heading_wander_rad_per_sqrt_s * noise.heading_wander_rad_per_sqrt_s * (to_s - from_s);
   const double turn2_per_m = (q2 + 2.0 * turning2) / (wheelbase_m * wheelbase_m);
   sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m +
                            wandered2 + turn2_per_m * swung_m3;
-  sum.noise_heading_rad2 += 2.0 * h2 + turn2_per_m * left_and_right_m;
+  sum.noise_heading_rad2 += 2.0 * h2 + turned2 + turn2_per_m * left_and_right_m;
 }
 
 // Where it stands at an end it stood there longer than it was read: a pose that is taken there belongs to it, however

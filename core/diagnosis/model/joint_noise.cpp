@@ -66,7 +66,7 @@ void JointModel::fit_noise() {
   }
   NoiseFit of_samples{{noise_size::wheel, noise_size::position}, kUsualNoise};
   of_samples.add_body();
-  of_samples.add_wander();
+  of_samples.add_wander(any_heading);
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples);
   // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
@@ -83,7 +83,7 @@ void JointModel::fit_noise() {
   if (left <= 3 * columns()) return;
   NoiseFit of_ways{{noise_size::wheel}, model.noise, kSampledWithin};
   of_ways.add_body();
-  of_ways.add_wander();
+  of_ways.add_wander(any_heading);
   of_ways.usual_sideways = 0.0;  // what is usual is what the samples said
   model.noise = fitted(thinned, of_ways);
 }
