@@ -69,12 +69,13 @@ bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
 }
 
+constexpr double kWidestBump_m = 0.2;
+
 // A bump that is met each time, and a patch about it that is no wider than a bump may be.
 bool of_one_small_place(const ScoredCandidate& bump, const ScoredCandidate& patch) {
-  constexpr double kWidest_m = 0.2;
   if (bump.effect->name != "bump" || bump.effect->of_one_recording || patch.effect->name != "slip_zone") return false;
   const Vec2 apart{bump.test.shape[0] - patch.test.shape[0], bump.test.shape[1] - patch.test.shape[1]};
-  return patch.test.shape[2] < kWidest_m && length(apart) < kWidest_m;
+  return patch.test.shape[2] < kWidestBump_m && length(apart) < kWidestBump_m;
 }
 
 // Whether the vehicle is on a patch about a moment.
@@ -101,6 +102,10 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
     }
     if (c.effect->name == "slip_zone" && a.effect->local && a.effect->of_one_recording &&
         happens_on(joint, a.shape, c.test.shape))
+      return true;
+    // A bump that is met now and then by its edge is met less, or more, at some moment.
+    if (c.effect->of_one_recording && a.effect->name == "bump" && !a.effect->of_one_recording &&
+        happens_on(joint, c.test.shape, {a.shape[0], a.shape[1], kWidestBump_m}))
       return true;
     if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&
         std::abs(a.shape[1] - c.test.shape[1]) < 1.0)
