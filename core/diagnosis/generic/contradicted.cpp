@@ -101,15 +101,7 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
   constexpr double kFewest_m = 1.0;            // that wheels must have rolled to show how they scatter
-  // Of the body as well, where encoders tell its way and the truth is so sharp that it is no noise of its own.
-  constexpr double kSharp = 0.1;
-  const FittedNoise& noise = joint.model.noise;
-  const double of_body = std::max({noise.along_m_per_sqrt_m, noise.turning_m_per_sqrt_m, noise.sideways_m_per_sqrt_m});
-  const bool from_commands =
-      std::any_of(joint.views().begin(), joint.views().end(), [](const DriveView& v) { return v.from_commands; });
-  const bool is_sharp =
-      !from_commands && joint.runs().front().truth_has_heading && noise.truth_position_m < kSharp * of_body;
-  const double scatter = std::max(noise.wheel_m_per_sqrt_m, is_sharp ? of_body : 0.0);
+  const double scatter = joint.model.noise.wheel_m_per_sqrt_m;
   if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
   double rolled_m = 0.0;
   for (const DriveView& view : joint.views())
