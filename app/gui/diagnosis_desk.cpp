@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality.h"
@@ -26,8 +27,7 @@ std::string truth_words(const Recording& recording) {
   if (truth.size() > 2) {
     std::vector<double> periods;
     for (std::size_t i = 1; i < truth.size(); ++i) periods.push_back(truth[i].time_s - truth[i - 1].time_s);
-    std::nth_element(periods.begin(), periods.begin() + long(periods.size() / 2), periods.end());
-    const double period_s = periods[periods.size() / 2];
+    const double period_s = median(std::move(periods));
     if (period_s > 0.0) words += number_text(", %.3g Hz", 1.0 / period_s);
   }
   if (!truth.front().heading_rad) words += ", no headings";

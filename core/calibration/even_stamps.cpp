@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
@@ -17,13 +19,6 @@ constexpr double kKnots_s = 5.0;   // so slowly may the sampling's own clock wan
 constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
 constexpr double kMatters = 0.5;  // of the readings' own roughness: what lateness adds below that is one part in ten
-
-double quantile(Series v, double share) {
-  if (v.empty()) return 0.0;
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-  std::nth_element(v.begin(), v.begin() + k, v.end());
-  return v[static_cast<std::size_t>(k)];
-}
 
 double median_size(Series v) {
   for (double& x : v) x = std::abs(x);

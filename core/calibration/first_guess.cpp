@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/quantile.h"
 #include "core/calibration/late_truth.h"
 #include "core/calibration/wheels_at.h"
 
@@ -48,17 +49,15 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
   // A robot that crawls is lost in the truth's noise; a single jump of a counter would outweigh all the rest.
   constexpr double kCrawls = 0.02, kJumps = 20.0;
   const auto size = [](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad); };
-  const auto quantile = [&](double share) {
+  const auto at_share = [&](double share) {
     std::vector<double> sizes;
     for (const Stretch& s : stretches) sizes.push_back(size(s));
-    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size() - 1));
-    std::nth_element(sizes.begin(), at, sizes.end());
-    return *at;
+    return quantile(std::move(sizes), share);
   };
   if (stretches.empty()) return stretches;
-  const double least = kCrawls * quantile(0.9);
+  const double least = kCrawls * at_share(0.9);
   std::erase_if(stretches, [&](const Stretch& s) { return size(s) < least; });
-  const double largest = kJumps * quantile(0.5);
+  const double largest = kJumps * at_share(0.5);
   std::erase_if(stretches, [&](const Stretch& s) { return size(s) > largest; });
   return stretches;
 }
@@ -111,9 +110,7 @@ Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
       if (used[i]) left_over += misses[i] * misses[i], total += s.*y * s.*y;
     }
     plane.explained = 1.0 - left_over / total;
-    std::vector<double> sorted = misses;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double gate = 3.0 * sorted[sorted.size() / 2] / 0.6745 + 1e-9;
+    const double gate = 3.0 * median(misses) / 0.6745 + 1e-9;
     for (std::size_t i = 0; i < stretches.size(); ++i) used[i] = misses[i] <= gate;
   }
   return plane;

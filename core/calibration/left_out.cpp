@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
-
-double quantile(std::vector<double> values, double share) {
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + k, values.end());
-  return values[static_cast<std::size_t>(k)];
-}
 
 double duration_s(const std::vector<WheelSample>& readings, std::size_t i) {
   return readings[i + 1].time_s - readings[i].time_s;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/quantile.h"
 #include "core/calibration/least_squares.h"
 #include "core/calibration/run_fit.h"
 
@@ -61,12 +62,6 @@ Departure departure(const Seen& seen, const Seen& usual) {
   d.place_sigmas = length(d.by_m) / (1e-9 + std::hypot(seen.stderrs.x_m, usual.stderrs.x_m));
   d.heading_sigmas = std::abs(d.by_rad) / (1e-9 + std::hypot(seen.stderrs.heading_rad, usual.stderrs.heading_rad));
   return d;
-}
-
-double median(std::vector<double> v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
 }
 
 // The middle of three runs or more; its error is how they scatter about it, the one in the middle of their own or more.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/calibration/wheels_at.h"
 
 namespace odolab {
@@ -109,9 +110,7 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
     left = y - rows * s.x;
     std::vector<double> misses;
     for (Eigen::Index i = 0; i < stretches; ++i) misses.push_back(std::sqrt(size_of(left, i)));
-    std::vector<double> sorted = misses;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double gate = 3.0 * sorted[sorted.size() / 2] / 0.6745 + 1e-9;
+    const double gate = 3.0 * median(misses) / 0.6745 + 1e-9;
     double squares = 0.0, count = 0.0;
     for (std::size_t i = 0; i < misses.size(); ++i) {
       used[i] = misses[i] <= gate;
@@ -193,9 +192,7 @@ void fit_chords(const std::vector<Stretch>& stretches, RunFit& fit) {
       ratios.push_back(s.chord_m / std::abs(s.rolled_m));
   fit.drives = ratios.size() >= kFewest;
   if (!fit.drives) return;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  fit.way_ratio = *middle;
+  fit.way_ratio = median(std::move(ratios));
 }
 
 }  // namespace

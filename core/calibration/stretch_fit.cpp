@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
@@ -27,9 +29,7 @@ VectorXd deviations(const std::vector<VectorXd>& residuals, const std::vector<do
   for (int k = 0; k < result.size(); ++k) {
     std::vector<double> sizes;
     for (const VectorXd& r : residuals) sizes.push_back(std::abs(r[k]));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    result[k] = std::max({1.4826 * *middle, least[static_cast<std::size_t>(k)], 1e-7});
+    result[k] = std::max({1.4826 * median(std::move(sizes)), least[static_cast<std::size_t>(k)], 1e-7});
   }
   return result;
 }

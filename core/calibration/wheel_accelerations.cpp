@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/parabola.h"
 
 namespace odolab {
@@ -50,10 +51,7 @@ double tremble_of(const std::vector<WheelSample>& readings, double WheelSample::
         readings[i + 3].*wheel - 3.0 * readings[i + 2].*wheel + 3.0 * readings[i + 1].*wheel - readings[i].*wheel;
     squares.push_back(third * third);
   }
-  if (squares.empty()) return 0.0;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return *middle / kMiddle / kOfOne;
+  return median(std::move(squares)) / kMiddle / kOfOne;
 }
 
 struct Accelerations {

@@ -116,9 +116,11 @@ const char* headline(Verdict verdict) {
 }
 
 // Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
-Adequacy judged_by_both(const JointModel& joint, const JointModel& calibrated, const Predictor& predictor,
-                        std::vector<ScoredCandidate> evidence, double of_mounting, double error) {
-  const std::optional<JointModel> all_named = predictor.fitted_to_all(joint);
+Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor,
+                        double of_mounting, double error) {
+  const JointModel& joint = named.joint;
+  const std::optional<JointModel>& all_named = named.with_held_out;
+  std::vector<ScoredCandidate> evidence = named.selected.evidence;
   Adequacy adequacy = adequacy_of(joint, calibrated, evidence, of_mounting, all_named ? 0.5 * error : error);
   if (adequacy.unnamed || !all_named) return adequacy;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
@@ -141,7 +143,7 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   double of_toe = 0.0;
   for (const Finding& f : found)
     if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  Adequacy adequacy = judged_by_both(named.joint, calibrated, predictor, named.selected.evidence, of_toe, error);
+  Adequacy adequacy = judged_by_both(named, calibrated, predictor, of_toe, error);
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
@@ -193,7 +195,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const Predictor predictor(ready->held_out, d.calibration_alone, nominal);
   const std::optional<Named> names = named(calibrated, predictor, options.family_wise_error, progress);
   if (!names) return stopped;
-  const auto& [joint, selected, intervals, by_joint, by_calibrated, of_refuted] = *names;
+  const auto& [joint, selected, intervals, by_joint, by_calibrated, with_held_out, of_refuted] = *names;
   d.warnings.insert(d.warnings.end(), of_refuted.begin(), of_refuted.end());
 
   std::vector<Finding> found;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
@@ -12,11 +14,8 @@ constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides
 // The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
 double size_of(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
-  if (values.empty()) return 0.0;
   for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
+  return 1.4826 * median(std::move(values));
 }
 
 // What lies far below the noise of one sample shows here as soon as it keeps its direction.

@@ -25,10 +25,24 @@ std::vector<double> inflations_of(const Selected& selected) {
   return inflations;
 }
 
-std::string of_refuted(const Effect& effect) {
+// Of the accepted effects the one that is no more than chance in all recordings together, those held out among them.
+std::optional<std::size_t> not_borne_out(const JointModel& of_all, const Selected& selected, double family_wise_error) {
+  std::optional<std::size_t> weakest;
+  double most = family_wise_error;
+  for (std::size_t k = 0; k < of_all.accepted.size(); ++k) {
+    const AcceptedEffect& a = of_all.accepted[k];
+    ScoredCandidate c = selected.evidence[k];
+    c.test.statistic = of_all.test(of_all.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+    judge(c);
+    if (c.p_value > most) most = c.p_value, weakest = k;
+  }
+  return weakest;
+}
+
+std::string name_in_words(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
-  return name + " would describe the recordings that were fitted, but what was not fitted is predicted worse with it";
+  return name;
 }
 
 }  // namespace
@@ -36,7 +50,7 @@ std::string of_refuted(const Effect& effect) {
 std::optional<Named> named(const JointModel& calibrated, const Predictor& predictor, double family_wise_error,
                            const Progress& progress) {
   constexpr double kSelected = 0.75;  // of the progress
-  Named now{calibrated, {}, {}, {}, {}, {}};
+  Named now{calibrated, {}, {}, {}, {}, {}, {}};
   JointModel& joint = now.joint;
   Selected& selected = now.selected;
   selected = select_effects(joint, family_wise_error, progress);
@@ -52,8 +66,19 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
       if (!stands_out(joint, joint.accepted[k])) return k;
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);
     now.by_joint = joint.accepted.empty() ? now.by_calibrated : predictor.of(joint, joint.model.noise);
-    const std::optional<std::size_t> k = refuted(predictor, joint, now.by_joint, now.by_calibrated);
-    if (k) now.warnings.push_back(of_refuted(*joint.accepted[*k].effect));
+    if (const auto k = refuted(predictor, joint, now.by_joint, now.by_calibrated)) {
+      now.warnings.push_back(
+          name_in_words(*joint.accepted[*k].effect) +
+          " would describe the recordings that were fitted, but what was not fitted is predicted worse with it");
+      return k;
+    }
+    now.with_held_out = predictor.fitted_to_all(joint);
+    if (!now.with_held_out) return std::nullopt;
+    const auto k = not_borne_out(*now.with_held_out, selected, family_wise_error);
+    if (k)
+      now.warnings.push_back(name_in_words(*joint.accepted[*k].effect) +
+                             " would describe the recordings that were fitted, but in all recordings, those held out "
+                             "among them, it is no more than chance");
     return k;
   };
   constexpr std::size_t kMostUntenable = 2;

@@ -16,6 +16,8 @@ struct Named {
   Selected selected;  // of the joint model's effects
   Intervals intervals;
   Predicted by_joint, by_calibrated;  // under the joint model's noise
+  std::optional<JointModel>
+      with_held_out;                  // the same model fitted to what was held out as well (Predictor::fitted_to_all)
   std::vector<std::string> warnings;  // what was named and refuted
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/quantile.h"
 #include "core/calibration/evened_recording.h"
 
 #include "core/calibration/left_out.h"
@@ -54,12 +55,6 @@ std::string times_text(const TimeStretches& times) {
   std::string all = text;
   if (times.size() > 1) all += " and " + std::to_string(times.size() - 1) + " time(s) more";
   return all;
-}
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0.0;
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
 }
 
 }  // namespace

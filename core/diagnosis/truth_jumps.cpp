@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/geometry/small_turn.h"
 
 namespace odolab {
@@ -30,12 +31,6 @@ bool is_there_too(const Innovation& jump, const Innovation& later, const FittedN
   Eigen::Matrix3d covariance = covariance_of(later) - covariance_of(jump);
   covariance.diagonal() += 2.0 * Eigen::Vector3d(p2, p2, h2);
   return apart.dot(covariance.ldlt().solve(apart)) < kAlike;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A tracker that loses itself and comes back is an outlier of several samples, and no jump.

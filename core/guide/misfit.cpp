@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/guide/rest.h"
 
 namespace odolab {
@@ -12,12 +13,6 @@ namespace {
 constexpr double kTimesTheSpread = 5.0;
 constexpr double kMedianOfRayleigh = 1.17741002;  // sqrt(2 ln 2), in standard deviations of one coordinate
 constexpr int kEnough = 4;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/quality.h"
+#include "core/base/quantile.h"
 #include "core/io/number_text.h"
 #include "core/odometry/prediction.h"
 #include "physics/experiments/experiment.h"
@@ -74,13 +75,6 @@ struct FileCheck {
     return p ? number_text(format, factor * p->value) : "-";
   }
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 FileCheck check_of(const Recording& recording, const Vehicle& nominal) {
   const Result<LeastSquaresCalibration> own = calibrate_least_squares({recording}, nominal);

@@ -5,6 +5,7 @@
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/diagnosis/advice/advised_drive.h"
 #include "core/diagnosis/advice/drive_plan.h"
 #include "core/diagnosis/advice/visible.h"
@@ -17,13 +18,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-double quantile(std::vector<double> v, double share) {
-  if (v.empty()) return 0.0;
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-  std::nth_element(v.begin(), v.begin() + k, v.end());
-  return v[static_cast<std::size_t>(k)];
-}
 
 DrivingRange range_of(const JointModel& joint) {
   std::vector<double> v, w, a, b;

@@ -153,14 +153,8 @@ class JointModel {
     std::vector<LinearisedRun> runs;
     std::vector<std::vector<int>> columns;  // those that act in a run
     std::vector<Eigen::MatrixXd> z;         // of each run: only these
-    // Of all columns, those that act in a run; and z' by, put where they belong.
+    // Of all columns, those that act in a run.
     Eigen::VectorXd acting(std::size_t run, const Eigen::VectorXd& of_all) const;
-    template <typename Rows, typename By>
-    void add_products(std::size_t run, const Rows& rows_of_z, const By& by, Eigen::MatrixXd& sum) const {
-      const Eigen::MatrixXd product = rows_of_z.transpose() * by;
-      for (std::size_t c = 0; c < columns[run].size(); ++c)
-        sum.row(columns[run][c]) += product.row(static_cast<Eigen::Index>(c));
-    }
   };
   // The model's columns but for an effect that is taken out for the question, ready to absorb a candidate.
   struct Absorbing {

@@ -5,16 +5,11 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 
 namespace odolab {
 
 namespace {
-
-double quantile(std::vector<double> v, double share) {
-  const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-  std::nth_element(v.begin(), v.begin() + k, v.end());
-  return v[static_cast<std::size_t>(k)];
-}
 
 // Median and 90 % quantile of chi-square for freedom 1 to 3.
 constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.706, 4.605, 6.251};

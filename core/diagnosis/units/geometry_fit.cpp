@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -234,9 +235,7 @@ class Passage {
     for (int k = 0; k < 3; ++k) {
       std::vector<double> sizes;
       for (const Vector3d& r : residuals) sizes.push_back(std::abs(r[k]));
-      const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-      std::nth_element(sizes.begin(), middle, sizes.end());
-      result[k] = std::max(1.4826 * *middle, 1e-6);
+      result[k] = std::max(1.4826 * median(std::move(sizes)), 1e-6);
     }
     return result;
   }
@@ -388,9 +387,7 @@ void set_most_pivots_right(GeometryFit& fit) {
     if (e.parameter.effect == "pivot_angle_bias" && e.determined) off.push_back(e.value - e.nominal);
   const auto* platform = std::get_if<MultiCastor>(&fit.vehicle.kind);
   if (!platform || off.size() < 3 || off.size() < platform->castors.size()) return;
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-  std::nth_element(off.begin(), middle, off.end());
-  const double turn_rad = *middle;
+  const double turn_rad = median(std::move(off));
   for (Castor& c : std::get<MultiCastor>(fit.vehicle.kind).castors) {
     c.pivot_encoder_offset_rad -= turn_rad;
     c.pivot_angle_rad += turn_rad;

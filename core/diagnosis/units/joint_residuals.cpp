@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/base/chi_square.h"
+#include "core/base/quantile.h"
 #include "core/odometry/differential_drive.h"
 #include "core/vehicle/key_words.h"
 
@@ -193,9 +194,7 @@ Eigen::Vector3d deviations_of(const VectorXd& residuals) {
   for (int k = 0; k < 3; ++k) {
     std::vector<double> sizes;
     for (Eigen::Index i = k; i < residuals.size(); i += 3) sizes.push_back(std::abs(residuals[i]));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    result[k] = std::max(1.4826 * *middle, 1e-6);
+    result[k] = std::max(1.4826 * median(std::move(sizes)), 1e-6);
   }
   return result;
 }

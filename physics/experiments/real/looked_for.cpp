@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quantile.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/geometry/track.h"
 
@@ -166,9 +167,7 @@ class Question {
         const Eigen::VectorXd e = errors(k, p, false);
         std::vector<double> size;
         for (Eigen::Index i = 0; i < e.size(); i += 3) size.push_back(e.segment(i, 3).norm());
-        std::vector<double> sorted = size;
-        std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-        const double usual = std::max(3.0 * sorted[sorted.size() / 2], 1e-9);
+        const double usual = std::max(3.0 * median(size), 1e-9);
         Eigen::VectorXd weight(e.size());
         for (Eigen::Index i = 0; i < e.size(); ++i)
           weight[i] = 1.0 / (1.0 + std::pow(size[static_cast<std::size_t>(i / 3)] / usual, 2));

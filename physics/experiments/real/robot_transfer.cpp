@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
 #include "core/calibration/minimise.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/odometry/prediction.h"
@@ -70,8 +71,7 @@ TypicalError typical(const std::vector<TypicalError>& errors) {
   const auto middle = [&](auto value) {
     std::vector<double> values;
     for (const TypicalError& e : errors) values.push_back(value(e));
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
+    return median(std::move(values));
   };
   return {middle([](const TypicalError& e) { return e.position_m; }),
           middle([](const TypicalError& e) { return e.heading_rad; })};

@@ -1,0 +1,21 @@
+#include "core/base/quantile.h"
+
+#include <algorithm>
+
+namespace odolab {
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), upper, values.end());
+  return values.size() % 2 == 1 ? *upper : 0.5 * (*upper + *std::max_element(values.begin(), upper));
+}
+
+}  // namespace odolab
