@@ -108,7 +108,54 @@ TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
 
 TEST(Waves, AreNotFoundInNoise) {
   // p is over all that was looked at; one case in a thousand would fail
-  for (const GenericTest& t : wave_tests(AskedModel(calibrated(short_case(""))), 0)) EXPECT_GT(t.p_value, 1e-3) << t.variable;
+  for (const GenericTest& t : wave_tests(AskedModel(calibrated(short_case(""))), 0))
+    EXPECT_GT(t.p_value, 1e-3) << t.variable;
+}
+
+// Straights at one even speed, a hundredth of a count more than ten from reading to reading, and turns on the spot
+// between them: the remainders come back after every hundred readings, 0.47 m. `swing_m`: a heading that comes and goes
+// with them.
+std::vector<GenericTest> waves_of_even_speed(double swing_m) {
+  constexpr double kReading_s = 0.02, kLength_m = 0.47;
+  test::Case c;
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.075;
+  drive.wheelbase_m = 0.36;
+  drive.encoder_counts_per_revolution = 1000.0;
+  c.nominal.name = "even";
+  c.nominal.kind = drive;
+  const double even_radps = 10.01 * 2.0 * kPi / 1000.0 / kReading_s;
+  const auto driving = [=](double t) {
+    const double u = std::fmod(t, 12.0), turns = u > 10.0 ? 0.5 - 0.5 * std::cos(kPi * (u - 10.0)) : 0.0;
+    return u < 10.0 ? test::WheelSpeedsAt{even_radps, 1.0005 * even_radps} : test::WheelSpeedsAt{-turns, turns};
+  };
+  test::GeneratorSettings g = test::under_motion_capture(drive, 0.0001, 1.0 / 60.0);
+  g.truth_position_noise_m = 0.0005;
+  g.truth_heading_noise_rad = 0.0005;
+  g.duration_s = 48.0;
+  g.inject = [=](test::InjectedStep& s) {
+    const double way_m = 0.5 * drive.wheel_radius_left_m * (s.left_rad + s.right_rad);
+    const double angle = 2.0 * kPi / kLength_m * way_m;
+    s.turn_rad += swing_m / drive.wheelbase_m * 2.0 * kPi / kLength_m * std::cos(angle) * 0.5 * (s.left_m + s.right_m);
+  };
+  Random random(3);
+  for (int run = 0; run < 2; ++run) {
+    c.recordings.push_back(test::generated(g, driving, random));
+    c.recordings.back().name = "run_" + std::to_string(run + 1);
+  }
+  return wave_tests(AskedModel(calibrated(c)), 0);
+}
+
+TEST(Waves, ThatCountingMakesAtAnEvenSpeedAreNone) {
+  for (const GenericTest& t : waves_of_even_speed(0.0)) EXPECT_GT(t.p_value, 1e-3) << t.variable << ' ' << t.channel;
+}
+
+TEST(Waves, OfAWheelThatIsCarriedFurtherThanItsReadingsHideAreFoundAtAnEvenSpeedToo) {
+  const std::vector<GenericTest> tests = waves_of_even_speed(0.001);  // a count is 0.47 mm
+  const GenericTest& t = strongest(tests);
+  EXPECT_LT(t.p_value, 1e-6);
+  EXPECT_EQ(t.channel, "turn per metre [rad/m]");
+  EXPECT_EQ(t.variable, "way, in waves of 0.47 m");
 }
 
 }  // namespace
