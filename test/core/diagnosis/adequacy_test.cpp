@@ -128,6 +128,25 @@ TEST(Refuted, NameIsWithdrawnAndSaidWhereARunThatWasNotFittedContradictsIt) {
   }));
 }
 
+TEST(Refuted, WeakNameIsWithdrawnWhereItIsNoMoreThanChanceInAllRecordingsTogether) {
+  // Two runs in which the robot scrubs, 5 standard errors in all, and four of the same robot in which it does or does not.
+  test::Case scrubs = case_of("turn_scrub", 1.2, 6, 7), sound = case_of("", 1.0, 6, 7);
+  const auto behind_two = [](const test::Case& c) {
+    return std::vector<Recording>(c.recordings.begin() + 2, c.recordings.end());
+  };
+  const std::vector<Recording> fitted(scrubs.recordings.begin(), scrubs.recordings.begin() + 2);
+  const Result<Diagnosis> borne_out = diagnose(fitted, behind_two(scrubs), scrubs.nominal);
+  ASSERT_TRUE(borne_out);
+  ASSERT_FALSE(borne_out->findings.empty());
+  EXPECT_EQ(borne_out->findings.front().effect, "turn_scrub");
+  const Result<Diagnosis> d = diagnose(fitted, behind_two(sound), scrubs.nominal);
+  ASSERT_TRUE(d);
+  for (const Finding& f : d->findings) EXPECT_NE(f.effect, "turn_scrub");
+  EXPECT_TRUE(std::any_of(d->warnings.begin(), d->warnings.end(), [](const std::string& w) {
+    return w.find("turn scrub") != std::string::npos && w.find("no more than chance") != std::string::npos;
+  }));
+}
+
 TEST(Refuted, AsksOfARunThatWasNotFittedWhetherTheLoadThatCameAndStayedIsThereToo) {
   test::Case c = case_of("", 1.0, 4, 8);
   for (std::size_t r = 1; r < c.recordings.size(); ++r)
