@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/counted.h"
 
 namespace odolab {
 
@@ -45,6 +46,7 @@ std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double look
       return motions_of(view, wheel, times_a_turn, runs);
     };
     ask(t, asked, term, looked_at);
+    leave_to_counting(t, asked.joint);
     for (std::size_t r = 0; r < runs; ++r)
       t.waves.push_back({"phase of " + t.variable + (runs > 1 ? ", recording " + std::to_string(r + 1) : "") + " [rad]",
                          {2 * r},

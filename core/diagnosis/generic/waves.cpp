@@ -9,6 +9,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/generic/floor.h"
 
 namespace odolab {
@@ -61,13 +62,6 @@ constexpr Modulated kInTime[] = {{0, 0},          {1, 1}, {2, 2}, {across_s, kAc
                                  {of_pace, kPace}};
 constexpr Modulated kOnTheWay[] = {{0, 0}, {1, 1}, {2, 2}};
 constexpr Modulated kOnTheFloor[] = {{0, 0}, {1, 1}, {2, 2}, {across_m, kAcross}, {across_m + 1, kAcross}};
-
-// From the lowest to the highest of some numbers, zero among them.
-struct Extent {
-  double low = 0.0, high = 0.0;
-  void take(double v) { low = std::min(low, v), high = std::max(high, v); }
-  double half() const { return 0.5 * (high - low); }
-};
 
 // A wave: turns for each unit of its axis, or the wave vector in turns per metre.
 struct Wave {
@@ -323,33 +317,6 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
   return term;
 }
 
-// Whether a wave carries no wheel further to either side than a reading hides of it, half a count. Wheels that turn at
-// an even speed by nearly a whole number of counts, or both by nearly as many, are read too far and too short in turns,
-// metre after metre.
-bool may_be_counts(const JointModel& joint, const Effect& term, int channel, const std::vector<double>& value) {
-  constexpr double kHidden = 0.5;
-  if (channel != 0 && channel != 2 && channel != kPace) return false;  // nothing that is counted goes sideways
-  const DifferentialDrive& drive = joint.model.drive;
-  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
-    const DriveView& view = joint.views()[r];
-    const std::vector<Motions> columns = term.motions(view, {});
-    Extent left_m, right_m;
-    double forward_m = 0.0, turn_rad = 0.0;
-    Motions wave(view.steps.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].add_to(wave, value[k]);
-    for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      forward_m += wave[i].forward_m, turn_rad += wave[i].turn_rad;
-      left_m.take(forward_m - 0.5 * drive.wheelbase_m * turn_rad);
-      right_m.take(forward_m + 0.5 * drive.wheelbase_m * turn_rad);
-    }
-    const double hidden_rad = kHidden * count_rad(joint.runs()[r], drive);
-    if (left_m.half() > hidden_rad * drive.wheel_radius_left_m ||
-        right_m.half() > hidden_rad * drive.wheel_radius_right_m)
-      return false;
-  }
-  return true;
-}
-
 std::string name_of(const Wave& wave) {
   char text[120];
   if (wave.on_the_floor())
@@ -416,10 +383,7 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
                     : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     ask(t, asked, term, looked_at);
-    for (CandidateTest* of : {&t.test, &t.instead})
-      if (!of->value.empty() && t.p_value_of(*of) < 1.0 && may_be_counts(asked.joint, *term, channel, of->value))
-        of->statistic = 0.0;
-    t.p_value = t.p_value_of(t.test);
+    leave_to_counting(t, asked.joint);
     const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.on_the_floor() ? 1 : runs); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {

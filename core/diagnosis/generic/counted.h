@@ -1,0 +1,13 @@
+// What counting itself makes: readings that hide up to half a count, and come back to where they were.
+#pragma once
+
+#include "core/diagnosis/generic/generic_tests.h"
+
+namespace odolab {
+
+// Lets a group that comes and goes say nothing where it carries no wheel further to either side than a reading hides of
+// it. Wheels that turn at an even speed by nearly a whole number of counts, or both by nearly as many, are read too far
+// and too short in turns, metre after metre.
+void leave_to_counting(GenericTest& test, const JointModel& joint);
+
+}  // namespace odolab
