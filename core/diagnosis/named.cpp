@@ -31,13 +31,16 @@ std::optional<std::size_t> not_borne_out(const JointModel& of_all, const Selecte
   std::optional<std::size_t> weakest;
   double most = family_wise_error;
   for (std::size_t k = 0; k < of_all.accepted.size(); ++k) {
-    const auto p_of_all = [&](ScoredCandidate c, const std::vector<double>& shape) {
-      c.test.statistic = of_all.test(of_all.columns_of(*c.effect, shape), static_cast<int>(k)).statistic;
+    const auto p_of_all = [&](ScoredCandidate c, const Effect& effect, const std::vector<double>& shape) {
+      const CandidateTest of = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
+      c.test.statistic = of.statistic, c.test.freedom = of.freedom;
       judge(c);
       return c.p_value;
     };
-    double p = p_of_all(selected.evidence[k], of_all.accepted[k].shape);
-    for (const ScoredCandidate& other : selected.alternatives[k]) p = std::min(p, p_of_all(other, other.test.shape));
+    // Of each recording there are as many numbers as recordings.
+    double p = p_of_all(selected.evidence[k], *of_all.accepted[k].effect, of_all.accepted[k].shape);
+    for (const ScoredCandidate& other : selected.alternatives[k])
+      if (!other.effect->of_each_recording) p = std::min(p, p_of_all(other, *other.effect, other.test.shape));
     if (p > most) most = p, weakest = k;
   }
   return weakest;

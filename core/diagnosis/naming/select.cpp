@@ -69,6 +69,16 @@ bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
 }
 
+// Whether a candidate in a name's place says beside the name as much: then it is something else, and no other name for
+// it.
+bool says_as_much_beside(const ScoredCandidate& instead, const std::vector<ScoredCandidate>& with_all) {
+  constexpr double kAsMuch = 0.8;
+  return std::any_of(with_all.begin(), with_all.end(), [&](const ScoredCandidate& c) {
+    return c.effect == instead.effect && c.test.statistic > kAsMuch * instead.test.statistic &&
+           (!c.effect->of_one_recording || of_one_moment(c, instead));
+  });
+}
+
 constexpr double kWidestBump_m = 0.2;
 
 // A bump that is met each time, and a patch about it that is no wider than a bump may be.
@@ -352,7 +362,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
       if (taken || is_refuted(c) || c.p_value > family_wise_error || !c.beyond_counts ||
-          c.effect->name == own.effect->name)
+          c.effect->name == own.effect->name || says_as_much_beside(c, with_all))
         continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
       const double beaten_by = std::max(2.0 * kClearlyBeaten, at_one_place ? kFormError * own.test.judged() : 0.0);

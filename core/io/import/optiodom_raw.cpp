@@ -50,9 +50,36 @@ Result<SampledChannels> read_odometry(const std::string& path) {
   return odometry;
 }
 
-Result<SampledChannels> read_motive(const std::string& path, std::size_t& lost) {
+// Where Motive says how well each of the body's markers was seen, 0 to 1: columns that the header's last line but one
+// names. None in exports without markers.
+std::vector<std::size_t> quality_columns(const std::string& path) {
+  constexpr std::size_t kHeader = 1 << 16, kLine = 6;
+  const std::string start = read_file_start(path, kHeader);
+  std::string_view rest = start;
+  for (std::size_t line = 1; line < kLine; ++line)
+    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + (rest.empty() ? 0 : 1));
+  rest = rest.substr(0, rest.find('\n'));
+  std::vector<std::size_t> columns;
+  for (std::size_t column = 0; !rest.empty(); ++column) {
+    const std::size_t size = std::min(rest.find(','), rest.size());
+    if (trimmed(rest.substr(0, size)) == "Marker Quality") columns.push_back(column);
+    rest.remove_prefix(std::min(size + 1, rest.size()));
+  }
+  return columns;
+}
+
+// Frames that are left out: without the body, or with fewer of its markers than usual. A body that is laid onto those
+// that are left steps aside by millimetres and by a degree for as long as one is hidden.
+struct LeftOutFrames {
+  std::size_t without_body = 0, without_a_marker = 0;
+};
+
+Result<SampledChannels> read_motive(const std::string& path, LeftOutFrames& left_out) {
+  constexpr double kSeen = 0.01;
+  const std::vector<std::size_t> qualities = quality_columns(path);
   NumberRowsShape shape;
   shape.cells = 8;  // frame, time, rotation Y X Z, position X Y Z
+  if (!qualities.empty()) shape.cells = qualities.back() + 1;
   shape.more_cells = true;
   shape.empty_cells = true;
   shape.never_empty = 1;
@@ -61,7 +88,11 @@ Result<SampledChannels> read_motive(const std::string& path, std::size_t& lost) 
   if (!rows) return rows.error();
   SampledChannels truth;
   truth.channels = {{"truth_x_m", {}}, {"truth_y_m", {}}, {"truth_heading_rad", {}}};
-  lost = 0;
+  std::vector<char> sees_all(rows->size(), 1);
+  for (std::size_t i = 0; i < rows->size(); ++i)
+    for (const std::size_t column : qualities) sees_all[i] = sees_all[i] && rows->columns[column][i] > kSeen;
+  // A marker that fell off is missed by all frames alike.
+  const bool usual = 2 * static_cast<std::size_t>(std::count(sees_all.begin(), sees_all.end(), 1)) > rows->size();
   double heading_rad = 0.0;
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const double time_s = rows->columns[1][i];
@@ -70,7 +101,11 @@ Result<SampledChannels> read_motive(const std::string& path, std::size_t& lost) 
                    number_text(time_s) + " after " + number_text(rows->columns[1][i - 1]), "times that never decrease"};
     const double rotation_y_deg = rows->columns[2][i], x_m = rows->columns[5][i], z_m = rows->columns[7][i];
     if (std::isnan(rotation_y_deg) || std::isnan(x_m) || std::isnan(z_m)) {
-      ++lost;
+      ++left_out.without_body;
+      continue;
+    }
+    if (usual && !sees_all[i]) {
+      ++left_out.without_a_marker;
       continue;
     }
     // Y points up and the axes are right-handed, so the floor seen from above has x = X and y = -Z
@@ -155,13 +190,17 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
 
   Result<SampledChannels> odometry = read_odometry(odometry_path);
   if (!odometry) return odometry.error();
-  std::size_t lost = 0;
-  Result<SampledChannels> truth = read_motive(motive_path, lost);
+  LeftOutFrames left_out;
+  Result<SampledChannels> truth = read_motive(motive_path, left_out);
   if (!truth) return truth.error();
 
   ImportedRecording imported;
-  if (lost > 0)
-    imported.warnings.push_back(std::to_string(lost) + " frames of the cameras are left out: they had lost the body");
+  if (left_out.without_body > 0)
+    imported.warnings.push_back(std::to_string(left_out.without_body) +
+                                " frames of the cameras are left out: they had lost the body");
+  if (left_out.without_a_marker > 0)
+    imported.warnings.push_back(std::to_string(left_out.without_a_marker) +
+                                " frames of the cameras are left out: a marker of the body was hidden, which moves it");
   if (const std::optional<RunTimes> times = times_of_run(odometry_path)) {
     const double rate = (times->odo_stop_s - times->odo_start_s) / (times->truth_stop_s - times->truth_start_s);
     for (double& t : truth->time_s) t = to_nanoseconds(times->odo_start_s + rate * (t - times->truth_start_s));
