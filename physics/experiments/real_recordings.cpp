@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/quality.h"
 #include "core/base/quantile.h"
+#include "core/diagnosis/quality.h"
 #include "core/io/number_text.h"
 #include "core/odometry/prediction.h"
 #include "physics/experiments/experiment.h"

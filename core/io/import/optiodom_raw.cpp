@@ -57,7 +57,7 @@ std::vector<std::size_t> quality_columns(const std::string& path) {
   const std::string start = read_file_start(path, kHeader);
   std::string_view rest = start;
   for (std::size_t line = 1; line < kLine; ++line)
-    rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + (rest.empty() ? 0 : 1));
+    rest.remove_prefix(std::min(std::min(rest.find('\n'), rest.size()) + 1, rest.size()));
   rest = rest.substr(0, rest.find('\n'));
   std::vector<std::size_t> columns;
   for (std::size_t column = 0; !rest.empty(); ++column) {

@@ -77,6 +77,9 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
             "for other columns");
   EXPECT_EQ(complaint({odometry, synchronised}),
             "run-01.csv: found a file of OptiOdom, synchronised, expected one of OptiOdom, raw as the first source");
+  folder.write("e_run-01_opti.csv", "Format Version,1.23");
+  EXPECT_NE(complaint({folder.write("e_run-01_odo.csv", "23.5,0,0\n23.55,1,2\n")}).find("e_run-01_opti.csv"),
+            std::string::npos);  // cut off within its first line
   const std::string utias = folder.write("Robot4_Odometry.dat", "# UTIAS\n1 2 3\n");
   EXPECT_EQ(complaint({utias}),
             "Robot4_Odometry.dat: found the odometry alone, expected the robot's Groundtruth.dat beside it");
