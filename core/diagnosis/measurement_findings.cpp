@@ -35,35 +35,36 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
       moved = moved || k < 2;
     }
   }
+  if (!material) return;
+  mounting.effect = "truth_mounting_offset";
+  mounting.component = "truth";
+  mounting.log_likelihood_gain = gain;
+  mounting.p_value = chi_square_tail(2.0 * gain, 3);
+  mounting.sentence = "the tracked point is not where the vehicle's file has it";
   // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
   // besides is the simpler cause of both.
-  const double turned = now.heading_rad - then.heading_rad;
-  const double shifted = std::hypot(by[0], by[1]);
-  if (material && !moved && shifted < 0.01 && std::abs(turned) < 0.1 &&
-      !mounting.parameters.empty() && mounting.parameters.back().name == "heading_rad") {
-    const FoundParameter heading = mounting.parameters.back();
-    Finding toe;
-    toe.effect = "wheel_toe";
-    toe.component = "vehicle";
-    toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
-    const double z = turned / heading.stderr_value;
-    if (z * z * 0.5 > 0.5 * gain) {
-      toe.log_likelihood_gain = 0.5 * z * z;
-      toe.p_value = chi_square_tail(z * z, 1);
-      toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
-      toe.where.regime = "wherever it drives, in proportion to the way";
-      toe.alternatives.push_back(
-          {"truth_mounting_offset", "truth", gain, "a look at how the markers sit: the motion is the same"});
-      findings.push_back(toe);
-      return;
-    }
+  const double turned = now.heading_rad - then.heading_rad, shifted = std::hypot(by[0], by[1]);
+  if (moved || shifted >= 0.01 || std::abs(turned) >= 0.1 || mounting.parameters.back().name != "heading_rad") {
+    findings.push_back(mounting);
+    return;
   }
-  if (material) {
-    mounting.effect = "truth_mounting_offset";
-    mounting.component = "truth";
-    mounting.log_likelihood_gain = gain;
-    mounting.p_value = chi_square_tail(2.0 * gain, 3);
-    mounting.sentence = "the tracked point is not where the vehicle's file has it";
+  constexpr double kMostOfAnAxle_rad = 0.02;  // markers are put on by hand, axles in a workshop
+  const char* told_apart_by = "a look at how the markers sit: the motion is the same";
+  const FoundParameter& heading = mounting.parameters.back();
+  const double z = turned / heading.stderr_value;
+  Finding toe;
+  toe.effect = "wheel_toe";
+  toe.component = "vehicle";
+  toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
+  toe.log_likelihood_gain = 0.5 * z * z;
+  toe.p_value = chi_square_tail(z * z, 1);
+  toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
+  toe.where.regime = "wherever it drives, in proportion to the way";
+  if (std::abs(turned) < kMostOfAnAxle_rad) {
+    toe.alternatives.push_back({mounting.effect, mounting.component, gain, told_apart_by});
+    findings.push_back(toe);
+  } else {
+    mounting.alternatives.push_back({toe.effect, toe.component, toe.log_likelihood_gain, told_apart_by});
     findings.push_back(mounting);
   }
 }

@@ -96,6 +96,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     joint.accepted.erase(joint.accepted.begin() + at);
     selected.evidence.erase(selected.evidence.begin() + at);
     selected.alternatives.erase(selected.alternatives.begin() + at);
+    selected.coming_back.erase(selected.coming_back.begin() + at);
     if (!joint.accepted.empty()) {
       joint.fit(3);
       joint.fit_noise_and_all();

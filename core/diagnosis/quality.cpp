@@ -8,8 +8,8 @@
 
 #include "core/base/quantile.h"
 #include "core/calibration/evened_recording.h"
-
 #include "core/calibration/left_out.h"
+#include "core/diagnosis/encoder_jumps.h"
 
 namespace odolab {
 
@@ -197,21 +197,12 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       }
       i = j + 1;
     }
-    // Steps: five times faster than all but the fastest thousandth, and two centimetres at least.
-    std::vector<double> rates;
-    for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
-      rates.push_back(std::abs(rad(i + 1) - rad(i)) / (wheels[i + 1].time_s - wheels[i].time_s));
-    std::vector<double> sorted = rates;
-    std::sort(sorted.begin(), sorted.end());
-    const double usual = sorted[static_cast<std::size_t>(0.97 * static_cast<double>(sorted.size() - 1))];
-    for (std::size_t i = 0; i + 1 < wheels.size(); ++i) {
-      const double by = rad(i + 1) - rad(i);
-      const bool against = i > 0 && i + 2 < wheels.size() && by * (rad(i) - rad(i - 1)) < 0.0 &&
-                           by * (rad(i + 2) - rad(i + 1)) < 0.0;  // back and on again
-      const double gap = wheels[i + 1].time_s - wheels[i].time_s;
-      if (std::abs(by) * radius > 0.02 && std::abs(by) > 1.5 * count_rad && rates[i] > (against ? 1.0 : 4.0) * usual && gap < 0.5)
-        fault.time_s.push_back({wheels[i].time_s, wheels[i + 1].time_s});
+    std::vector<double> time_s, angle_rad;
+    for (std::size_t i = 0; i < wheels.size(); ++i) {
+      time_s.push_back(wheels[i].time_s);
+      angle_rad.push_back(rad(i));
     }
+    for (const auto& jump : encoder_jumps(time_s, angle_rad, radius, count_rad)) fault.time_s.push_back(jump);
     if (fault.time_s.empty()) continue;
     fault.time_s = joined(std::move(fault.time_s));
     for (const auto& t : fault.time_s) out.left_out_s.push_back(t);

@@ -105,6 +105,14 @@ bool are_of_the_truth(const std::vector<TruthJump>& jumps) {
   }
   constexpr double kAsMuch = 0.5, kBeyondChance = 1.5;
   if (median(aside) < kAsMuch * median(ahead) || median(aside) < kBeyondChance * median(by_chance)) return false;
+  // A truth knows nothing of where the vehicle faces.
+  constexpr double kOneWay = 4.6;  // Rayleigh's test of directions: one in a hundred of those that go any way
+  Vec2 either_way;
+  for (const TruthJump& j : jumps) {
+    const double doubled = 2.0 * std::atan2(j.of_axle.sideways_m, j.of_axle.forward_m);
+    either_way = either_way + Vec2{std::cos(doubled), std::sin(doubled)};
+  }
+  if (dot(either_way, either_way) > kOneWay * static_cast<double>(jumps.size())) return false;
   constexpr double kNear_m = 0.5, kAlong = 0.95, kOfOneSize = 0.3;
   const auto is_of_its_place = [&](const TruthJump& a) {
     return std::any_of(jumps.begin(), jumps.end(), [&](const TruthJump& b) {

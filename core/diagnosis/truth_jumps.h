@@ -22,7 +22,8 @@ struct TruthJump {
 std::vector<TruthJump> truth_jumps(const InnovationRun& run, const InnovationModel& model);
 
 // Whether all these, of all recordings, are the truth's: six or more; sideways as much as ahead, where nothing rolls,
-// so that no wheel did it; and not one way at one place, as where a camera hands over to another.
+// so that no wheel did it; not along one line of the vehicle's, as where castors shove it; and not one way at one
+// place, as where a camera hands over to another.
 bool are_of_the_truth(const std::vector<TruthJump>& jumps);
 
 }  // namespace odolab

@@ -10,17 +10,22 @@ namespace {
 
 // What a wheel pushes with is its share of the vehicle's mass times the vehicle's acceleration, and the moment of
 // inertia's part of it where the vehicle turns more quickly: `of_turning` is that part beside what it would be if the
-// mass stood over the wheels, 4 I / (m b^2), some 0.6 for a body as long as it is wide and 0 for a mast. `lag_s`: what
-// a tyre's relaxation length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
+// mass stood over the wheels, 4 I / (m b^2), some 0.6 for a body as long as it is wide and 0 for a mast. `of_bends`:
+// a mass that stands ahead of the axle by d is held in a bend by wheels that push unlike each other, by m d v w in all
+// about the axle's middle: 2 d / b of the lateral acceleration at either wheel. `lag_s`: what a tyre's relaxation
+// length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
 struct Form {
   const char* in_words;
-  double of_turning, lag_s;
+  double of_turning, of_bends, lag_s;
 };
 constexpr Form kForms[] = {
-    {"each wheel by its own acceleration", 1.0, 0.0},
-    {"the vehicle by its acceleration", 0.0, 0.0},
-    {"each wheel by what it pushes of a body as long as it is wide", 0.6, 0.0},
-    {"each wheel by its own acceleration, which it gives way to a little later", 1.0, 0.03},
+    {"each wheel by its own acceleration", 1.0, 0.0, 0.0},
+    {"the vehicle by its acceleration", 0.0, 0.0, 0.0},
+    {"each wheel by what it pushes of a body as long as it is wide", 0.6, 0.0, 0.0},
+    {"each wheel by its own acceleration, which it gives way to a little later", 1.0, 0.0, 0.03},
+    {"each wheel by what it pushes of a body whose mass stands ahead of the axle", 0.6, 0.3, 0.0},
+    {"each wheel by what it pushes of a body whose mass stands well ahead of the axle", 0.6, 0.6, 0.0},
+    {"each wheel by what it pushes of a body whose mass stands behind the axle", 0.6, -0.4, 0.0},
 };
 
 struct Tyre {
@@ -55,7 +60,8 @@ Effect of_wheel(Wheel wheel) {
     Tyre left, right;
     for (const EffectStep& step : view.steps) {
       const double forward_mps2 = 0.5 * (step.left_mps2 + step.right_mps2);
-      const double turning_mps2 = 0.5 * form.of_turning * (step.right_mps2 - step.left_mps2);
+      const double turning_mps2 = 0.5 * form.of_turning * (step.right_mps2 - step.left_mps2) +
+                                  form.of_bends * step.speed_mps * step.yaw_rate_radps;
       const auto lost_m = [&](Tyre& tyre, double way_m, double turning) {
         return tyre.slip_m(way_m, forward_mps2 + turning, step.duration_s, form.lag_s);
       };

@@ -1,12 +1,15 @@
 #include "core/diagnosis/generic/counted.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace odolab {
 
 namespace {
 
 constexpr double kHidden = 0.5;  // counts
+constexpr double kEvenly = 0.2;  // of a term's motion; twice what chance makes of a term of twenty readings
 
 // From the lowest to the highest of some numbers, zero among them.
 struct Extent {
@@ -15,27 +18,61 @@ struct Extent {
   double half() const { return 0.5 * (high - low); }
 };
 
+// How much a term moves a wheel, and how much of that while the wheel turned by nearly a whole number of counts from
+// reading to reading, or from the next but one to the next but one: only then do remainders take as long to come back
+// as the term does.
+struct Moved {
+  double all_m = 0.0, evenly_m = 0.0;
+  void add(const DriveView& view, double EffectStep::*by_rad, double count_rad, const std::vector<double>& moved_m) {
+    constexpr double kFaster = 1.5;  // that the remainder may come back
+    for (std::size_t first = 0; first < moved_m.size();) {
+      std::size_t end = first;
+      double way_m = 0.0, counts = 0.0;
+      for (; end < moved_m.size() && moved_m[end] * way_m >= 0.0; ++end) {
+        way_m += moved_m[end];
+        counts += view.steps[end].*by_rad / count_rad;
+      }
+      const auto readings = static_cast<double>(end - first);
+      const auto turns_of_remainder = [&](int apart) {  // within this half of the term's period
+        const double each = apart * counts / readings;
+        return std::abs(each - std::round(each)) * readings / apart;
+      };
+      all_m += std::abs(way_m);
+      if (std::min(turns_of_remainder(1), turns_of_remainder(2)) < 0.5 * kFaster) evenly_m += std::abs(way_m);
+      first = end;
+    }
+  }
+};
+
 bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<double>& value) {
   const DifferentialDrive& drive = joint.model.drive;
+  Moved moved;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
     const std::vector<Motions> columns = term.motions(view, {});
     Motions motion(view.steps.size());
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].add_to(motion, value[k]);
+    const double count = count_rad(joint.runs()[r], drive);
+    std::vector<double> left_by_m, right_by_m;
     Extent left_m, right_m;
     double forward_m = 0.0, turn_rad = 0.0;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       if (motion[i].sideways_m != 0.0) return false;  // nothing that is counted goes sideways
       forward_m += motion[i].forward_m, turn_rad += motion[i].turn_rad;
+      const double across_m = 0.5 * drive.wheelbase_m * motion[i].turn_rad;
+      left_by_m.push_back(motion[i].forward_m - across_m);
+      right_by_m.push_back(motion[i].forward_m + across_m);
       left_m.take(forward_m - 0.5 * drive.wheelbase_m * turn_rad);
       right_m.take(forward_m + 0.5 * drive.wheelbase_m * turn_rad);
     }
-    const double hidden_rad = kHidden * count_rad(joint.runs()[r], drive);
+    moved.add(view, &EffectStep::left_by_rad, count, left_by_m);
+    moved.add(view, &EffectStep::right_by_rad, count, right_by_m);
+    const double hidden_rad = kHidden * count;
     if (left_m.half() > hidden_rad * drive.wheel_radius_left_m ||
         right_m.half() > hidden_rad * drive.wheel_radius_right_m)
       return false;
   }
-  return true;
+  return moved.evenly_m > kEvenly * moved.all_m;
 }
 
 }  // namespace

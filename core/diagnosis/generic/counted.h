@@ -6,8 +6,8 @@
 namespace odolab {
 
 // Lets a group that comes and goes say nothing where it carries no wheel further to either side than a reading hides of
-// it. Wheels that turn at an even speed by nearly a whole number of counts, or both by nearly as many, are read too far
-// and too short in turns, metre after metre.
+// it, at speeds at which readings do so: wheels that turn evenly by nearly a whole number of counts from reading to
+// reading are read too far and too short in turns, metre after metre.
 void leave_to_counting(GenericTest& test, const JointModel& joint);
 
 }  // namespace odolab

@@ -20,6 +20,8 @@ constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03, kLeastShareBesi
 
 // Share of the evidence that a right name may lose since its form is not quite the world's.
 constexpr double kFormError = 0.15;
+// Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
+constexpr double kComparable = 0.5;
 
 bool looks_like(const Effect& a, const Effect& b) {
   const auto names = [](const Effect& one, const Effect& other) {
@@ -348,6 +350,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         with_all.clear();
         out.evidence.clear();
         out.alternatives.clear();
+        out.coming_back.clear();
         k = 0;
         continue;
       }
@@ -357,7 +360,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       own.test.inflation = std::max(1.0, own.test.inflation);
       own.p_value = chi_square_tail(lost / own.test.inflation, static_cast<int>(joint.accepted[k].value.size()));
     }
-    std::vector<ScoredCandidate> alternatives;
+    std::vector<ScoredCandidate> alternatives, coming_back;
     for (const ScoredCandidate& c : instead) {
       const bool taken = std::any_of(joint.accepted.begin(), joint.accepted.end(),
                                      [&](const AcceptedEffect& a) { return a.effect == c.effect; });
@@ -366,10 +369,15 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
         continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
       const double beaten_by = std::max(2.0 * kClearlyBeaten, at_one_place ? kFormError * own.test.judged() : 0.0);
-      if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by) alternatives.push_back(c);
+      if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by)
+        alternatives.push_back(c);
+      else if (own.effect->of_one_recording && !c.effect->of_one_recording && stands(c, family_wise_error) &&
+               c.test.judged() > kComparable * own.test.judged())
+        coming_back.push_back(c);
     }
     out.evidence.push_back(own);
     out.alternatives.push_back(alternatives);
+    out.coming_back.push_back(coming_back);
     ++k;
   }
   return out;

@@ -12,7 +12,9 @@ namespace odolab {
 struct Selected {
   std::vector<ScoredCandidate> evidence;                   // of each accepted effect of the model, in its order
   std::vector<std::vector<ScoredCandidate>> alternatives;  // not clearly beaten
-  std::vector<ScoredCandidate> first_look;                 // all candidates before any was let in
+  // Of what happened once: what says less, but comes back, so that recordings it was not fitted to may decide.
+  std::vector<std::vector<ScoredCandidate>> coming_back;
+  std::vector<ScoredCandidate> first_look;  // all candidates before any was let in
 };
 // `refuted`: names that are not to be let in.
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,

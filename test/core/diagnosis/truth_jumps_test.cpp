@@ -40,5 +40,12 @@ TEST(TruthJumps, AreNotTheTruthsWhereOnePlaceMakesThemOneWayAndBack) {
   EXPECT_FALSE(are_of_the_truth(all));
 }
 
+TEST(TruthJumps, AreNotTheTruthsWhereTheyGoAlongOneLineOfTheVehicle) {
+  // As where castors shove it to the left forwards and to the right in reverse.
+  std::vector<TruthJump> all = jumps(8, 1.0, 1.0);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].of_axle = {0.002, k % 2 == 0 ? 0.01 : -0.01, 0.003};
+  EXPECT_FALSE(are_of_the_truth(all));
+}
+
 }  // namespace
 }  // namespace odolab::test
