@@ -25,25 +25,48 @@ std::vector<double> inflations_of(const Selected& selected) {
   return inflations;
 }
 
-// Of the accepted effects the one that is no more than chance in all recordings together, those held out among them,
-// nor is what it may be instead.
+// A name's evidence in all recordings together, those held out among them, by its own count of tries: in the place of
+// the k-th accepted effect.
+ScoredCandidate of_all_recordings(const JointModel& of_all, std::size_t k, ScoredCandidate c, const Effect& effect,
+                                  const std::vector<double>& shape) {
+  const CandidateTest of = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
+  c.test.statistic = of.statistic, c.test.freedom = of.freedom;
+  judge(c);
+  return c;
+}
+
+// Of the accepted effects the one that is no more than chance in all recordings together, nor is what it may be
+// instead.
 std::optional<std::size_t> not_borne_out(const JointModel& of_all, const Selected& selected, double family_wise_error) {
   std::optional<std::size_t> weakest;
   double most = family_wise_error;
   for (std::size_t k = 0; k < of_all.accepted.size(); ++k) {
-    const auto p_of_all = [&](ScoredCandidate c, const Effect& effect, const std::vector<double>& shape) {
-      const CandidateTest of = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
-      c.test.statistic = of.statistic, c.test.freedom = of.freedom;
-      judge(c);
-      return c.p_value;
-    };
+    const AcceptedEffect& a = of_all.accepted[k];
+    double p = of_all_recordings(of_all, k, selected.evidence[k], *a.effect, a.shape).p_value;
     // Of each recording there are as many numbers as recordings.
-    double p = p_of_all(selected.evidence[k], *of_all.accepted[k].effect, of_all.accepted[k].shape);
     for (const ScoredCandidate& other : selected.alternatives[k])
-      if (!other.effect->of_each_recording) p = std::min(p, p_of_all(other, *other.effect, other.test.shape));
+      if (!other.effect->of_each_recording)
+        p = std::min(p, of_all_recordings(of_all, k, other, *other.effect, other.test.shape).p_value);
     if (p > most) most = p, weakest = k;
   }
   return weakest;
+}
+
+// Names that recordings only hint at, which those held out bear out: each is beyond chance in all recordings together,
+// and more so than in those that it was fitted to. Its evidence is then that of all. What held-out recordings cannot
+// bear out is not named: one moment, a load, a phase of each recording.
+bool are_borne_out(const Predictor& predictor, const JointModel& joint, Selected& hinted, double family_wise_error) {
+  for (const AcceptedEffect& a : joint.accepted)
+    if (a.effect->of_one_recording || a.effect->of_each_recording) return false;
+  const std::optional<JointModel> of_all = predictor.fitted_to_all(joint);
+  if (!of_all) return false;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const AcceptedEffect& a = of_all->accepted[k];
+    const ScoredCandidate all = of_all_recordings(*of_all, k, hinted.evidence[k], *a.effect, a.shape);
+    if (all.p_value >= family_wise_error || all.test.judged() <= hinted.evidence[k].test.judged()) return false;
+    hinted.evidence[k].p_value = all.p_value;
+  }
+  return true;
 }
 
 std::string name_in_words(const Effect& effect) {
@@ -62,6 +85,21 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   Selected& selected = now.selected;
   selected = select_effects(joint, family_wise_error, progress);
   if (!goes_on(progress, kSelected)) return {};
+  constexpr double kHint = 0.5;  // of as many such names as chance would bring up, if nothing is missing
+  const auto& looked_at = selected.first_look;
+  if (joint.accepted.empty() && !predictor.leaves_out_in_turn() &&
+      std::any_of(looked_at.begin(), looked_at.end(), [](const ScoredCandidate& c) { return c.p_value < kHint; })) {
+    JointModel hinted_at = calibrated;
+    Selected hinted = select_effects(hinted_at, kHint, [&](double) { return goes_on(progress, kSelected); });
+    if (!goes_on(progress, kSelected)) return {};
+    if (!hinted_at.accepted.empty() && are_borne_out(predictor, hinted_at, hinted, family_wise_error)) {
+      joint = std::move(hinted_at);
+      selected = std::move(hinted);
+      for (const AcceptedEffect& a : joint.accepted)
+        now.warnings.push_back("the recordings that were fitted only hint at " + name_in_words(*a.effect) +
+                               "; those held out bear it out");
+    }
+  }
   choose_by_unseen(predictor, joint, selected);
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
   if (joint.accepted.empty()) joint = calibrated;

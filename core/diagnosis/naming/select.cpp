@@ -215,7 +215,6 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       explained += joint.test(joint.columns_of(*joint.accepted[k].effect, joint.accepted[k].shape), static_cast<int>(k))
                        .statistic;
     std::vector<ScoredCandidate> scored = scored_candidates(joint);
-    if (step == 0) out.first_look = scored;
     const double distrust = joint.distrust();
     std::vector<const ScoredCandidate*> standing;
     const auto find_standing = [&] {
@@ -229,6 +228,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       look_again(joint, scored);
       find_standing();
     }
+    if (step == 0) out.first_look = scored;
     std::stable_sort(standing.begin(), standing.end(),
                      [](const ScoredCandidate* a, const ScoredCandidate* b) { return a->p_value < b->p_value; });
     bool is_simplest = false;

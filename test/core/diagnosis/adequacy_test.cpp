@@ -148,6 +148,25 @@ TEST(Refuted, WeakNameIsWithdrawnWhereItIsNoMoreThanChanceInAllRecordingsTogethe
   }));
 }
 
+TEST(Named, IsWhatTheRecordingsOnlyHintAtWhereThoseHeldOutBearItOut) {
+  // The same with less of it: too little in two runs by themselves.
+  test::Case scrubs = case_of("turn_scrub", 0.8, 6, 7), sound = case_of("", 1.0, 6, 7);
+  const auto behind_two = [](const test::Case& c) {
+    return std::vector<Recording>(c.recordings.begin() + 2, c.recordings.end());
+  };
+  const std::vector<Recording> fitted(scrubs.recordings.begin(), scrubs.recordings.begin() + 2);
+  const Diagnosis alone = diagnose(fitted, {}, scrubs.nominal).value();
+  for (const Finding& f : alone.findings) EXPECT_NE(f.effect, "turn_scrub");
+  const Diagnosis borne_out = diagnose(fitted, behind_two(scrubs), scrubs.nominal).value();
+  ASSERT_FALSE(borne_out.findings.empty());
+  EXPECT_EQ(borne_out.findings.front().effect, "turn_scrub");
+  EXPECT_LT(borne_out.findings.front().p_value, 0.02);  // of all recordings together
+  EXPECT_TRUE(std::any_of(borne_out.warnings.begin(), borne_out.warnings.end(),
+                          [](const std::string& w) { return w.find("hint at turn scrub") != std::string::npos; }));
+  const Diagnosis not_borne_out = diagnose(fitted, behind_two(sound), scrubs.nominal).value();
+  for (const Finding& f : not_borne_out.findings) EXPECT_NE(f.effect, "turn_scrub");
+}
+
 TEST(Refuted, AsksOfARunThatWasNotFittedWhetherTheLoadThatCameAndStayedIsThereToo) {
   test::Case c = case_of("", 1.0, 4, 8);
   for (std::size_t r = 1; r < c.recordings.size(); ++r)
