@@ -190,7 +190,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   add(d.left_out_in_turn ? "Each run left out in turn" : "Held out", d.held_out);
   BarGroup simulated{"Physics simulator, driven by the recordings", {}};
   const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
-    if (!figures) return;
+    if (!figures || !figures->gathered()) return;
     table.push_back({std::string("Simulator: ") + name, number_text("%.2f", 1e3 * figures->position_rms_m),
                      number_text("%.3f", degrees(figures->heading_rms_rad)),
                      number_text("%.2f", figures->normalised_chi2)});
@@ -209,7 +209,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
       "contradict.");
   bars.title = "Position error over each metre or radian";
   bars.x_label = "position error [mm]";
-  report.picture(bar_picture(bars));
+  if (!bars.groups.empty()) report.picture(bar_picture(bars));
   report.table({"", "position [mm]", "heading [\xC2\xB0]", "normalised chi2"}, table);
 }
 

@@ -1,5 +1,6 @@
 #include "core/io/picture/coloured_track_picture.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -73,12 +74,14 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
     const double radius = std::max(6.0, disc.radius_m * view.scale_px);
     svg.circle(centre, radius, "none", {ink::kBlue, 2.0, "5 3"});
     const bool above = centre.y - radius > view.corner.y + 24.0;
-    svg.text({centre.x, above ? centre.y - radius - 6.0 : centre.y + radius + 15.0}, disc.label, Anchor::middle, 12.0, ink::kBlue, true);
+    svg.text({centre.x, above ? centre.y - radius - 6.0 : centre.y + radius + 15.0}, disc.label, Anchor::middle, 12.0,
+             ink::kBlue, true);
   }
   if (!box.empty() && track.x_m.size() > 1) {
     std::size_t first = 0;
     while (first < track.x_m.size() && !(std::isfinite(track.x_m[first]) && std::isfinite(track.y_m[first]))) ++first;
-    if (first < track.x_m.size()) svg.circle(view.at({track.x_m[first], track.y_m[first]}), 5.0, "#ffffff", {ink::kTruth, 1.8, ""});
+    if (first < track.x_m.size())
+      svg.circle(view.at({track.x_m[first], track.y_m[first]}), 5.0, "#ffffff", {ink::kTruth, 1.8, ""});
   }
   svg.end_clip();
   svg.rectangle(view.corner, view.width_px, view.height_px, "none", {ink::kAxis, 1.0, ""});
@@ -89,7 +92,9 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
     const std::string label = mismatch_level_text(k);
     svg.line({x, y - 4.0}, {x + 20.0, y - 4.0}, {kLevels[k].colour, kLevels[k].width_px + 1.0, ""});
     svg.text({x + 25.0, y}, label, Anchor::start, 11.0);
-    x += 36.0 + 6.0 * static_cast<double>(label.size());
+    const auto letters =
+        std::count_if(label.begin(), label.end(), [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+    x += 36.0 + 6.0 * static_cast<double>(letters);
   }
   view.draw_scale_bar(svg, {picture.width_px - kSide, y}, 8);
   return svg.finished();

@@ -129,6 +129,17 @@ TEST(DiagnosisReport, IsOnePageWithEveryPart) {
   }
 }
 
+TEST(DiagnosisReport, DrawsNoErrorsWhereNoneCouldBeGathered) {
+  // As of a truth without headings: chi-square is known, the error over a metre is not.
+  Diagnosis d = test::diagnosis_by_hand();
+  const FitFigures not_gathered{0.0, 0.0, 1.1};
+  d.train = d.held_out = {};
+  d.train.calibrated = d.train.with_findings = d.simulation.calibrated = d.simulation.with_findings = not_gathered;
+  const std::string html = diagnosis_report(d).text();
+  EXPECT_NE(html.find("not measured"), std::string::npos);
+  EXPECT_EQ(html.find("position error [mm]"), std::string::npos);
+}
+
 TEST(DiagnosisReport, AnEmptyDiagnosisHasAPageToo) {
   const std::string html = diagnosis_report({}).text();
   EXPECT_NE(html.find("cannot say"), std::string::npos);
