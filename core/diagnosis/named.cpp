@@ -69,6 +69,21 @@ bool are_borne_out(const Predictor& predictor, const JointModel& joint, Selected
   return true;
 }
 
+// Where nothing stands: names that are hinted at and borne out are let in, or nothing is changed.
+bool name_what_is_hinted_at(JointModel& joint, Selected& selected, const Predictor& predictor, double family_wise_error,
+                            const Progress& go_on) {
+  constexpr double kHint = 0.5;  // of as many such names as chance would bring up, if nothing is missing
+  if (std::none_of(selected.first_look.begin(), selected.first_look.end(),
+                   [](const ScoredCandidate& c) { return c.p_value < kHint; }))
+    return false;
+  JointModel hinted_at = joint;
+  Selected hinted = select_effects(hinted_at, kHint, go_on);
+  if (hinted_at.accepted.empty() || !are_borne_out(predictor, hinted_at, hinted, family_wise_error)) return false;
+  joint = std::move(hinted_at);
+  selected = std::move(hinted);
+  return true;
+}
+
 std::string name_in_words(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -83,26 +98,15 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   Named now{calibrated, {}, {}, {}, {}, {}, {}};
   JointModel& joint = now.joint;
   Selected& selected = now.selected;
+  const auto go_on = [&](double) { return goes_on(progress, kSelected); };
   selected = select_effects(joint, family_wise_error, progress);
   if (!goes_on(progress, kSelected)) return {};
-  constexpr double kHint = 0.5;  // of as many such names as chance would bring up, if nothing is missing
-  const auto& looked_at = selected.first_look;
-  if (joint.accepted.empty() && !predictor.leaves_out_in_turn() &&
-      std::any_of(looked_at.begin(), looked_at.end(), [](const ScoredCandidate& c) { return c.p_value < kHint; })) {
-    JointModel hinted_at = calibrated;
-    Selected hinted = select_effects(hinted_at, kHint, [&](double) { return goes_on(progress, kSelected); });
-    if (!goes_on(progress, kSelected)) return {};
-    if (!hinted_at.accepted.empty() && are_borne_out(predictor, hinted_at, hinted, family_wise_error)) {
-      joint = std::move(hinted_at);
-      selected = std::move(hinted);
-      for (const AcceptedEffect& a : joint.accepted)
-        now.warnings.push_back("the recordings that were fitted only hint at " + name_in_words(*a.effect) +
-                               "; those held out bear it out");
-    }
-  }
-  choose_by_unseen(predictor, joint, selected);
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
   if (joint.accepted.empty()) joint = calibrated;
+  const bool hinted = joint.accepted.empty() && !predictor.leaves_out_in_turn() &&
+                      name_what_is_hinted_at(joint, selected, predictor, family_wise_error, go_on);
+  if (!goes_on(progress, kSelected)) return {};
+  choose_by_unseen(predictor, joint, selected);
   now.intervals = refined(joint, inflations_of(selected));
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.
@@ -141,14 +145,17 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     } else {
       joint = calibrated;
       if (untenables.size() < kMostUntenable) {  // what it stood for may have another name
-        selected = select_effects(
-            joint, family_wise_error, [&](double) { return goes_on(progress, kSelected); }, untenables);
+        selected = select_effects(joint, family_wise_error, go_on, untenables);
         if (!goes_on(progress, kSelected)) return {};
         if (joint.accepted.empty()) joint = calibrated;
       }
     }
     now.intervals = refined(joint, inflations_of(selected));
   }
+  if (hinted)
+    for (const AcceptedEffect& a : joint.accepted)
+      now.warnings.push_back("the recordings that were fitted only hint at " + name_in_words(*a.effect) +
+                             "; those held out bear it out");
   return now;
 }
 

@@ -28,7 +28,7 @@ struct Moved {
     for (std::size_t first = 0; first < moved_m.size();) {
       std::size_t end = first;
       double way_m = 0.0, counts = 0.0;
-      for (; end < moved_m.size() && moved_m[end] * way_m >= 0.0; ++end) {
+      for (; end < moved_m.size() && !(moved_m[end] * way_m < 0.0); ++end) {
         way_m += moved_m[end];
         counts += view.steps[end].*by_rad / count_rad;
       }
