@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
@@ -219,8 +220,8 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
   return out;
 }
 
-bool names_physics(const JointModel& joint) {
-  return std::any_of(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+std::ptrdiff_t names_of_physics(const JointModel& joint) {
+  return std::count_if(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
 }
 
 }  // namespace
@@ -245,9 +246,11 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     return g.test.statistic > kMostLeft * explained ||
            g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
   });
-  if (!out.unnamed && worth_asking && names_physics(joint)) {
+  if (!out.unnamed && worth_asking && names_of_physics(joint) > 0) {
     InPlaceOfNames instead = in_place_of_names(joint, evidence, error);
     out.unnamed = std::move(instead.says_more);
+    // One cause is simpler than several.
+    if (!out.unnamed && names_of_physics(joint) > 1) out.unnamed = std::exchange(instead.as_much, std::nullopt);
     out.as_likely = std::move(instead.as_much);
   }
   return out;
