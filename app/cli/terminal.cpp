@@ -8,16 +8,12 @@
 #include <cstdio>
 
 #include "app/cli/command.h"
+#include "core/base/letters.h"
 
 namespace odolab {
 
 namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
-
-// Characters on the screen: UTF-8 continuation bytes take no place.
-int width_of(const std::string& text) {
-  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
 }  // namespace
 
 void print_error(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
@@ -42,12 +38,12 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (widths.size() <= i) widths.push_back(0);
-      widths[i] = std::max(widths[i], width_of(row[i]));
+      widths[i] = std::max(widths[i], letters_of(row[i]));
     }
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string pad(static_cast<std::size_t>(widths[i] - width_of(row[i])), ' ');
+      const std::string pad(static_cast<std::size_t>(widths[i] - letters_of(row[i])), ' ');
       line += (i > 0 ? "   " : "") + (i == 0 ? row[i] + pad : pad + row[i]);
     }
     while (!line.empty() && line.back() == ' ') line.pop_back();

@@ -55,15 +55,14 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
     const double count = count_rad(joint.runs()[r], drive);
     std::vector<double> left_by_m, right_by_m;
     Extent left_m, right_m;
-    double forward_m = 0.0, turn_rad = 0.0;
+    double left_way_m = 0.0, right_way_m = 0.0;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       if (motion[i].sideways_m != 0.0) return false;  // nothing that is counted goes sideways
-      forward_m += motion[i].forward_m, turn_rad += motion[i].turn_rad;
       const double across_m = 0.5 * drive.wheelbase_m * motion[i].turn_rad;
       left_by_m.push_back(motion[i].forward_m - across_m);
       right_by_m.push_back(motion[i].forward_m + across_m);
-      left_m.take(forward_m - 0.5 * drive.wheelbase_m * turn_rad);
-      right_m.take(forward_m + 0.5 * drive.wheelbase_m * turn_rad);
+      left_m.take(left_way_m += left_by_m.back());
+      right_m.take(right_way_m += right_by_m.back());
     }
     moved.add(view, &EffectStep::left_by_rad, count, left_by_m);
     moved.add(view, &EffectStep::right_by_rad, count, right_by_m);

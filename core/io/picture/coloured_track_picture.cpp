@@ -1,9 +1,9 @@
 #include "core/io/picture/coloured_track_picture.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "core/base/letters.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/io/picture/floor_view.h"
 
@@ -92,9 +92,7 @@ std::string coloured_track_picture(const ColouredTrackPicture& picture) {
     const std::string label = mismatch_level_text(k);
     svg.line({x, y - 4.0}, {x + 20.0, y - 4.0}, {kLevels[k].colour, kLevels[k].width_px + 1.0, ""});
     svg.text({x + 25.0, y}, label, Anchor::start, 11.0);
-    const auto letters =
-        std::count_if(label.begin(), label.end(), [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
-    x += 36.0 + 6.0 * static_cast<double>(letters);
+    x += 36.0 + 6.0 * letters_of(label);
   }
   view.draw_scale_bar(svg, {picture.width_px - kSide, y}, 8);
   return svg.finished();
