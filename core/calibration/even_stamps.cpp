@@ -36,13 +36,14 @@ double period_of(const Series& time_s) {
 // behind shows a step of the phase far better than their mean does.
 std::vector<int> ends_of_stretches(const Series& time_s, double period_s) {
   const int n = static_cast<int>(time_s.size());
-  const auto early = [&](int from, int to, int origin) {
+  Series early;  // of so many rows behind each, without those of the period
+  for (int i = 0; i + kLook <= n; ++i) {
     Series late;
-    for (int i = from; i < to; ++i) late.push_back(time_s[i] - time_s[0] - period_s * (i - origin));
-    return quantile(std::move(late), 0.2);
-  };
+    for (int k = 0; k < kLook; ++k) late.push_back(time_s[i + k] - time_s[0] - period_s * k);
+    early.push_back(quantile(std::move(late), 0.2));
+  }
   Series step(time_s.size(), 0.0);
-  for (int i = kLook; i + kLook <= n; ++i) step[i] = early(i, i + kLook, i) - early(i - kLook, i, i);
+  for (int i = kLook; i + kLook <= n; ++i) step[i] = early[i] - early[i - kLook] - period_s * kLook;
   const double limit = std::max(0.4 * period_s, 5.0 * 1.4826 * median_size(step));
   std::vector<int> ends;
   for (int i = 1; i < n; ++i) {
@@ -163,11 +164,19 @@ Share share_of(const Series& shown, const Series& lateness) {
   return share;
 }
 
+// Whether no stamp is further off the line from the first to the last than what counts as even.
+bool are_even(const Series& time_s) {
+  const double period_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  for (std::size_t i = 0; i < time_s.size(); ++i)
+    if (std::abs(time_s[i] - time_s.front() - period_s * static_cast<double>(i)) >= kEven * period_s) return false;
+  return true;
+}
+
 }  // namespace
 
 std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Series>& paths, bool together) {
   const int n = static_cast<int>(time_s.size());
-  if (n < kLeastRows) return std::nullopt;
+  if (n < kLeastRows || are_even(time_s)) return std::nullopt;
   EvenStamps even;
   even.period_s = period_of(time_s);
   if (!(even.period_s > 0.0)) return std::nullopt;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -95,6 +96,11 @@ struct InnovationRun {
   std::vector<std::string> warnings;   // what was put right while it was read
   std::vector<std::pair<double, double>> left_out;  // on the wheels' clock, in order: the way across is not known
   std::vector<char> cut;  // for each truth sample: the way to it from the one before is not known; empty: it always is
+  // Where several truth samples were averaged into one:
+  double samples_averaged = 1.0;       // usually
+  double readings_averaged = 1.0;      // so many roundings of the encoders are in one mean
+  std::vector<double> truth_variance;  // of each truth sample, in those of a usual one; empty: all are alike
+  std::shared_ptr<const InnovationRun> as_recorded;  // what was made less of; null where it is all there
   int frozen = 0;         // truth samples left out since they repeat themselves while the wheels turn
 };
 

@@ -89,10 +89,15 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   std::vector<InnovationRun> runs;
   std::vector<std::string> put_right;
   bool any_heading = false;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
+  std::vector<std::optional<Result<InnovationRun>>> read(recordings.size());
+  parallel_for(static_cast<int>(recordings.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
     std::optional<std::vector<std::pair<double, double>>> left_out;
     if (r < options.left_out.size()) left_out = options.left_out[r];
-    Result<InnovationRun> run = innovation_run(recordings[r], nominal, left_out);
+    read[r] = innovation_run(recordings[r], nominal, left_out);
+  });
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    Result<InnovationRun>& run = *read[r];
     if (!run) return run.error();
     any_heading = any_heading || run->truth_has_heading;
     put_right.insert(put_right.end(), run->warnings.begin(), run->warnings.end());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
@@ -203,43 +204,52 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
 }
 
 bool LikelihoodFit::gate() {
-  bool changed = false;
-  restarts_ = 0;
   FilterOptions options;
   options.derivatives = false;
   options.gate = kGate;
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+  const int n = static_cast<int>(runs_.size());
+  std::vector<char> changed(runs_.size(), 0);
+  std::vector<int> restarts(runs_.size(), 0);
+  each(n, [&](int r) {
     const InnovationModel model = now_.of(r);
     const std::vector<char> cut = runs_[r].cut;
     cut_where_left_out(runs_[r], model.truth.time_offset_s);
-    changed = changed || runs_[r].cut != cut;
     InnovationSums s = filtered(runs_[r], summed(r, model), model, options);
-    changed = changed || s.set_aside != runs_[r].set_aside;
-    restarts_ += s.restarts;
+    changed[r] = runs_[r].cut != cut || s.set_aside != runs_[r].set_aside;
+    restarts[r] = s.restarts;
     runs_[r].set_aside = std::move(s.set_aside);
-  }
-  return changed;
+  });
+  restarts_ = std::accumulate(restarts.begin(), restarts.end(), 0);
+  return std::find(changed.begin(), changed.end(), 1) != changed.end();
 }
 
 void LikelihoodFit::correlations(double* out) const {
-  double product[3] = {}, square[3] = {};
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+  struct Products {
+    double product[3] = {}, square[3] = {};
+  };
+  std::vector<Products> of_run(runs_.size());
+  each(static_cast<int>(runs_.size()), [&](int r) {
+    Products& sum = of_run[static_cast<std::size_t>(r)];
     bool has_before = false;
     double before[3] = {};
     FilterOptions options;
     options.derivatives = false;
     options.on_innovation = [&](const Innovation& i) {
       for (int k = 0; k < i.size; ++k) {
-        if (has_before) product[k] += before[k] * i.white[k];
-        square[k] += i.white[k] * i.white[k];
+        if (has_before) sum.product[k] += before[k] * i.white[k];
+        sum.square[k] += i.white[k] * i.white[k];
         before[k] = i.white[k];
       }
       has_before = true;
     };
     const InnovationModel model = now_.of(r);
     filtered(runs_[r], summed(r, model), model, options);
+  });
+  for (int k = 0; k < 3; ++k) {
+    double product = 0.0, square = 0.0;
+    for (const Products& sum : of_run) product += sum.product[k], square += sum.square[k];
+    out[k] = square > 0.0 ? product / square : 0.0;
   }
-  for (int k = 0; k < 3; ++k) out[k] = square[k] > 0.0 ? product[k] / square[k] : 0.0;
 }
 
 LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
@@ -253,8 +263,8 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
       return most;
     }
   };
-  Products a_reading, a_second;
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+  std::vector<Products> a_reading(runs_.size()), a_second(runs_.size());
+  each(static_cast<int>(runs_.size()), [&](int r) {
     std::vector<std::array<double, 3>> white;
     FilterOptions options;
     options.derivatives = false;
@@ -276,10 +286,16 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
           sum.square[k] += white[i][k] * white[i][k];
         }
     };
-    add(a_reading, kReadings * period_s(runs_[r].wheels));
-    add(a_second, 1.0);
-  }
-  return {a_reading.largest(), a_second.largest()};
+    add(a_reading[static_cast<std::size_t>(r)], kReadings * period_s(runs_[r].wheels));
+    add(a_second[static_cast<std::size_t>(r)], 1.0);
+  });
+  const auto largest = [](const std::vector<Products>& of_run) {
+    Products sum;
+    for (const Products& p : of_run)
+      for (std::size_t k = 0; k < 3; ++k) sum.product[k] += p.product[k], sum.square[k] += p.square[k];
+    return sum.largest();
+  };
+  return {largest(a_reading), largest(a_second)};
 }
 
 LikelihoodFit::Sums LikelihoodFit::none() const {

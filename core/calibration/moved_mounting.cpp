@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/parallel.h"
 #include "core/base/quantile.h"
 #include "core/calibration/least_squares.h"
 #include "core/calibration/run_fit.h"
@@ -101,11 +102,16 @@ bool holds_throughout(const Recording& recording, const Vehicle& nominal, const 
 
 // The indices of runs that stand out, by their own fits.
 std::vector<std::size_t> suspects(const std::vector<Recording>& recordings, const Vehicle& nominal) {
+  std::vector<std::optional<Seen>> of_each(recordings.size());
+  parallel_for(static_cast<int>(recordings.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    of_each[r] = seen_in(recordings[r], nominal);
+  });
   std::vector<Seen> seen;
   std::vector<std::size_t> index, out;
   for (std::size_t i = 0; i < recordings.size(); ++i)
-    if (const std::optional<Seen> one = seen_in(recordings[i], nominal)) {
-      seen.push_back(*one);
+    if (of_each[i]) {
+      seen.push_back(*of_each[i]);
       index.push_back(i);
     }
   if (seen.size() < 2) return out;

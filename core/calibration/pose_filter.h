@@ -45,8 +45,9 @@ class PoseFilter {
     score_.setZero(carried);
     const DifferentialDrive& drive = model.drive;
     const double count = count_rad(run, drive);
-    const double left = std::pow(count * drive.wheel_radius_left_m, 2) / 12.0,
-                 right = std::pow(count * drive.wheel_radius_right_m, 2) / 12.0;
+    const double of_one = 12.0 * run.readings_averaged;
+    const double left = std::pow(count * drive.wheel_radius_left_m, 2) / of_one,
+                 right = std::pow(count * drive.wheel_radius_right_m, 2) / of_one;
     const double b = drive.wheelbase_m;
     count_error_.xx = 0.25 * (left + right);
     count_error_.xh = 0.5 * (right - left) / b;
@@ -124,7 +125,8 @@ class PoseFilter {
   void place_at(int k) {
     const TruthSample& truth = run_.truth[k];
     const Pose& m = model_.truth.axle_T_tracked;
-    double heading2 = heading2_, tracked_heading;
+    const double times = variance_of(k), position2 = times * position2_;
+    double heading2 = times * heading2_, tracked_heading;
     const bool heading_is_read = run_.truth_has_heading && truth.heading_rad;
     if (heading_is_read) {
       tracked_heading = *truth.heading_rad;
@@ -138,10 +140,10 @@ class PoseFilter {
     const Vec2 arm = this->arm();
     state_.x_m = truth.position.x_m - arm.x_m;
     state_.y_m = truth.position.y_m - arm.y_m;
-    covariance_ = {position2_, 0.0, 0.0, position2_, 0.0, heading2};
+    covariance_ = {position2, 0.0, 0.0, position2, 0.0, heading2};
     covariance_ = covariance_.carried(-arm.x_m, -arm.y_m);  // back from the point to the axle
-    covariance_.add(count_error_.turned(facing_.c, facing_.s));
-    if (slopes_) slopes_->begin_at(position2_, heading_is_read ? heading2_ : 0.0, arm);
+    covariance_.add(count_error_.times(times).turned(facing_.c, facing_.s));
+    if (slopes_) slopes_->begin_at(position2, heading_is_read ? heading2 : 0.0, arm);
     if constexpr (columns != kNoColumns) {
       derivative_.setZero();
       const double c = facing_.c, s = facing_.s;
@@ -205,6 +207,9 @@ class PoseFilter {
     state_.heading_rad += by_rad;
     facing_ = ++turns_ % kOften == 0 ? turn_of(state_.heading_rad) : facing_.then(turn_of(by_rad));
   }
+  double variance_of(int k) const {
+    return run_.truth_variance.empty() ? 1.0 : run_.truth_variance[static_cast<std::size_t>(k)];
+  }
   Vec2 arm() const {  // from the axle to the tracked point, in the room
     const Pose& m = model_.truth.axle_T_tracked;
     return {facing_.c * m.x_m - facing_.s * m.y_m, facing_.s * m.x_m + facing_.c * m.y_m};
@@ -223,12 +228,13 @@ class PoseFilter {
     const int n = truth.heading_rad && run_.truth_has_heading ? 3 : 2;
     const double residual[3] = {truth.position.x_m - state_.x_m - arm.x_m, truth.position.y_m - state_.y_m - arm.y_m,
                                 n == 3 ? soon_wrapped(*truth.heading_rad - state_.heading_rad - m.heading_rad) : 0.0};
+    const double times = variance_of(k), position2 = times * position2_, heading2 = times * heading2_;
     PoseCovariance s = covariance_;
-    s.add(count_error_.turned(facing_.c, facing_.s));
+    s.add(count_error_.times(times).turned(facing_.c, facing_.s));
     s = s.carried(arm.x_m, arm.y_m);
-    s.xx += position2_;
-    s.yy += position2_;
-    s.hh += heading2_;
+    s.xx += position2;
+    s.yy += position2;
+    s.hh += heading2;
     if (n == 2) {  // a heading that was not read: infinitely uncertain, and no residual
       s.xh = s.yh = 0.0;
       s.hh = 1.0;
@@ -293,7 +299,7 @@ class PoseFilter {
       const double r0 = std::sqrt(s.xx), r1 = std::sqrt(d1);
       slopes_->update({l10 * r0, l20 * r0, l21 * r1, std::sqrt(i0), std::sqrt(i1), n == 3 ? std::sqrt(i2) : 0.0,
                        of_columns, white, arm, n == 3},
-                      position2_, heading2_);
+                      position2, heading2);
     }
     const auto product = [](const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
     covariance_.xx -= product(by[0], gain[0]);

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "core/base/parallel.h"
 #include "core/calibration/run_fit.h"
 
 namespace odolab {
@@ -134,8 +135,11 @@ std::optional<Error> fault_in(const Recording& recording, const Vehicle& nominal
 }
 
 std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& recordings, const Vehicle& nominal) {
-  std::vector<const Mend*> mends;
-  for (const Recording& r : recordings) mends.push_back(can_be_judged(r, nominal) ? mend_of(r, nominal) : nullptr);
+  std::vector<const Mend*> mends(recordings.size(), nullptr);
+  parallel_for(static_cast<int>(recordings.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    if (can_be_judged(recordings[r], nominal)) mends[r] = mend_of(recordings[r], nominal);
+  });
   const bool all_alike = mends.size() > 1 && std::count(mends.begin(), mends.end(), mends.front()) ==
                                                  static_cast<std::ptrdiff_t>(mends.size());
   std::vector<std::optional<Error>> faults;

@@ -37,6 +37,7 @@ ThinnedTruth thinned_truth(const InnovationRun& run, const SummedRun& summed, co
   thin.name = run.name;
   thin.truth_has_heading = run.truth_has_heading;
   thin.counts_show = run.counts_show;
+  thin.readings_averaged = run.readings_averaged;
   RelativeMotion since;
   double left_m = 0.0, right_m = 0.0;  // rolled since the last sample that was kept, there and back
   std::size_t i = 0;
@@ -52,6 +53,7 @@ ThinnedTruth thinned_truth(const InnovationRun& run, const SummedRun& summed, co
     if (t > 0 && !begins_anew && !rolled) continue;
     thin.truth.push_back(run.truth[t]);
     thin.set_aside.push_back(run.set_aside[t]);
+    if (!run.truth_variance.empty()) thin.truth_variance.push_back(run.truth_variance[t]);
     thin.cut.push_back(is_cut(run, t));
     if (t > 0) out.summed.motions.push_back(since);
     since = {};

@@ -119,11 +119,11 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
 Predictor::Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
                      const Vehicle& nominal)
     : calibration_(calibration), nominal_(nominal) {
-  for (const CheckedRecording& c : ready_held_out) {
-    Result<InnovationRun> run = ready_run(c, nominal);
-    if (!run) continue;
-    runs_.push_back(std::move(*run));
-    commands_.push_back(c.from_commands);
+  std::vector<Result<InnovationRun>> runs = condensed_runs(ready_held_out, nominal, calibration, false);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r]) continue;
+    runs_.push_back(*std::move(runs[r]));
+    commands_.push_back(ready_held_out[r].from_commands);
   }
 }
 

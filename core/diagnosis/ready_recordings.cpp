@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/parallel.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
@@ -17,15 +18,10 @@ namespace {
 // Where the truth jumps time and again, these moments are left out of all recordings. Returns the jumps.
 std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
                                        const Vehicle& nominal) {
-  InnovationModel model;
-  model.drive = std::get<DifferentialDrive>(ready.calibration.vehicle.kind);
-  model.truth = ready.calibration.vehicle.truth;
-  model.noise = ready.calibration.noise;
   std::vector<TruthJump> all;
   std::vector<std::vector<std::pair<double, double>>> of_each;
   for (std::size_t r = 0; r < each.size(); ++r) {
-    const std::vector<double>& clocks = ready.calibration.time_offset_s;
-    model.truth.time_offset_s = r < clocks.size() ? clocks[r] : ready.calibration.vehicle.truth.time_offset_s;
+    const InnovationModel model = model_of(ready.calibration, r);
     const Result<InnovationRun> run = ready_run(*each[r], nominal);
     of_each.emplace_back();
     if (!run) continue;
@@ -67,11 +63,13 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   ReadyRecordings ready;
   const auto check = [&](const std::vector<Recording>& given,
                          std::vector<CheckedRecording>& into) -> std::optional<Error> {
-    for (const Recording& r : given) {
+    for (const Recording& r : given)
       if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
         return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
-      into.push_back(checked(r, nominal));
-    }
+    into.resize(given.size());
+    parallel_for(static_cast<int>(given.size()), [&](int r) {
+      into[static_cast<std::size_t>(r)] = checked(given[static_cast<std::size_t>(r)], nominal);
+    });
     return {};
   };
   if (const std::optional<Error> problem = check(train, ready.train)) return *problem;
@@ -122,11 +120,10 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
 Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal) {
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
-  for (const CheckedRecording& c : ready.train) {
-    Result<InnovationRun> run = ready_run(c, nominal);
+  for (Result<InnovationRun>& run : condensed_runs(ready.train, nominal, ready.calibration, true)) {
     if (!run) return run.error();
+    commands.push_back(ready.train[runs.size()].from_commands);
     runs.push_back(*std::move(run));
-    commands.push_back(c.from_commands);
   }
   JointModel joint(std::move(runs), commands, ready.calibration, nominal);
   joint.truth_jumps = ready.truth_jumps;

@@ -37,13 +37,32 @@ std::vector<Reversal> reversals(const DriveView& view) {
   return found;
 }
 
-// One kick at each reversal: at once, or spread over so much of the way once it is sure to.
+// The way that counts step by step from a reversal on: until it is sure only what leads further back than before, since
+// a turn on the spot trembles.
+class WayBack {
+ public:
+  explicit WayBack(const Reversal& reversal) : reversal_(reversal) {}
+  double of_step(const DriveView& view, std::size_t i) {
+    if (i > reversal_.sure) return std::abs(view.steps[i].forward_m());
+    gone_m_ += reversal_.direction * view.steps[i].forward_m();
+    const double more_m = std::max(0.0, gone_m_ - furthest_m_);
+    furthest_m_ += more_m;
+    return more_m;
+  }
+
+ private:
+  const Reversal& reversal_;
+  double gone_m_ = 0.0, furthest_m_ = 0.0;
+};
+
+// One kick at each reversal: at once, or spread over so much of the way.
 Motions even_kicks(const DriveView& view, bool to_one_side, double over_m) {
   Motions m(view.steps.size());
   for (const Reversal& r : reversals(view)) {
     double since_m = 0.0;
-    for (std::size_t i = over_m < kReversed_m ? r.first : r.sure; i < view.steps.size() && since_m < over_m; ++i) {
-      const double way_m = std::abs(view.steps[i].forward_m());
+    WayBack way_back(r);
+    for (std::size_t i = r.first; i < view.steps.size() && since_m < over_m; ++i) {
+      const double way_m = way_back.of_step(view, i);
       m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * std::min(way_m, over_m - since_m) / over_m;
       since_m += way_m;
     }
@@ -64,9 +83,10 @@ Motions kicks_of_a_castor(const DriveView& view, bool to_one_side, double trail_
     const bool turned_back = left > kRound;
     sense = turned_back ? -sense : 1.0;
     left = turned_back ? 1.0 - left : 1.0;
-    const std::size_t end = n + 1 < all.size() ? all[n + 1].sure : view.steps.size();
-    for (std::size_t i = all[n].sure; i < end && left > 0.0; ++i) {
-      const double way_m = std::abs(view.steps[i].forward_m());
+    const std::size_t end = n + 1 < all.size() ? all[n + 1].first : view.steps.size();
+    WayBack way_back(all[n]);
+    for (std::size_t i = all[n].first; i < end && left > 0.0; ++i) {
+      const double way_m = way_back.of_step(view, i);
       const double swung = std::min(left, way_m / trail_m * (std::sin(kPi * left) + kOff) / kPi);
       m[i].turn_rad += (to_one_side ? sense : all[n].direction) * swung;
       left -= swung;
@@ -90,7 +110,9 @@ std::vector<Effect> castor_reversal_kick() {
              "always to the same side, as a castor of 2 cm trail swings",
              "to one side forwards and the other in reverse, as a castor of 2 cm trail swings",
              "always to the same side, as a castor of 5 cm trail swings",
-             "to one side forwards and the other in reverse, as a castor of 5 cm trail swings"};
+             "to one side forwards and the other in reverse, as a castor of 5 cm trail swings",
+             "always to the same side, as a castor of 3 cm trail swings",
+             "to one side forwards and the other in reverse, as a castor of 3 cm trail swings"};
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.looks_like = {"drivetrain_backlash", "one_sided_drag"};
@@ -106,7 +128,7 @@ std::vector<Effect> castor_reversal_kick() {
     });
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    constexpr double kOver_m[] = {0.05, 0.2, 0.001}, kTrail_m[] = {0.02, 0.05};
+    constexpr double kOver_m[] = {0.05, 0.2, 0.001}, kTrail_m[] = {0.02, 0.05, 0.032};
     constexpr int kEven = static_cast<int>(std::size(kOver_m));
     const int form = static_cast<int>(shape.back()), which = form / 2;
     const bool to_one_side = form % 2 == 0;

@@ -20,7 +20,7 @@ Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
   for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r) {
     InnovationModel model = joint.model_of(r);
     model.noise = noise;
-    const InnovationRun run = joint.prepared(r);
+    const InnovationRun run = joint.recorded(r);
     of_run.emplace_back();
     for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
       of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);

@@ -77,7 +77,8 @@ std::vector<Response> responses_of(std::vector<GenericTest> tests, bool found) {
   return responses;
 }
 
-std::vector<Residuals> residuals_of(const JointModel& joint) {
+std::vector<Residuals> residuals_of(const JointModel& model) {
+  const JointModel joint = model.as_recorded();
   std::vector<Residuals> all;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     Residuals out;

@@ -61,9 +61,10 @@ void stand_longer(Track& track) {
 
 JointModel::GatheredError JointModel::gathered_error(int first_run) const {
   std::vector<GatheredError> of(runs_.size());
+  const FittedNoise noise = noise_as_recorded();
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
-    const InnovationRun& run = now_->runs[r].run();
-    if (!run.truth_has_heading || r < first_run) return;
+    if (!runs_[r].truth_has_heading || r < first_run) return;
+    const InnovationRun run = recorded(r);
     Track guess, truth;
     std::vector<char> anew;
     Pose pose;
@@ -99,7 +100,7 @@ JointModel::GatheredError JointModel::gathered_error(int first_run) const {
       of[r].windows = e->windows;
       of[r].of_window = e->window_error;
       for (const auto& [from_s, to_s] : e->window_s)
-        add_noise(of[r], model.noise, model.drive.wheelbase_m, guess, from_s, to_s);
+        add_noise(of[r], noise, model.drive.wheelbase_m, guess, from_s, to_s);
       of[r].noise_position_m2 /= e->windows;
       of[r].noise_heading_rad2 /= e->windows;
     }

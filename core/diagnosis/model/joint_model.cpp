@@ -89,10 +89,10 @@ InnovationModel JointModel::model_of(int run) const {
   return m;
 }
 
-InnovationRun JointModel::prepared(int r) const { return prepared(r, now_->read_views[r]); }
+InnovationRun JointModel::prepared(int r) const { return prepared(r, runs_[r], now_->read_views[r]); }
 
-InnovationRun JointModel::prepared(int r, const DriveView& view) const {
-  InnovationRun run = runs_[r];
+InnovationRun JointModel::prepared(int r, const InnovationRun& of, const DriveView& view) const {
+  InnovationRun run = of;
   ExtraColumn sum;
   sum.name = "effects";
   sum.value = 1.0;
@@ -107,7 +107,7 @@ InnovationRun JointModel::prepared(int r, const DriveView& view) const {
     }
   }
   if (run.counts_show && (half_counts[0] != 0.0 || half_counts[1] != 0.0)) {
-    const std::array<Motions, 2> of_wheel = counts_at_rest(runs_[r], model.drive);
+    const std::array<Motions, 2> of_wheel = counts_at_rest(of, model.drive);
     for (int k = 0; k < 2; ++k) of_wheel[k].add_to(sum.per_step, half_counts[k]);
     any = true;
   }
@@ -204,7 +204,7 @@ void JointModel::linearise(bool with_columns) {
       next->read_views[r] =
           with_columns ? as_read(next->views[r], runs_[r])
                        : drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
-    made[r].emplace_back(prepared(r, next->read_views[r]), m);
+    made[r].emplace_back(prepared(r, runs_[r], next->read_views[r]), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
     residual_[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);

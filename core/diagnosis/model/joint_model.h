@@ -143,6 +143,10 @@ class JointModel {
   InnovationModel model_of(int run) const;
   double* clock_rate_of(int run);         // null where its clock has no rate of its own
   InnovationRun prepared(int run) const;  // with the accepted effects put in
+  // The same of all its samples, where fewer are fitted to; and the noise of these.
+  InnovationRun recorded(int run) const;
+  FittedNoise noise_as_recorded() const;
+  JointModel as_recorded() const;  // all that was recorded, with what the model leaves of it; without columns
 
  private:
   friend class CandidateScan;
@@ -181,7 +185,7 @@ class JointModel {
   };
   Standing standing() const;
   void cut();  // the runs anew, where the clocks have them left out now
-  InnovationRun prepared(int run, const DriveView& view) const;
+  InnovationRun prepared(int run, const InnovationRun& of, const DriveView& view) const;
   // Radii, wheelbase and mounting by their column, 0 to 5.
   static double& nuisance(InnovationModel& model, int c);
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;

@@ -6,6 +6,7 @@
 #include "core/calibration/noise_fit.h"
 #include "core/calibration/thinned_truth.h"
 #include "core/diagnosis/model/joint_model.h"
+#include "core/diagnosis/model/outlying.h"
 
 namespace odolab {
 
@@ -89,35 +90,15 @@ void JointModel::fit_noise() {
 }
 
 void JointModel::gate() {
-  FilterOptions options;
-  options.derivatives = false;
-  options.gate = kGate;
+  std::vector<std::vector<char>> aside(runs_.size());
+  parallel_for(static_cast<int>(runs_.size()), [&](int run) {
+    const auto r = static_cast<std::size_t>(run);
+    aside[r] = outlying(prepared(run), model_of(run));
+    for (std::size_t i = 0; i < aside[r].size(); ++i) aside[r][i] = std::max(aside[r][i], masked_[r][i]);
+  });
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const InnovationModel m = model_of(static_cast<int>(r));
-    const InnovationRun run = prepared(static_cast<int>(r));
-    std::vector<double> squared(run.truth.size(), kGate);
-    options.on_innovation = [&](const Innovation& i) { squared[static_cast<std::size_t>(i.truth_index)] = i.squared; };
-    std::vector<char> aside = filtered(run, summed_up(run, m), m, options).set_aside;
-    // More than a few in a row are no outliers: something happened there that is to be explained. But for a tracker
-    // that loses itself for a while: what is behind it lies where the wheels went on from what was before.
-    constexpr std::size_t kFew = 4;
-    constexpr double kBackOnItsWay = 0.25, kOfTheJump = 0.05;
-    for (std::size_t i = 0; i < aside.size();) {
-      std::size_t j = i;
-      double jump = 1e300;  // the least of those refused
-      bool begins_anew = false;
-      for (; j < aside.size() && aside[j]; ++j) {
-        jump = std::min(jump, squared[j]);
-        begins_anew = begins_anew || aside[j] != 1;
-      }
-      const bool comes_back =
-          j < aside.size() && !begins_anew && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
-      if (j - i > kFew && !comes_back) std::fill(aside.begin() + i, aside.begin() + j, 0);
-      i = std::max(j, i + 1);
-    }
-    for (std::size_t i = 0; i < aside.size(); ++i) aside[i] = std::max(aside[i] ? char{1} : char{0}, masked_[r][i]);
-    if (aside == runs_[r].set_aside) continue;
-    runs_[r].set_aside = std::move(aside);
+    if (aside[r] == runs_[r].set_aside) continue;
+    runs_[r].set_aside = std::move(aside[r]);
     linearised_at_.reset();
   }
 }

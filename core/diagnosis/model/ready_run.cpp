@@ -1,5 +1,12 @@
 #include "core/diagnosis/model/ready_run.h"
 
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/calibration/averaged_truth.h"
+#include "core/calibration/fewer_readings.h"
+#include "core/diagnosis/model/outlying.h"
+
 namespace odolab {
 
 Result<InnovationRun> ready_run(const CheckedRecording& c, const Vehicle& vehicle) {
@@ -8,6 +15,33 @@ Result<InnovationRun> ready_run(const CheckedRecording& c, const Vehicle& vehicl
   run->speeds_are_held = c.from_commands;
   if (c.from_commands) run->smooth.clear();  // a command is what it is
   return run;
+}
+
+InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t recording) {
+  InnovationModel model{std::get<DifferentialDrive>(calibration.vehicle.kind), calibration.vehicle.truth,
+                        calibration.noise};
+  if (recording < calibration.time_offset_s.size()) model.truth.time_offset_s = calibration.time_offset_s[recording];
+  return model;
+}
+
+std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
+                                                  const LeastSquaresCalibration& calibration, bool were_fitted) {
+  constexpr double kReadingsApart_s = 0.034;
+  constexpr std::size_t kOfNone = static_cast<std::size_t>(-1);
+  std::vector<Result<InnovationRun>> runs(checked.size(), Error{});
+  parallel_for(static_cast<int>(checked.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    runs[r] = ready_run(checked[r], vehicle);
+    if (!runs[r]) return;
+    const InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
+    const double longest_s = averaging_s(*runs[r]);
+    runs[r]->set_aside = outlying(*runs[r], model);
+    InnovationRun less = with_fewer_readings(with_averaged_truth(*runs[r], model, longest_s),
+                                             std::min(kReadingsApart_s, longest_s));
+    less.as_recorded = std::make_shared<const InnovationRun>(*std::move(runs[r]));
+    runs[r] = std::move(less);
+  });
+  return runs;
 }
 
 }  // namespace odolab

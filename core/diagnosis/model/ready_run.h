@@ -2,11 +2,21 @@
 #pragma once
 
 #include "core/calibration/innovations.h"
+#include "core/calibration/least_squares.h"
 #include "core/diagnosis/quality.h"
 
 namespace odolab {
 
 // The run with its faults left out and, where commands stand in for wheels, held as commands are.
 Result<InnovationRun> ready_run(const CheckedRecording& checked, const Vehicle& vehicle);
+
+// Of a calibration, with the clock of the `recording`-th of those that it was fitted to, or the usual one of others.
+InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t recording);
+
+// All of them, with as few samples as say the same: truth that comes often is averaged, without what contradicts the
+// calibration for a moment, and readings that come often are left out. `were_fitted`: by the calibration, in that
+// order. An error for each that cannot be read.
+std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
+                                                  const LeastSquaresCalibration& calibration, bool were_fitted);
 
 }  // namespace odolab

@@ -195,7 +195,7 @@ LeastSquaresCalibration calibration_with(const JointModel& joint, const Interval
   const double runs = static_cast<double>(joint.clock_s.size());
   out.vehicle.truth.time_offset_s = 0.0;
   for (double c : joint.clock_s) out.vehicle.truth.time_offset_s += c / runs;
-  out.noise = joint.model.noise;
+  out.noise = joint.noise_as_recorded();
   const TruthMounting& truth = out.vehicle.truth;
   const struct {
     const char* name;

@@ -1,0 +1,95 @@
+#include "core/calibration/averaged_truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/quantile.h"
+#include "core/geometry/angles.h"
+
+namespace odolab {
+
+namespace {
+
+double usual_interval_s(const std::vector<TruthSample>& truth) {
+  std::vector<double> intervals_s;
+  for (std::size_t k = 1; k < truth.size(); ++k) intervals_s.push_back(truth[k].time_s - truth[k - 1].time_s);
+  return median(std::move(intervals_s));
+}
+
+std::vector<Pose> poses_by_filter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model) {
+  std::vector<Pose> poses(run.truth.size());
+  FilterOptions options;
+  options.derivatives = false;
+  options.on_step = [&](const FilterStep& s) { poses[static_cast<std::size_t>(s.truth_index)] = s.pose; };
+  filtered(run, summed, model, options);
+  return poses;
+}
+
+}  // namespace
+
+double averaging_s(const InnovationRun& run) {
+  constexpr double kLongest_s = 0.05, kOfATurn = 0.1, kFast = 0.95;
+  std::vector<double> speeds_radps;
+  for (std::size_t i = 1; i < run.wheels.size(); ++i) {
+    const WheelSample &a = run.wheels[i - 1], &b = run.wheels[i];
+    speeds_radps.push_back(std::max(std::abs(b.left_rad - a.left_rad), std::abs(b.right_rad - a.right_rad)) /
+                           (b.time_s - a.time_s));
+  }
+  const double fast_radps = quantile(std::move(speeds_radps), kFast);
+  return fast_radps * kLongest_s > kOfATurn * 2.0 * kPi ? kOfATurn * 2.0 * kPi / fast_radps : kLongest_s;
+}
+
+InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationModel& model, double longest_s) {
+  const double interval_s = usual_interval_s(run.truth);
+  const auto most = static_cast<std::size_t>(longest_s / interval_s + 0.01);
+  if (most < 2) return run;
+  const SummedRun summed = summed_up(run, model);
+  const std::vector<Pose> poses = poses_by_filter(run, summed, model);
+  InnovationRun out = run;
+  out.truth.clear();
+  out.set_aside.clear();
+  out.cut.clear();
+  const std::size_t n = run.truth.size();
+  for (std::size_t first = 0, end; first < n; first = end) {
+    const double until_s = run.truth[first].time_s + (static_cast<double>(most) - 0.5) * interval_s;
+    for (end = first + 1; end < n && end - first < most && run.truth[end].time_s < until_s && !is_cut(run, end);) ++end;
+    Pose axle = poses[first], sum;  // of what the truth has beyond the prediction
+    std::vector<Pose> predicted;
+    double times_s = 0.0, used = 0.0, headings = 0.0;
+    for (std::size_t k = first; k < end; ++k) {
+      if (k > first) axle = axle * summed.motions[k - 1].motion;
+      predicted.push_back(axle * model.truth.axle_T_tracked);
+      if (run.set_aside[k]) continue;
+      const TruthSample& t = run.truth[k];
+      sum.x_m += t.position.x_m - predicted.back().x_m;
+      sum.y_m += t.position.y_m - predicted.back().y_m;
+      if (t.heading_rad) sum.heading_rad += wrapped(*t.heading_rad - predicted.back().heading_rad), ++headings;
+      times_s += t.time_s;
+      ++used;
+    }
+    std::size_t middle = first;
+    if (used > 0.0) {
+      const auto away_s = [&](std::size_t k) { return std::abs(run.truth[k].time_s - times_s / used); };
+      for (std::size_t k = first + 1; k < end; ++k)
+        if (away_s(k) < away_s(middle)) middle = k;
+    }
+    TruthSample mean = run.truth[middle];
+    if (used > 0.0) {
+      const Pose& at = predicted[middle - first];
+      mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};
+      mean.heading_rad.reset();
+      if (headings > 0.0) mean.heading_rad = at.heading_rad + sum.heading_rad / headings;
+    }
+    out.truth.push_back(mean);
+    out.set_aside.push_back(used > 0.0 ? char{0} : run.set_aside[first]);
+    out.truth_variance.push_back(static_cast<double>(most) / std::max(1.0, used));
+    out.cut.push_back(is_cut(run, first));
+  }
+  const double readings_s = (run.wheels.back().time_s - run.wheels.front().time_s) /
+                            static_cast<double>(run.wheels.size() - 1);
+  out.samples_averaged = static_cast<double>(most);
+  out.readings_averaged = std::clamp(out.samples_averaged * interval_s / readings_s, 1.0, out.samples_averaged);
+  return out;
+}
+
+}  // namespace odolab

@@ -1,0 +1,46 @@
+// The joint model of all samples that were recorded, where it was fitted to fewer.
+#include <cmath>
+
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+InnovationRun JointModel::recorded(int r) const {
+  const std::shared_ptr<const InnovationRun>& all = runs_[r].as_recorded;
+  if (!all) return prepared(r);
+  DriveView view;
+  if (!accepted.empty())
+    view = drive_view(numbers_[r], *all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read);
+  return prepared(r, *all, view);
+}
+
+FittedNoise JointModel::noise_as_recorded() const {
+  double samples = 0.0, means = 0.0;
+  for (const InnovationRun& run : runs_) {
+    const double of_run = static_cast<double>(run.truth.size());
+    means += of_run;
+    samples += of_run * run.samples_averaged;
+  }
+  FittedNoise noise = model.noise;
+  const double larger = std::sqrt(samples / means);
+  noise.truth_position_m *= larger;
+  noise.truth_heading_rad *= larger;
+  return noise;
+}
+
+JointModel JointModel::as_recorded() const {
+  JointModel all = *this;
+  all.model.noise = noise_as_recorded();
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    if (!runs_[r].as_recorded) continue;
+    all.runs_[r] = *runs_[r].as_recorded;
+    all.masked_[r] = all.runs_[r].set_aside;
+  }
+  all.now_.reset();
+  all.linearised_at_.reset();
+  all.cut();
+  all.linearise(false);
+  return all;
+}
+
+}  // namespace odolab

@@ -1,0 +1,34 @@
+#include "core/diagnosis/model/outlying.h"
+
+#include <algorithm>
+
+namespace odolab {
+
+std::vector<char> outlying(const InnovationRun& run, const InnovationModel& model) {
+  constexpr std::size_t kFew = 4;
+  constexpr double kBackOnItsWay = 0.25, kOfTheJump = 0.05;
+  FilterOptions options;
+  options.derivatives = false;
+  options.gate = kGate;
+  std::vector<double> squared(run.truth.size(), kGate);
+  options.on_innovation = [&](const Innovation& i) { squared[static_cast<std::size_t>(i.truth_index)] = i.squared; };
+  std::vector<char> aside = filtered(run, summed_up(run, model), model, options).set_aside;
+  for (std::size_t i = 0; i < aside.size();) {
+    std::size_t j = i;
+    double jump = 1e300;  // the least of those refused
+    bool begins_anew = false;
+    for (; j < aside.size() && aside[j]; ++j) {
+      jump = std::min(jump, squared[j]);
+      begins_anew = begins_anew || aside[j] != 1;
+    }
+    const bool comes_back =
+        j < aside.size() && !begins_anew && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
+    const bool is_outlying = j - i <= kFew || comes_back;
+    std::fill(aside.begin() + static_cast<std::ptrdiff_t>(i), aside.begin() + static_cast<std::ptrdiff_t>(j),
+              is_outlying ? 1 : 0);
+    i = std::max(j, i + 1);
+  }
+  return aside;
+}
+
+}  // namespace odolab
