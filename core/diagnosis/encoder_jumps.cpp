@@ -9,15 +9,58 @@ namespace odolab {
 
 namespace {
 
-// By how much a rate stands out from those before and behind it, on the same side of both: a wheel that stops or sets
-// off is like one of them.
+// By how much a rate stands out from those before and behind it, on the same side of both, with its sign: a wheel that
+// stops or sets off is like one of them.
 double standing_out(const std::vector<double>& rates, std::size_t i) {
   constexpr std::size_t kAround = 3;
   if (i < kAround || i + kAround >= rates.size()) return 0.0;
   const auto at = rates.begin() + static_cast<std::ptrdiff_t>(i);
   const double before = median({at - kAround, at}), behind = median({at + 1, at + 1 + kAround});
-  const double up = rates[i] - std::max(before, behind), down = std::min(before, behind) - rates[i];
-  return std::max({0.0, up, down});
+  return rates[i] - std::clamp(rates[i], std::min(before, behind), std::max(before, behind));
+}
+
+// Of the readings of one wheel, each with the next.
+struct Rates {
+  std::vector<double> each, out_by;
+  double usual = 0.0, trembles = 0.0;  // how large they are, and by how much they stand out, but for a few
+};
+
+Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& angle_rad) {
+  constexpr double kNearlyAll = 0.97;
+  Rates rates;
+  for (std::size_t i = 0; i + 1 < angle_rad.size(); ++i)
+    rates.each.push_back((angle_rad[i + 1] - angle_rad[i]) / (time_s[i + 1] - time_s[i]));
+  if (rates.each.empty()) return rates;
+  for (std::size_t i = 0; i < rates.each.size(); ++i) rates.out_by.push_back(standing_out(rates.each, i));
+  const auto size = [&](std::vector<double> of) {
+    for (double& v : of) v = std::abs(v);
+    return quantile(std::move(of), kNearlyAll);
+  };
+  rates.usual = size(rates.each);
+  rates.trembles = size(rates.out_by);
+  return rates;
+}
+
+// That part of a run, its wheel read on by so much from the reading behind `at` on.
+InnovationRun part_about(const InnovationRun& run, std::size_t at, double offset_s, double WheelSample::*wheel,
+                         double more_rad) {
+  constexpr double kAround_s = 1.5, kMore_s = 0.3;
+  InnovationRun part;
+  part.truth_has_heading = run.truth_has_heading;
+  part.counts_show = run.counts_show;
+  const double time_s = run.wheels[at].time_s;
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    if (std::abs(run.wheels[i].time_s - time_s) > kAround_s + kMore_s) continue;
+    part.wheels.push_back(run.wheels[i]);
+    if (i > at) part.wheels.back().*wheel += more_rad;
+  }
+  for (std::size_t k = 0; k < run.truth.size(); ++k) {
+    if (std::abs(run.truth[k].time_s - offset_s - time_s) > kAround_s) continue;
+    part.truth.push_back(run.truth[k]);
+    part.set_aside.push_back(0);
+    part.cut.push_back(is_cut(run, k));
+  }
+  return part;
 }
 
 }  // namespace
@@ -27,27 +70,53 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
   constexpr double kGap_s = 0.5;  // a step over more is no step
   constexpr double kLeast_m = 0.02;
   constexpr double kTyre_mps2 = 20.0;  // twice what a tyre can push
-  std::vector<double> rates, speeds;
-  for (std::size_t i = 0; i + 1 < angle_rad.size(); ++i)
-    rates.push_back((angle_rad[i + 1] - angle_rad[i]) / (time_s[i + 1] - time_s[i]));
-  if (rates.empty()) return {};
-  for (double r : rates) speeds.push_back(std::abs(r));
-  const double usual = quantile(speeds, 0.97);
-  std::vector<double> out_by(rates.size());
-  for (std::size_t i = 0; i < rates.size(); ++i) out_by[i] = standing_out(rates, i);
-  const double trembles = quantile(out_by, 0.97);
+  const Rates rates = rates_of(time_s, angle_rad);
   TimeStretches jumps;
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    const double gap = time_s[i + 1] - time_s[i], by = rates[i] * gap;
+  const std::vector<double>& each = rates.each;
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    const double gap = time_s[i + 1] - time_s[i], by = each[i] * gap;
     if (gap >= kGap_s) continue;
     const bool back_and_on =
-        i > 0 && i + 1 < rates.size() && rates[i] * rates[i - 1] < 0.0 && rates[i] * rates[i + 1] < 0.0;
+        i > 0 && i + 1 < each.size() && each[i] * each[i - 1] < 0.0 && each[i] * each[i + 1] < 0.0;
     const bool too_fast = std::abs(by) * radius_m > kLeast_m && std::abs(by) > 1.5 * count_rad &&
-                          speeds[i] > (back_and_on ? 1.0 : 4.0) * usual;
+                          std::abs(each[i]) > (back_and_on ? 1.0 : 4.0) * rates.usual;
     // One reading off the pace that the wheel had before and has behind it, where no tyre could have pushed it.
-    const bool off_its_pace = out_by[i] * gap > 4.0 * count_rad && out_by[i] > 4.0 * trembles &&
-                              out_by[i] > 0.5 * usual && out_by[i] * radius_m > kTyre_mps2 * gap;
+    const double out_by = std::abs(rates.out_by[i]);
+    const bool off_its_pace = out_by * gap > 4.0 * count_rad && out_by > 4.0 * rates.trembles &&
+                              out_by > 0.5 * rates.usual && out_by * radius_m > kTyre_mps2 * gap;
     if (too_fast || off_its_pace) jumps.push_back({time_s[i], time_s[i + 1]});
+  }
+  return jumps;
+}
+
+TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
+                                  double WheelSample::*wheel) {
+  constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0;
+  constexpr double kBeyondDoubt = 30.0;  // of twice the log-likelihood
+  constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
+  std::vector<double> time_s, angle_rad;
+  for (const WheelSample& w : run.wheels) time_s.push_back(w.time_s), angle_rad.push_back(w.*wheel);
+  const Rates rates = rates_of(time_s, angle_rad);
+  FilterOptions options;
+  options.derivatives = false;
+  TimeStretches jumps;
+  for (std::size_t i = 0; i < rates.each.size(); ++i) {
+    const double out_by = std::abs(rates.out_by[i]), gap_s = time_s[i + 1] - time_s[i];
+    if (out_by < kOfUsual * rates.usual || out_by < kTrembles * rates.trembles ||
+        out_by * gap_s < kCounts * count_rad(run, calibrated.drive))
+      continue;
+    const auto misfit = [&](double share) {
+      const InnovationRun part =
+          part_about(run, i, calibrated.truth.time_offset_s, wheel, -share * rates.out_by[i] * gap_s);
+      if (part.truth.size() < 2) return 0.0;
+      const InnovationSums sums = filtered(part, summed_up(part, calibrated), calibrated, options);
+      return sums.chi2 + sums.log_determinant;
+    };
+    // A parabola through none of it, half and all: the likelihood is one of the share.
+    const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = none - 2.0 * half + all;
+    if (none - all < kBeyondDoubt || bend <= 0.0) continue;
+    const double best = 0.5 + 0.25 * (none - all) / bend;
+    if (std::abs(best - 1.0) < kAllOfIt) jumps.emplace_back(time_s[i], time_s[i + 1]);
   }
   return jumps;
 }

@@ -1,8 +1,10 @@
-// Where an encoder jumps: between two readings it makes a step that no wheel could make.
+// Where an encoder jumps: between two readings it makes a step that no wheel could make, or one that the truth
+// contradicts.
 #pragma once
 
 #include <vector>
 
+#include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
 
 namespace odolab {
@@ -11,5 +13,10 @@ namespace odolab {
 // Each stretch goes from the reading before a jump to the one behind it.
 TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector<double>& angle_rad, double radius_m,
                             double count_rad);
+
+// Readings of one wheel that are off the pace before and behind them by a quarter of its usual speed, though a wheel
+// might be, where the truth shows beyond doubt that the vehicle went on at its pace: each from one reading to the next.
+TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
+                                  double WheelSample::*wheel);
 
 }  // namespace odolab

@@ -30,7 +30,10 @@ std::vector<double> inflations_of(const Selected& selected) {
 ScoredCandidate of_all_recordings(const JointModel& of_all, std::size_t k, ScoredCandidate c, const Effect& effect,
                                   const std::vector<double>& shape) {
   const CandidateTest of = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
-  c.test.statistic = of.statistic, c.test.freedom = of.freedom;
+  const AcceptedEffect& accepted = of_all.accepted[k];
+  const bool is_itself = accepted.is_held && accepted.effect == &effect;
+  c.test.statistic = is_itself ? of_all.lost_without(static_cast<int>(k)) : of.statistic;
+  c.test.freedom = of.freedom;
   judge(c);
   return c;
 }

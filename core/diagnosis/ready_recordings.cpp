@@ -1,6 +1,7 @@
 #include "core/diagnosis/ready_recordings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -8,6 +9,7 @@
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
+#include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/truth_jumps.h"
 
@@ -42,6 +44,35 @@ std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::
     left_out_s = joined(std::move(left_out_s));
   }
   return all;
+}
+
+// Where a reading is off its wheel's pace and the truth knows nothing of it, it is left out. Whether there is any.
+bool leave_out_encoder_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
+                             const Vehicle& nominal) {
+  std::vector<std::array<TimeStretches, 2>> of_each(each.size());
+  parallel_for(static_cast<int>(each.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    const Result<InnovationRun> run = ready_run(*each[r], nominal);
+    if (!run || each[r]->from_commands) return;
+    const InnovationModel model = model_of(ready.calibration, r);
+    of_each[r] = {jumps_against_truth(*run, model, &WheelSample::left_rad),
+                  jumps_against_truth(*run, model, &WheelSample::right_rad)};
+  });
+  bool any = false;
+  for (std::size_t r = 0; r < each.size(); ++r)
+    for (const bool left : {true, false}) {
+      const TimeStretches& jumps = of_each[r][left ? 0 : 1];
+      if (jumps.empty()) continue;
+      any = true;
+      const std::string side = left ? "left" : "right";
+      each[r]->faults.push_back({"encoder_data_fault", side + "_wheel", each[r]->recording.name, jumps,
+                                 "the " + side + " encoder jumps, and the truth goes on as before, " +
+                                     std::to_string(jumps.size()) + " time(s); left out"});
+      TimeStretches& left_out_s = each[r]->left_out_s;
+      left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
+      left_out_s = joined(std::move(left_out_s));
+    }
+  return any;
 }
 
 std::string in_words(const std::vector<TruthJump>& jumps) {
@@ -100,6 +131,8 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
+  if (leave_out_encoder_jumps(ready, each, nominal))
+    if (const Result<Done> done = calibrate(); !done) return done.error();
   constexpr int kMostRounds = 3;  // without the largest, smaller ones show
   for (int round = 0; round < kMostRounds; ++round) {
     const std::vector<TruthJump> jumps = leave_out_jumps(ready, each, nominal);

@@ -55,14 +55,14 @@ class WayBack {
   double gone_m_ = 0.0, furthest_m_ = 0.0;
 };
 
-// One kick at each reversal: at once, or spread over so much of the way.
+// One kick at each reversal: at once, or spread over so much of the way once it is sure to, since a castor that was
+// turned about hardly swings at first.
 Motions even_kicks(const DriveView& view, bool to_one_side, double over_m) {
   Motions m(view.steps.size());
   for (const Reversal& r : reversals(view)) {
     double since_m = 0.0;
-    WayBack way_back(r);
-    for (std::size_t i = r.first; i < view.steps.size() && since_m < over_m; ++i) {
-      const double way_m = way_back.of_step(view, i);
+    for (std::size_t i = over_m < kReversed_m ? r.first : r.sure; i < view.steps.size() && since_m < over_m; ++i) {
+      const double way_m = std::abs(view.steps[i].forward_m());
       m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * std::min(way_m, over_m - since_m) / over_m;
       since_m += way_m;
     }

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/generic/swaying_truth.h"
 
 namespace odolab {
 
@@ -47,19 +48,21 @@ double coordinate(Along along, const DriveView& view, const EffectStep& s) {
 constexpr int kChannelsOfAll = kTurnOfItself;
 
 // What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
-// time, for each second that it moves; and, in time, the pace of the clock, which all motion has in common.
-constexpr int kAcross = kChannelsOfAll, kPace = kChannelsOfAll + 1, kChannels = kChannelsOfAll + 2;
+// time, for each second that it moves; and, in time, the pace of the clock, which all motion has in common, and the turn
+// by itself, as a wheelbase does that is wider for a while.
+constexpr int kAcross = kChannelsOfAll, kPace = kChannelsOfAll + 1, kTurning = kChannelsOfAll + 2,
+              kChannels = kChannelsOfAll + 3;
 
 // What is summed up: the generic channels; what carries it across the floor, along x and along y, for each metre and
-// for each second; the pace.
-enum Slot { across_m = kAcross, across_s = across_m + 2, of_pace = across_s + 2, kSlots };
+// for each second; the pace; the turn.
+enum Slot { across_m = kAcross, across_s = across_m + 2, of_pace = across_s + 2, of_turning, kSlots };
 // Those that a wave in time modulates, that one along the way or the turning does, and one on the floor; and the
 // channels that they belong to.
 struct Modulated {
   int slot, channel;
 };
 constexpr Modulated kInTime[] = {{0, 0},          {1, 1}, {2, 2}, {across_s, kAcross}, {across_s + 1, kAcross},
-                                 {of_pace, kPace}};
+                                 {of_pace, kPace}, {of_turning, kTurning}};
 constexpr Modulated kOnTheWay[] = {{0, 0}, {1, 1}, {2, 2}};
 constexpr Modulated kOnTheFloor[] = {{0, 0}, {1, 1}, {2, 2}, {across_m, kAcross}, {across_m + 1, kAcross}};
 
@@ -93,8 +96,8 @@ Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, Along along) 
     u.of[0] = unit_of_channel(s, wheelbase_m, channel);
     return u;
   }
-  if (channel == kPace) {
-    u.of[0] = {s.forward_m(), 0.0, s.turn_rad};
+  if (channel == kPace || channel == kTurning) {
+    u.of[0] = {channel == kPace ? s.forward_m() : 0.0, 0.0, s.turn_rad};
     return u;
   }
   const bool moves = s.forward_m() != 0.0 || s.turn_rad != 0.0;
@@ -117,7 +120,9 @@ void add_scores(const DriveView& view, const EffectStep& s, const BodyMotion& of
   const Unit u = unit_of(s, b, kAcross, along);
   for (int axis = 0; axis < 2; ++axis)
     score[(along == Along::time ? across_s : across_m) + axis] += product(u.of[axis], of_step);
-  if (along == Along::time) score[of_pace] += product(unit_of(s, b, kPace, along).of[0], of_step);
+  if (along != Along::time) return;
+  score[of_pace] += product(unit_of(s, b, kPace, along).of[0], of_step);
+  score[of_turning] += product(unit_of(s, b, kTurning, along).of[0], of_step);
 }
 
 // A stretch of a run so short that no wave of the floor turns far within it.
@@ -370,20 +375,24 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
       }
   double looked_at = other_tests;
   for (const Heard& h : heard)
-    looked_at += h.wave.along == Along::way || h.wave.along == Along::turning ? kChannelsOfAll : kChannels;
+    looked_at += h.wave.along == Along::time    ? kChannels
+                 : h.wave.along == Along::floor ? kChannelsOfAll + 1
+                                                : kChannelsOfAll;
   std::vector<GenericTest> tests(chosen.size());
   parallel_for(static_cast<int>(chosen.size()), [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     const Wave wave = between_neighbours(*chosen[static_cast<std::size_t>(i)].wave, channel, views, scores);
     t.variable = name_of(wave);
-    t.channel = channel == kPace ? "pace of its clock [1]"
+    t.channel = channel == kPace      ? "pace of its clock [1]"
+                : channel == kTurning ? name_of_channel(kTurnOfItself)
                 : channel == kAcross
                     ? wave.in_time() ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     ask(t, asked, term, looked_at);
     leave_to_counting(t, asked.joint);
+    if (wave.in_time()) leave_to_swaying_truth(t, asked.joint);
     const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.on_the_floor() ? 1 : runs); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {

@@ -302,8 +302,9 @@ void JointModel::add_products(int run, MatrixXd& gram, VectorXd& zr) const {
 double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
   constexpr double kStraight = 0.1;  // a third: over so little the model is linear
-  const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(),
-                                         [](const AcceptedEffect& a) { return a.effect->shape_follows_amplitude; });
+  const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(), [](const AcceptedEffect& a) {
+    return a.effect->shape_follows_amplitude && !a.is_held;
+  });
   const std::vector<int> held = held_columns();
   linearise();
   double gained = 0.0;
@@ -342,7 +343,7 @@ double JointModel::fit(int iterations) {
           a.value[j] = std::clamp(was + scale * step(k), a.effect->amplitudes[j].low, a.effect->amplitudes[j].high);
           gone(k) = a.value[j] - was;
         }
-        if (a.effect->shape_follows_amplitude) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
+        if (a.effect->shape_follows_amplitude && !a.is_held) a.shape[0] = std::max(0.5 * (a.shape[0] + a.value[0]), 1e-4);
       }
     };
     if (size < kStraight && !shapes_follow) {
@@ -380,6 +381,10 @@ double* JointModel::clock_rate_of(int run) {
 
 std::vector<int> JointModel::held_columns() const {
   std::vector<int> held;
+  for (std::size_t k = 0; k < accepted.size(); ++k)
+    if (accepted[k].is_held)
+      for (std::size_t j = 0; j < accepted[k].value.size(); ++j)
+        held.push_back(first_column(static_cast<int>(k)) + static_cast<int>(j));
   if (!clocks_are_held) return held;
   for (std::size_t r = 0; r < runs_.size(); ++r) held.push_back(clock_column(static_cast<int>(r)));
   for (std::size_t k = 0; k < accepted.size(); ++k)

@@ -16,6 +16,7 @@ namespace odolab {
 struct AcceptedEffect {
   const Effect* effect = nullptr;
   std::vector<double> shape, value, stderr_value;
+  bool is_held = false;  // found by the likelihood itself: fits leave it where it is
   bool acts_on_motion() const { return !effect->clock_rate; }
 };
 
@@ -134,6 +135,9 @@ class JointModel {
   // How fast the log-likelihood grows with the motion of each wheel interval of a run, everything in the model fitted
   // anew: the score of any column is its product with this.
   std::vector<BodyMotion> score_of_motions(int run) const;
+  // By how much twice the log-likelihood is smaller without an accepted effect, all else fitted anew; and that model. A
+  // score is linear about the model that has the effect: where that is much, only this tells.
+  double lost_without(int accepted_effect, JointModel* without = nullptr) const;
   // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
   // what happened in it alone is unknown to the others.
   JointModel left_out(int run) const;

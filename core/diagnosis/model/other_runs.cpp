@@ -33,7 +33,12 @@ JointModel JointModel::left_out(int run) const {
   std::vector<char> unknown(gram.rows(), 0);
   for (Eigen::Index c = 0; c < gram.rows(); ++c) unknown[c] = gram(c, c) < 1e-6 * gram_(c, c);
   int amplitude = first_amplitude();
+  std::vector<char> held(gram.rows(), 0);
   for (const AcceptedEffect& a : accepted) {
+    if (a.is_held) {  // as all of them say
+      for (std::size_t j = 0; j < a.value.size(); ++j) held[static_cast<std::size_t>(amplitude++)] = 1;
+      continue;
+    }
     double sigmas = 0.0;
     for (std::size_t j = 0; j < a.value.size(); ++j) {
       const Eigen::Index c = amplitude + static_cast<int>(j);
@@ -49,7 +54,7 @@ JointModel JointModel::left_out(int run) const {
     }
   }
   for (Eigen::Index c = 0; c < gram.rows(); ++c)
-    if (unknown[c]) {
+    if (unknown[c] || held[static_cast<std::size_t>(c)]) {
       gram.row(c).setZero();
       gram.col(c).setZero();
       gram(c, c) = 1.0;
@@ -84,6 +89,15 @@ JointModel JointModel::left_out(int run) const {
   one.now_ = kept;
   one.linearise(false);
   return one;
+}
+
+double JointModel::lost_without(int accepted_effect, JointModel* kept) const {
+  JointModel without = *this;
+  without.accepted.erase(without.accepted.begin() + accepted_effect);
+  without.fit(4);
+  const double lost = without.minus_two_log_likelihood() - minus_two_log_likelihood();
+  if (kept) *kept = std::move(without);
+  return lost;
 }
 
 JointModel JointModel::together_with(const JointModel& others) const {

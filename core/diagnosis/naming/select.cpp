@@ -126,6 +126,32 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   return false;
 }
 
+// A lag and a clock's offset feign each other, along a valley that is bent: steps along the columns run out of it, to and
+// fro. Its bottom is looked for by the likelihood itself, all else fitted anew at each size.
+void go_down_the_valley(JointModel& joint) {
+  constexpr double kFirstStride = 0.15, kLastStride = 0.005;  // of the size
+  constexpr int kMostSteps = 24;
+  const auto at = [&](double size) {
+    JointModel there = joint;
+    AcceptedEffect& a = there.accepted.back();
+    a.shape[0] = a.value[0] = size;
+    a.is_held = true;
+    there.fit(3);
+    return there;
+  };
+  JointModel best = at(std::max(joint.accepted.back().value[0], 1e-3));
+  for (double stride = kFirstStride; stride > kLastStride; stride *= 0.5) {
+    for (int step = 0; step < kMostSteps; ++step) {
+      const double size = best.accepted.back().value[0];
+      JointModel more = at(size * (1.0 + stride)), less = at(size / (1.0 + stride));
+      JointModel& better = more.minus_two_log_likelihood() < less.minus_two_log_likelihood() ? more : less;
+      if (!(better.minus_two_log_likelihood() < best.minus_two_log_likelihood())) break;
+      best = std::move(better);
+    }
+  }
+  joint = std::move(best);
+}
+
 // Twice what the log-likelihood gains by it under the noise as it is.
 double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
@@ -150,6 +176,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
            std::abs(now.shape[0] - now.value[0]) < kSettled * std::max(now.shape[0], 1e-3);
   };
   for (int round = 0; round < kMostRounds && !settled(); ++round) gained += joint.fit(3);
+  if (c.effect->only_commands) go_down_the_valley(joint);
   return gained;
 }
 
@@ -313,16 +340,16 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       }
   }
   // Backward, and what else could have been said in the place of each.
-  const auto share_of = [&](std::size_t k) {
-    double all = 0.0, own = 0.0;
+  const auto share_of = [&](std::size_t k, double at_least = 0.0) {
+    double others = 0.0, own = 0.0;
     for (std::size_t j = 0; j < joint.accepted.size(); ++j) {
       const double t =
           joint.test(joint.columns_of(*joint.accepted[j].effect, joint.accepted[j].shape), static_cast<int>(j))
               .statistic;
-      all += t;
-      if (j == k) own = t;
+      (j == k ? own : others) += t;
     }
-    return all > 0.0 ? own / all : 1.0;
+    own = std::max(own, at_least);
+    return own + others > 0.0 ? own / (own + others) : 1.0;
   };
   for (std::size_t k = 0; k < joint.accepted.size();) {
     if (with_all.empty()) with_all = scored_candidates(joint);
@@ -337,14 +364,11 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (c.effect == joint.accepted[k].effect) own = c;
     const double least = least_share(joint, *joint.accepted[k].effect, joint.distrust());
     if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
-      // The score is linear about a model that has the effect; where that is much, only a fit without it tells.
       JointModel without = joint;
-      without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
-      without.fit(4);
-      const double lost = without.minus_two_log_likelihood() - joint.minus_two_log_likelihood();
+      const double lost = joint.lost_without(static_cast<int>(k), &without);
       without.fit_noise_and_all();
-      const bool needed =
-          lost > 100.0 && share_of(k) > least && lowers(without.gathered_error(), joint.gathered_error(), kMaterial);
+      const bool needed = lost > 100.0 && share_of(k, joint.accepted[k].is_held ? lost : 0.0) > least &&
+                          lowers(without.gathered_error(), joint.gathered_error(), kMaterial);
       if (!needed) {
         joint = without;
         with_all.clear();

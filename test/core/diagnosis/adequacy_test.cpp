@@ -53,6 +53,29 @@ TEST(Adequacy, CallsATruthSeenThroughALensUnknownAndSaysThatItsPositionsAreBent)
   EXPECT_NEAR(cubic, there, 0.1 * there);  // 2 % at the rim, so much is the place itself off
 }
 
+// The place that is measured sways to and fro, each recording at a time of its own.
+void sway(std::vector<Recording>& recordings, double by_m) {
+  double phase = 0.0;
+  for (Recording& r : recordings) {
+    phase += 1.0;
+    for (Channel& c : r.channels)
+      for (std::size_t i = 0; i < c.values.size(); ++i) {
+        const double angle = 2.0 * kPi * r.time_s[i] / 13.0 + phase;
+        if (c.name == "truth_x_m") c.values[i] += by_m * std::sin(angle);
+        if (c.name == "truth_y_m") c.values[i] += by_m * std::cos(1.1 * angle);
+      }
+  }
+}
+
+// Motion capture of a millimetre: cameras sway by as much, and no floor is known to a millimetre.
+TEST(Adequacy, LeavesToTheTruthWhatSwaysWithinItsError) {
+  test::Case c = case_of("", 1.0, 4, 8);
+  sway(c.recordings, 0.0008);
+  EXPECT_EQ(diagnose(c.recordings, {}, c.nominal)->verdict, Verdict::nothing_missing);
+  sway(c.recordings, 0.008);
+  EXPECT_EQ(diagnose(c.recordings, {}, c.nominal)->verdict, Verdict::unknown_effect);
+}
+
 TEST(Adequacy, CallsAClockThatWandersUnknownAndSaysItsPace) {
   test::Case c = case_of("", 1.0, 3, 5);
   // 60 ms to and fro in 16 s: a pace of 2.4 %

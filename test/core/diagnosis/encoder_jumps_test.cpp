@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "core/base/random.h"
+#include "core/geometry/track.h"
+#include "core/odometry/differential_drive.h"
+
 namespace odolab {
 namespace {
 
@@ -50,6 +54,50 @@ TEST(EncoderJumps, AreNotWhereReadingsAreCoarse) {
   Read r = read([](double) { return 1.0; });
   for (double& a : r.angle_rad) a = 0.1 * std::floor(a / 0.1);
   EXPECT_TRUE(encoder_jumps(r.time_s, r.angle_rad, kRadius_m, 0.1).empty());
+}
+
+// Straight on at 0.3 m/s, read 25 times a second, for twelve seconds; the left wheel's reading falls behind by 0.1 rad
+// between two readings, which a tyre could do, and stays so. The truth is of a millimetre; `followed`: it did so, too.
+InnovationRun falls_behind(const InnovationModel& model, bool followed) {
+  constexpr double kSpeed_radps = 3.0, kLost_rad = 0.1, kAt_s = 6.01;
+  Random random(3);
+  InnovationRun run;
+  Track way;
+  Pose pose;
+  for (int i = 0; i <= 300; ++i) {
+    const double t = 0.04 * i, angle = kSpeed_radps * t, lost = t > kAt_s ? kLost_rad : 0.0;
+    run.wheels.push_back({t, angle - lost, angle});
+    const bool now = followed && t > kAt_s && t - 0.04 <= kAt_s;
+    if (i > 0)
+      pose = dead_reckoned(pose, 0.04 * kSpeed_radps - (now ? kLost_rad : 0.0), 0.04 * kSpeed_radps, model.drive);
+    way.push_back({t, pose});
+  }
+  for (int k = 0; k <= 1200; ++k) {
+    const Pose at = *pose_at(way, 0.01 * k);
+    run.truth.push_back({0.01 * k,
+                         {at.x_m + 0.001 * random.normal(), at.y_m + 0.001 * random.normal()},
+                         at.heading_rad + 0.002 * random.normal()});
+  }
+  run.truth_has_heading = true;
+  run.set_aside.assign(run.truth.size(), 0);
+  return run;
+}
+
+TEST(EncoderJumps, AreWhereAReadingIsOffItsPaceAndTheTruthIsNot) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  const InnovationRun jumps = falls_behind(model, false), slows = falls_behind(model, true);
+  std::vector<double> time_s, angle_rad;
+  for (const WheelSample& w : jumps.wheels) time_s.push_back(w.time_s), angle_rad.push_back(w.left_rad);
+  EXPECT_TRUE(encoder_jumps(time_s, angle_rad, 0.1, 0.003).empty()) << "a wheel might do so";
+
+  const TimeStretches found = jumps_against_truth(jumps, model, &WheelSample::left_rad);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found.front().first, 6.0, 1e-9);
+  EXPECT_NEAR(found.front().second, 6.04, 1e-9);
+  EXPECT_TRUE(jumps_against_truth(jumps, model, &WheelSample::right_rad).empty());
+  EXPECT_TRUE(jumps_against_truth(slows, model, &WheelSample::left_rad).empty());
 }
 
 }  // namespace

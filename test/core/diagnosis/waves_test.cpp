@@ -158,5 +158,34 @@ TEST(Waves, OfAWheelThatIsCarriedFurtherThanItsReadingsHideAreFoundAtAnEvenSpeed
   EXPECT_EQ(t.variable, "way, in waves of 0.47 m");
 }
 
+// Turns that are wider by three hundredths for a fifth of a minute, and narrower for the next, through all recordings.
+TEST(Waves, OfAWheelbaseThatFlexesAreFoundWithTheirPeriod) {
+  Random random(9);
+  test::Case c;
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 1.0 / 60.0);
+  g.duration_s = 60.0;
+  const auto flexing = [&](int) {
+    return [&](test::InjectedStep& s) {
+      const double turn_rad = 0.075 * (s.right_radps - s.left_radps) * s.dt_s / 0.34;
+      s.turn_rad += 0.03 * std::sin(2.0 * kPi * s.time_s / 25.0) * turn_rad;
+    };
+  };
+  const auto winding = [](int run) -> test::SpeedProfile {
+    return [run](double t) {
+      const double turn = 2.5 * std::sin((0.4 + 0.1 * run) * t);
+      return test::WheelSpeedsAt{4.0 - turn, 4.0 + turn};
+    };
+  };
+  c.recordings = test::three_runs(g, random, winding, flexing);
+  const JointModel joint = calibrated(c);
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(joint), 0);
+  const GenericTest& t = strongest(tests);
+  EXPECT_LT(t.p_value, 1e-6);
+  EXPECT_EQ(t.channel, "turn per turn [1]");
+  double period_s = 0.0;
+  ASSERT_EQ(std::sscanf(t.variable.c_str(), "time, in waves of %lf s", &period_s), 1) << t.variable;
+  EXPECT_NEAR(period_s, 25.0, 5.0);  // two and a half of them in a recording
+}
+
 }  // namespace
 }  // namespace odolab

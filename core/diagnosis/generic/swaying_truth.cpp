@@ -1,0 +1,39 @@
+#include "core/diagnosis/generic/swaying_truth.h"
+
+#include <algorithm>
+
+namespace odolab {
+
+namespace {
+
+bool is_within_truths_error(const JointModel& joint, const Effect& term, const std::vector<double>& value) {
+  const double error_m = joint.noise_as_recorded().truth_position_m;
+  for (const DriveView& view : joint.views()) {
+    const std::vector<Motions> columns = term.motions(view, {});
+    Motions motion(view.steps.size());
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].add_to(motion, value[k]);
+    Vec2 gone_m, low_m, high_m;
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const BodyMotion m = motion.at(i);
+      if (m.turn_rad != 0.0) return false;
+      gone_m = gone_m + Vec2{m.forward_m * s.cos_heading - m.sideways_m * s.sin_heading,
+                             m.forward_m * s.sin_heading + m.sideways_m * s.cos_heading};
+      low_m = {std::min(low_m.x_m, gone_m.x_m), std::min(low_m.y_m, gone_m.y_m)};
+      high_m = {std::max(high_m.x_m, gone_m.x_m), std::max(high_m.y_m, gone_m.y_m)};
+    }
+    if (std::max(high_m.x_m - low_m.x_m, high_m.y_m - low_m.y_m) > 2.0 * error_m) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void leave_to_swaying_truth(GenericTest& t, const JointModel& joint) {
+  for (CandidateTest* of : {&t.test, &t.instead})
+    if (!of->value.empty() && t.p_value_of(*of) < 1.0 && is_within_truths_error(joint, *t.as_effect, of->value))
+      of->statistic = 0.0;
+  t.p_value = t.p_value_of(t.test);
+}
+
+}  // namespace odolab

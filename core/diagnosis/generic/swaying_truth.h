@@ -1,0 +1,13 @@
+// What a truth that sways slowly makes: cameras that warm, a frame that bends, reflections that come and go.
+#pragma once
+
+#include "core/diagnosis/generic/generic_tests.h"
+
+namespace odolab {
+
+// Lets a group that comes and goes with time say nothing where it carries the vehicle no further to either side, along x
+// and along y of the floor, than a single sample of the truth errs: a place that is off for a while and comes back was
+// never left, and what it is that sways cannot be told.
+void leave_to_swaying_truth(GenericTest& test, const JointModel& joint);
+
+}  // namespace odolab
