@@ -1,16 +1,23 @@
 #include "core/io/diagnosis_json.h"
 
+#include <cmath>
+
 namespace odolab {
 
 namespace {
 
+// Where only ratios of lengths show, each is as uncertain as the vehicle's file was taken to be.
 Json calibration_json(const LeastSquaresCalibration& calibration) {
+  constexpr double kVehiclesFile = 0.1;
   Json json = Json::object();
   for (const ParameterEstimate& p : calibration.parameters) {
+    const bool is_a_ratio = calibration.scale_is_open && p.determined && p.name.find('.') == std::string::npos;
     Json& entry = json[p.name];
     entry["value"] = p.value;
-    entry["stderr"] = p.determined ? Json(p.stderr_value) : Json();
+    entry["stderr"] =
+        p.determined ? Json(is_a_ratio ? std::hypot(p.stderr_value, kVehiclesFile * p.value) : p.stderr_value) : Json();
     entry["unit"] = p.unit;
+    if (is_a_ratio) entry["only_its_ratio_shows"] = true;
     if (!p.determined) entry["determined"] = false;
   }
   return json;

@@ -17,14 +17,15 @@ using Eigen::VectorXd;
 constexpr double kFormError = 0.01;
 constexpr double kErrorOfForms = 0.05;  // where machines show it in several forms, of which the nearest was taken
 
-constexpr double kWheelSample_s = 0.02;  // a time is not known better than to about the reading in which it lies
+// A time is not known better than to the mean of the truth in which it lies; and a push has a beginning, too.
+constexpr double kMoment_s = 0.05;
 
 // What the form itself cannot resolve. A speed above which counts are missed is seen in counts of which some are
 // missed.
 double resolution_of(const AcceptedEffect& a, int shape) {
   const std::string& unit = a.effect->shapes[static_cast<std::size_t>(shape)].unit;
   if (unit == "rad/s") return std::abs(a.value[0] * a.shape[static_cast<std::size_t>(shape)]);
-  return unit == "s" ? kWheelSample_s : 0.0;
+  return unit == "s" ? kMoment_s : 0.0;
 }
 
 // What whole counts leave open of something that happens once: each wheel's way from before to behind it is off by the

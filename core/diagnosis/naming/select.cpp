@@ -6,6 +6,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/naming/clocks_first.h"
+#include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
 
@@ -126,32 +127,6 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
   return false;
 }
 
-// A lag and a clock's offset feign each other, along a valley that is bent: steps along the columns run out of it, to and
-// fro. Its bottom is looked for by the likelihood itself, all else fitted anew at each size.
-void go_down_the_valley(JointModel& joint) {
-  constexpr double kFirstStride = 0.15, kLastStride = 0.005;  // of the size
-  constexpr int kMostSteps = 24;
-  const auto at = [&](double size) {
-    JointModel there = joint;
-    AcceptedEffect& a = there.accepted.back();
-    a.shape[0] = a.value[0] = size;
-    a.is_held = true;
-    there.fit(3);
-    return there;
-  };
-  JointModel best = at(std::max(joint.accepted.back().value[0], 1e-3));
-  for (double stride = kFirstStride; stride > kLastStride; stride *= 0.5) {
-    for (int step = 0; step < kMostSteps; ++step) {
-      const double size = best.accepted.back().value[0];
-      JointModel more = at(size * (1.0 + stride)), less = at(size / (1.0 + stride));
-      JointModel& better = more.minus_two_log_likelihood() < less.minus_two_log_likelihood() ? more : less;
-      if (!(better.minus_two_log_likelihood() < best.minus_two_log_likelihood())) break;
-      best = std::move(better);
-    }
-  }
-  joint = std::move(best);
-}
-
 // Twice what the log-likelihood gains by it under the noise as it is.
 double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
@@ -176,7 +151,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
            std::abs(now.shape[0] - now.value[0]) < kSettled * std::max(now.shape[0], 1e-3);
   };
   for (int round = 0; round < kMostRounds && !settled(); ++round) gained += joint.fit(3);
-  if (c.effect->only_commands) go_down_the_valley(joint);
+  if (c.effect->only_commands) put_lag_where_likeliest(joint);
   return gained;
 }
 

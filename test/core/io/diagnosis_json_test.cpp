@@ -82,6 +82,15 @@ TEST(DiagnosisJson, WhatIsNotDeterminedHasNoError) {
   EXPECT_EQ(json["calibration"]["truth_mounting.x_m"]["value"], 0.0);
 }
 
+// Straights to and fro tell how the wheels differ, and not how large they are.
+TEST(DiagnosisJson, ALengthOfWhichOnlyTheRatioShowsIsAsUncertainAsTheVehiclesFile) {
+  Diagnosis diagnosis = test::diagnosis_by_hand();
+  diagnosis.calibration.scale_is_open = true;
+  const nlohmann::json radius = parsed(diagnosis)["calibration"]["wheel_radius_left_m"];
+  EXPECT_NEAR(radius["stderr"].get<double>(), 0.1 * radius["value"].get<double>(), 1e-6);
+  EXPECT_TRUE(radius["only_its_ratio_shows"].get<bool>());
+}
+
 TEST(DiagnosisJson, ErrorsThatATruthWithoutHeadingsDoesNotTellAreNull) {
   Diagnosis diagnosis = test::diagnosis_by_hand();
   diagnosis.held_out.calibrated = FitFigures{0.0, 0.0, 3.2};
