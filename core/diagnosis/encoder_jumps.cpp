@@ -91,7 +91,7 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
 
 TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
                                   double WheelSample::*wheel) {
-  constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0;
+  constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0, kBeside = 0.3;
   constexpr double kBeyondDoubt = 30.0;  // of twice the log-likelihood
   constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
   std::vector<double> time_s, angle_rad;
@@ -100,11 +100,13 @@ TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationMode
   FilterOptions options;
   options.derivatives = false;
   TimeStretches jumps;
-  for (std::size_t i = 0; i < rates.each.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < rates.each.size(); ++i) {
     const double out_by = std::abs(rates.out_by[i]), gap_s = time_s[i + 1] - time_s[i];
     if (out_by < kOfUsual * rates.usual || out_by < kTrembles * rates.trembles ||
         out_by * gap_s < kCounts * count_rad(run, calibrated.drive))
       continue;
+    // A wheel that slows and speeds up again takes more than one reading for it.
+    if (std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) > kBeside * out_by) continue;
     const auto misfit = [&](double share) {
       const InnovationRun part =
           part_about(run, i, calibrated.truth.time_offset_s, wheel, -share * rates.out_by[i] * gap_s);

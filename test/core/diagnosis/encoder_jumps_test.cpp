@@ -100,5 +100,18 @@ TEST(EncoderJumps, AreWhereAReadingIsOffItsPaceAndTheTruthIsNot) {
   EXPECT_TRUE(jumps_against_truth(slows, model, &WheelSample::left_rad).empty());
 }
 
+// A truth whose clock is late by a tenth of a second knows nothing yet of a wheel that stops for a moment.
+TEST(EncoderJumps, AreNotWhereAWheelSlowsAndSpeedsUpAgain) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  InnovationRun run = falls_behind(model, false);
+  const double slowed_rad[] = {0.02, 0.08, 0.1, 0.05};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 151 + k; i < run.wheels.size(); ++i) run.wheels[i].left_rad -= slowed_rad[k];
+  for (std::size_t i = 151; i < run.wheels.size(); ++i) run.wheels[i].left_rad += 0.1;  // instead of the jump
+  EXPECT_TRUE(jumps_against_truth(run, model, &WheelSample::left_rad).empty());
+}
+
 }  // namespace
 }  // namespace odolab
