@@ -367,7 +367,10 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
           c.effect->name == own.effect->name || says_as_much_beside(c, with_all))
         continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
-      const double beaten_by = std::max(2.0 * kClearlyBeaten, at_one_place ? kFormError * own.test.judged() : 0.0);
+      // What was looked for in more places and at more times must say so much more.
+      const double by_tries = 2.0 * std::max(0.0, own.log_tests - c.log_tests);
+      const double beaten_by =
+          std::max(2.0 * kClearlyBeaten + by_tries, at_one_place ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by)
         alternatives.push_back(c);
       else if (own.effect->of_one_recording && !c.effect->of_one_recording && stands(c, family_wise_error) &&
