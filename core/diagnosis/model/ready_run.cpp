@@ -38,7 +38,8 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     runs[r]->set_aside = outlying(*runs[r], model);
     InnovationRun less = with_fewer_readings(with_averaged_truth(*runs[r], model, longest_s),
                                              std::min(kReadingsApart_s, longest_s));
-    less.as_recorded = std::make_shared<const InnovationRun>(*std::move(runs[r]));
+    if (less.truth.size() < runs[r]->truth.size() || less.wheels.size() < runs[r]->wheels.size())
+      less.as_recorded = std::make_shared<const InnovationRun>(*std::move(runs[r]));
     runs[r] = std::move(less);
   });
   return runs;
