@@ -1,12 +1,50 @@
 // Above a wheel speed a share of the counts is lost: the wheel turns further than its encoder says.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/diagnosis/effects/effect.h"
 
 namespace odolab::effects {
 
 namespace {
+
+// Limits of a wheel's speed to try: an even grid, and halfway from one twentieth of the way to the next, by how fast
+// the wheel went there. Between two speeds that a vehicle keeps all limits are one, and beyond either is another; a
+// grid alone steps over it.
+std::vector<std::vector<double>> limits(const std::vector<DriveView>& views, Wheel wheel) {
+  constexpr int kParts = 20, kGrid = 12;
+  constexpr double kApart = 0.01;  // of the highest speed
+  std::vector<std::pair<double, double>> speed_and_way;
+  double total_m = 0.0;
+  const auto add = [&](double speed_radps, double way_m) {
+    speed_and_way.emplace_back(std::abs(speed_radps), std::abs(way_m));
+    total_m += std::abs(way_m);
+  };
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      if (wheel != Wheel::right) add(s.left_radps, s.left_m);
+      if (wheel != Wheel::left) add(s.right_radps, s.right_m);
+    }
+  if (total_m <= 0.0) return {};
+  std::sort(speed_and_way.begin(), speed_and_way.end());
+  const double most = speed_and_way.back().first;
+  std::vector<double> all, parts;
+  for (int k = 2; k < kGrid; ++k) all.push_back(most * k / kGrid);
+  double gone_m = 0.0;
+  for (const auto& [speed, way_m] : speed_and_way) {
+    gone_m += way_m;
+    while (std::ssize(parts) + 1 < kParts && gone_m * kParts >= total_m * static_cast<double>(parts.size() + 1))
+      parts.push_back(speed);
+  }
+  for (std::size_t k = 0; k + 1 < parts.size(); ++k) all.push_back(0.5 * (parts[k] + parts[k + 1]));
+  std::sort(all.begin(), all.end());
+  std::vector<std::vector<double>> shapes;
+  for (const double limit : all)
+    if (shapes.empty() || limit - shapes.back()[0] > kApart * most) shapes.push_back({limit});
+  return shapes;
+}
+
 Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
@@ -33,14 +71,7 @@ Effect of_wheel(Wheel wheel) {
     }
     return std::vector<Motions>{m};
   };
-  e.scan = [](const std::vector<DriveView>& views) {
-    double most = 0.0;
-    for (const DriveView& v : views)
-      for (const EffectStep& s : v.steps) most = std::max({most, std::abs(s.left_radps), std::abs(s.right_radps)});
-    std::vector<std::vector<double>> shapes;
-    for (int k = 2; k < 12; ++k) shapes.push_back({most * k / 12.0});
-    return shapes;
-  };
+  e.scan = [wheel](const std::vector<DriveView>& views) { return limits(views, wheel); };
   return e;
 }
 }  // namespace

@@ -1,4 +1,4 @@
-// A steady creep in a fixed direction of the room, while the vehicle moves or stands.
+// A steady creep in a fixed direction of the room.
 #include <algorithm>
 #include <cmath>
 
@@ -6,20 +6,45 @@
 
 namespace odolab::effects {
 
+namespace {
+
+// Of each step, whether a wheel turns there or close by: slow wheels do not count at each reading.
+std::vector<char> turning(const DriveView& view) {
+  constexpr double kClose_s = 0.1;
+  const auto n = view.steps.size();
+  std::vector<char> out(n, 0);
+  std::size_t from = 0, to = 0;  // of the steps close by
+  int turns = 0;
+  const auto counted = [&](std::size_t i) {
+    return view.steps[i].left_read_rad != 0.0 || view.steps[i].right_read_rad != 0.0 ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    while (to < n && view.steps[to].time_s <= view.steps[i].time_s + kClose_s) turns += counted(to++);
+    while (view.steps[from].time_s < view.steps[i].time_s - kClose_s) turns -= counted(from++);
+    out[i] = turns > 0;
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<Effect> floor_slope_creep() {
   Effect e;
   e.name = "floor_slope_creep";
   e.component = "floor";
   e.amplitudes = {{"x", "m/s", 0.001, -0.2, 0.2}, {"y", "m/s", 0.001, -0.2, 0.2}};
+  e.forms = {"moving and at rest", "while a wheel turns"};
   e.sentence = "the vehicle creeps in one direction of the room, as on a slope";
   e.regime = "in a fixed direction of the room";
   e.looks_like = {"wheel_toe"};
   e.told_apart_by = "the same straight out and back, or along four headings";
-  e.motions = [](const DriveView& view, const std::vector<double>&) {
+  e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    const bool at_rest_too = shape.back() < 0.5;
+    const std::vector<char> turns = at_rest_too ? std::vector<char>(view.steps.size(), 1) : turning(view);
     Motions x, y;
-    for (const EffectStep& s : view.steps) {
-      // A wheel that stands does not creep.
-      const double dt = s.speed_mps != 0.0 || s.yaw_rate_radps != 0.0 ? s.duration_s : 0.0;
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const double dt = turns[i] ? s.duration_s : 0.0;
       const double c = s.cos_heading, sn = s.sin_heading;
       x.push_back({c * dt, -sn * dt, 0.0});
       y.push_back({sn * dt, c * dt, 0.0});

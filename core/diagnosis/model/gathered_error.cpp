@@ -121,29 +121,4 @@ void JointModel::GatheredError::add(const GatheredError& other) {
   of_window.insert(of_window.end(), other.of_window.begin(), other.of_window.end());
 }
 
-// Correlation of each whitened innovation with that before, the largest of the three channels. That of a floor whose
-// unevenness has a length is negative, since the noise was fitted to what adds up. Samples beside the same reading of
-// the encoders share its rounding and say nothing of the model: "before" is two readings ago and more. But what happens
-// at one moment is not told from just that rounding: for it, samples between the same two readings alone do not count.
-double JointModel::distrust(bool of_a_moment) const {
-  constexpr double kWhite = 0.04, kCorrelated = 0.12;  // of one channel: what chance and a rough floor make; not white
-  const double readings = of_a_moment ? 1.5 : 2.5;
-  double product[3] = {}, square[3] = {};
-  for (std::size_t run = 0; run < now_->runs.size(); ++run) {
-    const Whitened& r = now_->runs[run].residual();
-    const auto period_s = [](const auto& samples) {
-      return (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-    };
-    const double apart = readings * period_s(runs_[run].wheels) / period_s(runs_[run].truth);
-    const std::size_t lag = 3 * static_cast<std::size_t>(std::clamp(apart, 1.0, 100.0));
-    for (std::size_t i = lag; i < r.size(); ++i) {
-      product[i % 3] += r[i] * r[i - lag];
-      square[i % 3] += r[i] * r[i];
-    }
-  }
-  double most = 0.0;
-  for (int k = 0; k < 3; ++k)
-    if (square[k] > 0.0) most = std::max(most, product[k] / square[k]);
-  return std::clamp((most - kWhite) / (kCorrelated - kWhite), 0.0, 1.0);
-}
 }  // namespace odolab

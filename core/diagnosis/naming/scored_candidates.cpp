@@ -49,6 +49,11 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
   return near;
 }
 
+// Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often.
+bool is_one_sided(const Effect& e) {
+  return e.amplitudes.size() == 1 && (e.amplitudes[0].low == 0.0 || e.amplitudes[0].high == 0.0);
+}
+
 bool near_a_rest(const InnovationRun& run, double time_s) {
   constexpr double kNear_s = 0.5;
   for (std::size_t i = 0; i < run.settles.size(); ++i)
@@ -57,12 +62,12 @@ bool near_a_rest(const InnovationRun& run, double time_s) {
   return false;
 }
 
-// How far a wheel, or the vehicle sideways, is carried in one go at most.
-double furthest_m(const std::vector<Motions>& motions, const std::vector<double>& value, double wheelbase_m) {
+// How far a wheel, or the vehicle sideways, is carried in each go at most, squared; the sum over all goes.
+double carried_m2(const std::vector<Motions>& motions, const std::vector<double>& value, double wheelbase_m) {
   std::size_t first = static_cast<std::size_t>(-1), end = 0;
   for (const Motions& m : motions)
     if (!m.empty()) first = std::min(first, m.first()), end = std::max(end, m.end());
-  double furthest = 0.0;
+  double sum_m2 = 0.0, furthest_m = 0.0;
   BodyMotion carried;
   for (std::size_t i = first; i < end; ++i) {
     BodyMotion by;
@@ -72,34 +77,39 @@ double furthest_m(const std::vector<Motions>& motions, const std::vector<double>
       by.sideways_m += value[k] * m.sideways_m;
       by.turn_rad += value[k] * m.turn_rad;
     }
-    if (by.forward_m == 0.0 && by.sideways_m == 0.0 && by.turn_rad == 0.0) carried = {};
+    if (by.forward_m == 0.0 && by.sideways_m == 0.0 && by.turn_rad == 0.0) {
+      sum_m2 += furthest_m * furthest_m;
+      carried = {}, furthest_m = 0.0;
+      continue;
+    }
     carried.forward_m += by.forward_m;
     carried.sideways_m += by.sideways_m;
     carried.turn_rad += by.turn_rad;
-    furthest = std::max({furthest, std::abs(carried.sideways_m),
-                         std::abs(carried.forward_m) + 0.5 * wheelbase_m * std::abs(carried.turn_rad)});
+    furthest_m = std::max({furthest_m, std::abs(carried.sideways_m),
+                           std::abs(carried.forward_m) + 0.5 * wheelbase_m * std::abs(carried.turn_rad)});
   }
-  return furthest;
+  return sum_m2 + furthest_m * furthest_m;
 }
 
 // A wheel's count is off by what is hidden between two of them: that averages out on the way, but not at an even speed
-// that is nearly a whole number of counts from one reading to the next; and it stays where the wheel stops.
+// that is nearly a whole number of counts from one reading to the next; and it stays where the wheel stops. What comes
+// back each time is told from it the better the oftener it came, as the root of how often.
 bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest& test) {
   constexpr double kCounts = 1.5, kCountsAtRest = 2.0;
   const DifferentialDrive& drive = joint.model.drive;
   const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-  double furthest = 0.0, least = 0.0;
+  double sum_m2 = 0.0, least_m = 0.0;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const double count = count_rad(joint.runs()[r], drive);
     if (e.beyond_counts && !e.beyond_counts(test.value, test.shape, count, joint.views())) return false;
     if (!e.local || count == 0.0) continue;
     const DriveView& view = joint.views()[r];
     if (e.of_one_recording && view.number != static_cast<int>(test.shape[0])) continue;
-    furthest = std::max(furthest, furthest_m(e.motions(view, test.shape), test.value, drive.wheelbase_m));
+    sum_m2 += carried_m2(e.motions(view, test.shape), test.value, drive.wheelbase_m);
     const bool at_rest = e.of_one_recording && near_a_rest(joint.runs()[r], test.shape[1]);
-    least = std::max(least, (at_rest ? kCountsAtRest : kCounts) * count * radius_m);
+    least_m = std::max(least_m, (at_rest ? kCountsAtRest : kCounts) * count * radius_m);
   }
-  return least == 0.0 || furthest > least;
+  return least_m == 0.0 || sum_m2 > least_m * least_m;
 }
 
 constexpr std::size_t kFewestElsewhere = 20;  // to know a scatter from
@@ -234,7 +244,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
       places.emplace_back(-statistics.back(), k);
   }
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests = std::log(static_cast<double>(tests)) +
+  const double log_tests = std::log(static_cast<double>(tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
                            std::log(e.tests_of_a_shape * static_cast<double>(std::max<std::size_t>(1, scanned)));
   const auto other_forms = [&] {
     for (std::size_t form = 0; form < forms; ++form) {
@@ -244,9 +254,10 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     }
   };
   if (forms > 1 && !every_form) other_forms();
-  // Refined only where there is something to refine: a place is sharp, and half of what it says shows beside it.
-  constexpr double kWorthRefining = 15.0, kWorthRefiningAPlace = 7.0, kWorthAnotherStart = 10.0;
-  if (e.scan && best.test.statistic > (places.empty() ? kWorthRefining : kWorthRefiningAPlace)) {
+  // Refined only where there is something to refine: a place, or a limit of speed, is sharp, and half of what it says,
+  // or less, shows beside it.
+  constexpr double kWorthRefining = 7.0, kWorthAnotherStart = 10.0;
+  if (e.scan && best.test.statistic > kWorthRefining) {
     const auto climb = [&] {
       for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
         for (int round = 0; round < 4; ++round) {

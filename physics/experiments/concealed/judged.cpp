@@ -183,7 +183,8 @@ std::string Judged::line() const {
             number_text("+-%.2g", p.stderr_value);
   if (place_error_m) text += number_text(" place %.2f m", *place_error_m);
   if (time_error_s) text += number_text(" time %.2f s", *time_error_s);
-  for (double s : oracle_sigma) text += number_text(" oracle off by %+.1f sigma", s);
+  for (std::size_t k = 0; k < oracle_sigma.size(); ++k)
+    text += number_text(" of %.1f sigma,", significance[k]) + number_text(" oracle off by %+.1f", oracle_sigma[k]);
   text += number_text(" %.0f counts", counts_per_turn);
   if (!failed.empty()) text += " FAILED " + failed;
   return text + number_text(" (%.1f s", seconds) + ", " + std::to_string(thrown_away) + " thrown)";

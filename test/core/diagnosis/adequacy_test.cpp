@@ -154,7 +154,7 @@ TEST(Refuted, NameIsWithdrawnAndSaidWhereARunThatWasNotFittedContradictsIt) {
 TEST(Refuted, WeakNameIsWithdrawnWhereItIsNoMoreThanChanceInAllRecordingsTogether) {
   // Two runs in which the robot scrubs, 5 standard errors in all, and four of the same robot in which it does or does
   // not.
-  test::Case scrubs = case_of("turn_scrub", 1.2, 6, 7), sound = case_of("", 1.0, 6, 7);
+  test::Case scrubs = case_of("turn_scrub", 1.1, 6, 7), sound = case_of("", 1.0, 6, 7);
   const auto behind_two = [](const test::Case& c) {
     return std::vector<Recording>(c.recordings.begin() + 2, c.recordings.end());
   };

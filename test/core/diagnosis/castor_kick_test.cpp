@@ -9,14 +9,14 @@
 namespace odolab::test {
 namespace {
 
-constexpr double kTrail_m = 0.04, kKick_rad = 0.008;  // between the trails that the forms have
+constexpr double kTrail_m = 0.04;  // between the trails that the forms have
 constexpr double kOff_rad = 5.0 * kPi / 180.0;
 
 // Straights forth and back, in which it turns about within half a second, each long enough for a castor to swing round:
-// turned about, it stands five degrees off and obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is turned by the share of half a turn that it
-// swings.
-std::vector<Recording> forth_and_back(Random& random) {
-  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
+// turned about, it stands five degrees off and obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is
+// turned by the share of half a turn that it swings.
+std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& drive, double kick_rad) {
+  GeneratorSettings g = under_motion_capture(drive, 0.0008, 0.01);
   g.duration_s = 60.0;
   const auto legs = [](int run) -> SpeedProfile {
     return [leg_s = 3.0 + run](double t) {
@@ -24,28 +24,42 @@ std::vector<Recording> forth_and_back(Random& random) {
       return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
     };
   };
-  const auto swinging = [](int) {
-    return [angle_rad = 0.0, direction = 1](InjectedStep& s) mutable {
+  const auto swinging = [kick_rad](int) {
+    return [kick_rad, angle_rad = 0.0, direction = 1](InjectedStep& s) mutable {
       const double way_m = 0.5 * 0.075 * (s.left_radps + s.right_radps) * s.dt_s;
       const int now = way_m > 0.0 ? 1 : -1;
       if (now != direction) angle_rad = kPi - kOff_rad, direction = now;
       const double swung = std::min(angle_rad, std::sin(angle_rad) * std::abs(way_m) / kTrail_m);
       angle_rad -= swung;
-      s.turn_rad += kKick_rad * swung / kPi;
+      s.turn_rad += kick_rad * swung / kPi;
     };
   };
   return three_runs(g, random, legs, swinging);
 }
 
-TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {
-  Random random(61);
-  const Diagnosis d = diagnose(forth_and_back(random), {}, Vehicle{}).value();
+void expect_measured(const Diagnosis& d, double kick_rad) {
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.findings.front().effect, "castor_reversal_kick");
   const FoundParameter& p = d.findings.front().parameters.front();
-  EXPECT_LT(std::abs(p.value - kKick_rad * (1.0 - kOff_rad / kPi)), 3.0 * p.stderr_value)
+  EXPECT_LT(std::abs(p.value - kick_rad * (1.0 - kOff_rad / kPi)), 3.0 * p.stderr_value)
       << p.value << " +- " << p.stderr_value;
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "collision");
+}
+
+TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {
+  constexpr double kKick_rad = 0.008;
+  Random random(61);
+  expect_measured(diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, kKick_rad), {}, Vehicle{}).value(), kKick_rad);
+}
+
+TEST(CastorReversalKick, IsMeasuredThoughItTurnsTheVehicleByLessThanACountOfItsWheels) {
+  DifferentialDrive drive{0.075, 0.075, 0.34};
+  drive.encoder_counts_per_revolution = 500.0;
+  const double kick_rad = 0.8 * 2.0 * kPi * 0.075 / drive.counts_per_wheel_turn() / drive.wheelbase_m;
+  Random random(62);
+  Vehicle nominal;
+  nominal.kind = drive;
+  expect_measured(diagnose(forth_and_back(random, drive, kick_rad), {}, nominal).value(), kick_rad);
 }
 
 }  // namespace

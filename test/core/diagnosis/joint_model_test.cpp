@@ -68,5 +68,29 @@ TEST(JointModel, FindsTheNoiseOfTheWayAndOfTheTurnEachByItself) {
               0.16 * kTurning);
 }
 
+// Wheels of 500 counts at even speeds, under a truth that is truer than they: what is hidden between two counts lasts.
+TEST(JointModel, BelievesTheLikelihoodWhereInnovationsAreCorrelatedByWholeCountsAlone) {
+  Random random(48);
+  DifferentialDrive drive{0.075, 0.075, 0.34};
+  drive.encoder_counts_per_revolution = 500.0;
+  GeneratorSettings g = under_motion_capture(drive, 0.0003, 0.05);
+  g.truth_position_noise_m = g.truth_heading_noise_rad = 0.0003;
+  g.duration_s = 60.0;
+  // Three counts and a little more from reading to reading: a remainder comes back after twelve to thirty of them.
+  const auto even = [&](int run) -> SpeedProfile {
+    const double count_radps = 2.0 * kPi / drive.counts_per_wheel_turn() / g.wheel_period_s;
+    return [=](double t) {
+      const double bend = 0.002 + 0.001 * std::floor(t / 10.0), speed = (3.04 + 0.02 * run) * count_radps;
+      return WheelSpeedsAt{speed * (1.0 - bend), speed * (1.0 + bend)};
+    };
+  };
+  Vehicle nominal;
+  nominal.kind = drive;
+  JointModel joint = joint_model(three_runs(g, random, even, [](int) { return nullptr; }), nominal);
+  joint.fit(4);
+  joint.fit_noise_and_all();
+  EXPECT_EQ(joint.distrust(), 0.0);
+}
+
 }  // namespace
 }  // namespace odolab::test
