@@ -218,8 +218,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k)
     found[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
-  std::sort(found.begin(), found.end(),
-            [](const Finding& a, const Finding& b) { return a.log_likelihood_gain > b.log_likelihood_gain; });
+  std::sort(found.begin(), found.end(), comes_first);
   if (adequacy.as_likely && !found.empty())
     found.front().alternatives.push_back(
         {"unknown", "vehicle", 0.5 * std::max(0.0, adequacy.as_likely->gain + explained),

@@ -7,6 +7,15 @@
 
 namespace odolab {
 
+bool comes_first(const Finding& a, const Finding& b) {
+  const auto is_of_calibration = [](const Finding& f) {
+    return f.effect == "truth_mounting_offset" || f.effect == "truth_time_offset" || f.effect == "wheel_toe" ||
+           f.effect == "actuator_delay";
+  };
+  if (is_of_calibration(a) != is_of_calibration(b)) return is_of_calibration(b);
+  return a.log_likelihood_gain > b.log_likelihood_gain;
+}
+
 void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
                   const LeastSquaresCalibration& fit, const Vehicle& nominal) {
   const auto determined = [&](const std::string& name) -> const ParameterEstimate* {

@@ -19,6 +19,10 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
 void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
                const Vehicle& nominal, bool from_commands);
 
+// The order of findings: what calibration leaves, the strongest first, before what it finds itself (where the truth
+// sits on the vehicle, its clock, and what is the same as these).
+bool comes_first(const Finding& a, const Finding& b);
+
 // A fault of the data, which stands beside all physics.
 Finding finding_of(const DataFault& fault);
 

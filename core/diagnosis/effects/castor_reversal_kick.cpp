@@ -115,6 +115,7 @@ std::vector<Effect> castor_reversal_kick() {
              "to one side forwards and the other in reverse, as a castor of 3 cm trail swings"};
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
+  e.tests_of_a_shape = 0.6;  // kicks are much alike, however long they last
   e.looks_like = {"drivetrain_backlash", "one_sided_drag"};
   e.told_apart_by = "a turn on the spot and then a straight, without reversing a wheel";
   // A driver that stops by its counts always stops just behind one: half a count of each wheel is there at each

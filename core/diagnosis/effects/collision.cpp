@@ -18,6 +18,7 @@ std::vector<Effect> collision() {
   e.regime = "at one moment";
   e.looks_like = {"bump", "truth_frozen"};
   e.told_apart_by = "the same way driven again: a push does not come back";
+  e.tests_of_a_shape = 0.5;  // moments 0.12 s apart are one, in whichever form, as long as the truth errs
   e.local = true;
   e.form_of_the_scan = 1;  // half of the others' length is found by both
   e.of_one_recording = true;

@@ -105,7 +105,9 @@ struct Effect {
   std::function<double(const std::vector<double>& shape)> place_known_to_m;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
-  double tests_of_a_shape = 1.0;         // so many independent ones a scanned shape stands for, once it is refined
+  // So many independent ones a scanned shape of one form stands for, once it is refined: more where there is much
+  // between them, fewer where they are alike (test/tools/chance_of_names.cpp).
+  double tests_of_a_shape = 1.0;
   bool shape_follows_amplitude = false;  // the only shape is the first amplitude itself, iterated to agreement
   bool local = false;                    // acts at a moment or place: its evidence lies in few samples
   bool of_one_recording = false;         // shape[0] is the recording's number

@@ -34,6 +34,7 @@ std::vector<Effect> floor_slope_creep() {
   e.component = "floor";
   e.amplitudes = {{"x", "m/s", 0.001, -0.2, 0.2}, {"y", "m/s", 0.001, -0.2, 0.2}};
   e.forms = {"moving and at rest", "while a wheel turns"};
+  e.tests_of_a_shape = 0.6;  // the same but for the rests
   e.sentence = "the vehicle creeps in one direction of the room, as on a slope";
   e.regime = "in a fixed direction of the room";
   e.looks_like = {"wheel_toe"};

@@ -35,6 +35,7 @@ Effect of_wheel(Wheel wheel) {
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
   e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
   for (const Form& form : kForms) e.forms.push_back(form.in_words);
+  e.tests_of_a_shape = 0.3;  // what grows with time does so in all forms
   e.sentence = std::string("the radius of the ") +
                (wheel == Wheel::left    ? "left wheel"
                 : wheel == Wheel::right ? "right wheel"

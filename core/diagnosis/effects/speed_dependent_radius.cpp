@@ -13,6 +13,7 @@ Effect of_wheel(Wheel wheel) {
   e.name = "speed_dependent_radius";
   e.component = component_of(wheel);
   e.amplitudes = {{"per_mps", "1/(m/s)", 0.02, -0.3, 0.3}};
+  e.tests_of_a_shape = 0.7;  // on straights they are the same
   e.forms = {"with each wheel's own speed", "with the vehicle's speed"};
   e.sentence = wheel == Wheel::both ? "the rolling radius changes with speed"
                                     : std::string("the rolling radius of the ") +

@@ -50,8 +50,10 @@ Effect of_wheel(Wheel wheel) {
   e.regime = "while accelerating and braking";
   e.looks_like = {"clock_rate", "truth_time_offset", "drivetrain_backlash", "actuator_lag"};
   e.told_apart_by = "hard braking against hard accelerating, forwards and in reverse";
-  if (wheel == Wheel::both)
+  if (wheel == Wheel::both) {
     for (const Form& form : kForms) e.forms.push_back(form.in_words);
+    e.tests_of_a_shape = 0.6;  // on straights they are the same
+  }
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     Motions m;
     m.reserve(view.steps.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/merged_calibration.h"
 #include "core/diagnosis/units/merged_findings.h"
 #include "core/vehicle/key_words.h"
@@ -112,7 +113,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     d.warnings.push_back("beside the names given something small is left that no name describes");
   std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
     if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
-    return a.log_likelihood_gain > b.log_likelihood_gain;
+    return comes_first(a, b);
   });
   double gain = 0.0;
   for (const Finding& f : d.findings) gain += f.log_likelihood_gain;

@@ -39,14 +39,14 @@ TEST(Diagnose, FindsNothingWhereNothingIsMissingWhateverTheNoiseAndWhereverCalib
   // 3 % is the bar; 14 cases with at most one alarm are passed by a tool that holds it in 94 % of seeds, and these
   // seeds are fixed.
   int alarms = 0;
+  std::string what;
   for (int k = 0; k < 14; ++k) {
     const Diagnosis d = diagnosed(generated_case(short_case("", 0.0), 7000 + static_cast<std::uint64_t>(k)));
-    if (d.verdict == Verdict::found || d.verdict == Verdict::unknown_effect || d.verdict == Verdict::ambiguous) {
-      ++alarms;
-      ADD_FAILURE_AT(__FILE__, __LINE__) << "seed " << 7000 + k << ": " << said(d);
-    }
+    if (d.verdict == Verdict::nothing_missing || d.verdict == Verdict::cannot_say) continue;
+    ++alarms;
+    what += "seed " + std::to_string(7000 + k) + ": " + said(d) + "; ";
   }
-  EXPECT_LE(alarms, 1);
+  EXPECT_LE(alarms, 1) << what;
 }
 
 // Calls `change(k, x, y, heading)` for the k-th truth sample.

@@ -10,8 +10,9 @@ namespace odolab {
 namespace {
 
 // Drives for 10 s, stands for 10 s, drives on.
-Recording with_a_rest() {
+Recording with_a_rest(double truth_late_s = 0.0) {
   test::GeneratorSettings g;
+  g.truth.time_offset_s = truth_late_s;
   g.duration_s = 30.0;
   g.truth_position_noise_m = 0.001;
   g.truth_heading_noise_rad = 0.001;
@@ -49,6 +50,20 @@ TEST(Checked, TakesARestForARestWhereTheTruthIsMissingAtItsEnd) {
     if (c.name.rfind("truth_", 0) == 0)
       for (std::size_t i = 0; i < r.time_s.size(); ++i)
         if (r.time_s[i] > 19.0 && r.time_s[i] < 22.0) c.values[i] = std::nan("");  // by 22 s it is 0.6 m further on
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+TEST(Checked, TakesARestForARestWhereTheTruthErrsOnceAtItsEnd) {
+  Recording r = with_a_rest();
+  for (Channel& c : r.channels)
+    if (c.name == "truth_x_m")
+      for (std::size_t i = 0; i < r.time_s.size(); ++i)
+        if (std::abs(r.time_s[i] - 20.0) < 0.03) c.values[i] += 0.8;  // one sample
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+TEST(Checked, TakesARestForARestWhereTheTruthsClockIsLate) {
+  Recording r = with_a_rest(0.4);
   EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
 }
 

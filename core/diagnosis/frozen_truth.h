@@ -1,0 +1,16 @@
+// A truth that repeats itself.
+#pragma once
+
+#include "core/calibration/innovations.h"
+#include "core/calibration/left_out.h"
+#include "core/vehicle/differential_drive.h"
+
+namespace odolab {
+
+// Stretches of three samples and more that are the same to the bit, the first sample's stamp to the last one's; none
+// where the wheels stand in all of them. At rest a truth may repeat itself; where it does so on the way, a rest is no
+// more to be believed.
+TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
+                           const DifferentialDrive& drive);
+
+}  // namespace odolab

@@ -1,0 +1,127 @@
+#include "core/diagnosis/standing_encoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/quantile.h"
+
+namespace odolab {
+
+namespace {
+
+double rotation(const WheelSample& s, Wheel wheel) { return wheel == Wheel::left ? s.left_rad : s.right_rad; }
+
+// The truth at a time, by the median of three samples: one of them may err by anything.
+class SteadyTruth {
+ public:
+  SteadyTruth(const std::vector<TruthSample>& samples, double time_offset_s)
+      : samples_(samples), offset_s_(time_offset_s), has_heading_(samples.front().heading_rad.has_value()) {
+    std::vector<double> second;
+    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+      second.push_back(
+          std::abs(samples[i + 1].position.x_m - 2.0 * samples[i].position.x_m + samples[i - 1].position.x_m));
+      has_heading_ = has_heading_ && samples[i].heading_rad && samples[i + 1].heading_rad;
+    }
+    noise_m_ = median(second) / 0.6745 / std::sqrt(6.0);
+    period_s_ = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  }
+  double noise_m() const { return noise_m_; }
+  double period_s() const { return period_s_; }
+  bool has_heading() const { return has_heading_; }
+
+  // Nothing in a gap, of which the next sample says nothing.
+  std::optional<Pose> at(double wheels_time_s) const {
+    const double time_s = wheels_time_s + offset_s_;
+    const auto it = std::lower_bound(samples_.begin() + 1, samples_.end() - 2, time_s,
+                                     [](const TruthSample& t, double s) { return t.time_s < s; });
+    if (std::abs(it->time_s - time_s) >= 2.0 * period_s_) return std::nullopt;
+    const auto middle = [&](auto&& of) { return median({of(*(it - 1)), of(*it), of(*(it + 1))}); };
+    return Pose{middle([](const TruthSample& t) { return t.position.x_m; }),
+                middle([](const TruthSample& t) { return t.position.y_m; }),
+                has_heading_ ? middle([](const TruthSample& t) { return *t.heading_rad; }) : 0.0};
+  }
+
+ private:
+  const std::vector<TruthSample>& samples_;
+  double offset_s_, noise_m_ = 0.0, period_s_ = 0.0;
+  bool has_heading_;
+};
+
+}  // namespace
+
+TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel wheel,
+                               const std::vector<TruthSample>& truth, const Vehicle& vehicle) {
+  constexpr double kLeast_m = 0.03, kTimesTheNoise = 8.0, kLeast_s = 0.15, kBefore_s = 0.3;
+  constexpr double kOfThePaceBefore = 0.4, kInTheMiddle = 0.25;  // of the whole way, in the middle half of the time
+  TimeStretches stands;
+  if (truth.size() < 4) return stands;
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
+  const SteadyTruth steady(truth, vehicle.truth.time_offset_s);
+  const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
+  const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
+  const double side_m = (wheel == Wheel::left ? -0.5 : 0.5) * drive.wheelbase_m;
+  const double least_m = kLeast_m + kTimesTheNoise * steady.noise_m() + 2.0 * least_count_rad(wheels, wheel) * radius_m;
+  for (std::size_t i = 0; i + 1 < wheels.size();) {
+    std::size_t j = i;
+    while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
+    const double from_s = wheels[i].time_s, span_s = wheels[j].time_s - from_s;
+    // The wheel's own way by the truth: of the centre, and half the base times the turn; of the centre alone where
+    // nothing is known of the turn and both wheels hold.
+    const auto way_m = [&](double begin_s, double end_s) {
+      const std::optional<Pose> a = steady.at(begin_s), b = steady.at(end_s);
+      if (!a || !b) return 0.0;
+      const Vec2 by = b->position() - a->position();
+      const bool both_hold = wheels[i].left_rad == wheels[j].left_rad && wheels[i].right_rad == wheels[j].right_rad;
+      if (!steady.has_heading()) return both_hold ? length(by) : 0.0;
+      const double turn = b->heading_rad - a->heading_rad,
+                   heading = a->heading_rad - vehicle.truth.axle_T_tracked.heading_rad + 0.5 * turn;
+      return std::abs(dot(by, Vec2{std::cos(heading), std::sin(heading)}) + side_m * turn);
+    };
+    if (j > i + 3 && span_s > std::max(kLeast_s, 1.5 * steady.period_s())) {
+      const double all_m = way_m(from_s, from_s + span_s);
+      std::size_t before = i;
+      while (before > 0 && from_s - wheels[before].time_s < kBefore_s) --before;
+      const double pace_mps =
+          radius_m * std::abs(rad(i) - rad(before)) / std::max(from_s - wheels[before].time_s, 1e-3);
+      if (all_m > least_m && pace_mps > kOfThePaceBefore * all_m / span_s &&
+          way_m(from_s + 0.25 * span_s, from_s + 0.75 * span_s) > kInTheMiddle * all_m)
+        stands.push_back({from_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
+    }
+    i = j > i ? j : i + 1;
+  }
+  return stands;
+}
+
+TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel wheel) {
+  constexpr std::size_t kPace = 5;  // readings before, and behind, that say how fast it goes
+  constexpr double kCounts = 5.0, kTimesThePace = 3.0, kGap_s = 0.5;
+  TimeStretches found;
+  const double count_rad = least_count_rad(wheels, wheel);
+  const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
+  for (std::size_t i = kPace; i + 1 < wheels.size();) {
+    std::size_t j = i;
+    while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
+    if (j >= i + 3 && j + 1 < wheels.size()) {
+      const std::size_t end = std::min(j + 1 + kPace, wheels.size() - 1);
+      const double before = (rad(i) - rad(i - kPace)) / static_cast<double>(kPace), next = rad(j + 1) - rad(j),
+                   after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
+      if (std::abs(next) > kCounts * count_rad &&
+          std::abs(next) > kTimesThePace * std::max(std::abs(before), std::abs(after)) &&
+          wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
+        found.push_back({wheels[i].time_s, wheels[j + 1].time_s});
+    }
+    i = j + 1;
+  }
+  return found;
+}
+
+double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel) {
+  double least = 1e9;
+  for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
+    if (const double by = std::abs(rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel)); by > 0.0)
+      least = std::min(least, by);
+  return least;
+}
+
+}  // namespace odolab

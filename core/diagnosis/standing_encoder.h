@@ -1,0 +1,23 @@
+// An encoder that stands still while the vehicle drives on.
+#pragma once
+
+#include "core/calibration/innovations.h"
+#include "core/calibration/left_out.h"
+#include "core/diagnosis/effects/effect.h"
+#include "core/vehicle/vehicle.h"
+
+namespace odolab {
+
+// Where a wheel's readings hold while the truth carries that wheel on: further than the truth errs, about as fast as it
+// turned before, and in the middle of that time as well, since a clock that is late lets the truth drive on into a
+// rest. From the reading that holds to the one that does no more.
+TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel wheel,
+                               const std::vector<TruthSample>& truth, const Vehicle& vehicle);
+
+// Where they hold and then catch up at once: no wheel does that, whatever the truth says.
+TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel wheel);
+
+// The smallest step that was read of a wheel.
+double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel);
+
+}  // namespace odolab
