@@ -89,10 +89,20 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   // Which truth lies within the time of the wheels is only known with its clock.
   const double span_s = run.wheels.back().time_s - run.wheels.front().time_s;
   const double beyond_s = span_s / static_cast<double>(run.wheels.size() - 1) + 1e-9;
+  const std::vector<TruthSample> all_truth = truth_samples(recording);
+  // Of poses at both ends alone each counts, and wheels that stand there stood a little before and behind as well.
+  constexpr std::size_t kFew = 5;
+  constexpr double kStanding_s = 0.5;
+  const auto longer_s = [&](const WheelSample& a, const WheelSample& b) {
+    const bool stands = a.left_rad == b.left_rad && a.right_rad == b.right_rad;
+    return all_truth.size() < kFew && stands ? std::max(beyond_s, kStanding_s) : beyond_s;
+  };
+  const double first_s = run.wheels.front().time_s - longer_s(run.wheels[0], run.wheels[1]),
+               last_s = run.wheels.back().time_s + longer_s(run.wheels.end()[-2], run.wheels.end()[-1]);
   std::vector<TruthSample> truth;
-  for (const TruthSample& t : truth_samples(recording)) {
+  for (const TruthSample& t : all_truth) {
     const double time_s = t.time_s - vehicle.truth.time_offset_s;
-    if (time_s < run.wheels.front().time_s - beyond_s || time_s > run.wheels.back().time_s + beyond_s) continue;
+    if (time_s < first_s || time_s > last_s) continue;
     if (truth.empty() || t.time_s > truth.back().time_s) truth.push_back(t);
   }
   run.frozen = leave_out_frozen(truth, run.wheels, vehicle);

@@ -116,12 +116,11 @@ const char* headline(Verdict verdict) {
 }
 
 // Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
-Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor,
-                        double of_mounting, double error) {
+Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor, double error) {
   const JointModel& joint = named.joint;
   const std::optional<JointModel>& all_named = named.with_held_out;
   std::vector<ScoredCandidate> evidence = named.selected.evidence;
-  Adequacy adequacy = adequacy_of(joint, calibrated, evidence, of_mounting, all_named ? 0.5 * error : error);
+  Adequacy adequacy = adequacy_of(joint, calibrated, evidence, all_named ? 0.5 * error : error);
   if (adequacy.unnamed || !all_named) return adequacy;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     const AcceptedEffect& a = all_named->accepted[k];
@@ -129,7 +128,7 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
     evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
   }
   const JointModel all_calibrated = *predictor.fitted_to_all(calibrated);
-  const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, of_mounting, 0.5 * error);
+  const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, 0.5 * error);
   adequacy.unnamed = of_all.unnamed;
   if (!adequacy.unnamed)
     adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, static_cast<int>(joint.runs().size()));
@@ -138,12 +137,8 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
 }
 
 Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
-                         const FittedNoise& of_calibration, const std::vector<Finding>& found, double error) {
-  // Wheels that do not stand square to the axle also slip in turns: that much belongs to them.
-  double of_toe = 0.0;
-  for (const Finding& f : found)
-    if (f.effect == "wheel_toe") of_toe += 2.0 * f.log_likelihood_gain;
-  Adequacy adequacy = judged_by_both(named, calibrated, predictor, of_toe, error);
+                         const FittedNoise& of_calibration, double error) {
+  Adequacy adequacy = judged_by_both(named, calibrated, predictor, error);
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
@@ -208,8 +203,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   add_mounting(found, joint, intervals, d.calibration_alone, nominal);
   add_clock(found, joint, d.calibration_alone, nominal, ready->from_commands);
 
-  const Adequacy adequacy = judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise, found,
-                                            0.25 * options.family_wise_error);
+  const Adequacy adequacy =
+      judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise, 0.25 * options.family_wise_error);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");

@@ -227,11 +227,11 @@ std::ptrdiff_t names_of_physics(const JointModel& joint) {
 }  // namespace
 
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
-                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error) {
+                     const std::vector<ScoredCandidate>& evidence, double error) {
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, error);
-  double explained = of_mounting;
+  double explained = 0.0;
   for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
   if (const Left left = what_is_left(joint, out.generic, error); left.group) {
     const CandidateTest& test = left.group->test;
@@ -239,7 +239,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > kMostLeft * explained || is_in_pieces(evidence))
-      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained - of_mounting));
+      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained));
   }
   const double fair = beyond_chance(evidence);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {

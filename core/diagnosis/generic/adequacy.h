@@ -17,9 +17,8 @@ struct Adequacy {
   bool something_small_is_left = false;
 };
 
-// Of all recordings that there are; `calibrated`: without any name. `of_mounting`: twice the log-likelihood that a
-// turned mounting or a toe explains, which slips in turns besides.
+// Of all recordings that there are; `calibrated`: without any name.
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
-                     const std::vector<ScoredCandidate>& evidence, double of_mounting, double error);
+                     const std::vector<ScoredCandidate>& evidence, double error);
 
 }  // namespace odolab

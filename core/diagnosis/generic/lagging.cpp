@@ -25,17 +25,42 @@ std::vector<Motions> of_a_bending_mast(const DriveView& view, const std::vector<
   return {ahead, aside};
 }
 
+// Each wheel falls behind its encoder as its drive is wound up by what it pushes.
+std::vector<Motions> of_a_yielding_drive(const DriveView& view, const std::vector<double>&) {
+  const std::size_t n = view.steps.size();
+  Motions left(n), right(n);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const EffectStep &before = view.steps[i - 1], &behind = view.steps[i + 1];
+    left[i] = by_wheel(Wheel::left, 0.5 * (before.left_mps2 - behind.left_mps2), view.drive.wheelbase_m);
+    right[i] = by_wheel(Wheel::right, 0.5 * (before.right_mps2 - behind.right_mps2), view.drive.wheelbase_m);
+  }
+  return {left, right};
+}
+
+struct Lagging {
+  const char *variable, *channel;
+  std::size_t amplitudes;
+  std::vector<Motions> (*motions)(const DriveView&, const std::vector<double>&);
+};
+
+constexpr Lagging kLagging[kLaggingTests] = {
+    {"acceleration, as if it were read later", "way of the right wheel [s]", 1, of_a_late_wheel},
+    {"acceleration, as if its mast bent", "marker, ahead and aside [s2]", 2, of_a_bending_mast},
+    {"acceleration, as if its drive yielded", "way of the left and the right wheel [s2]", 2, of_a_yielding_drive},
+};
+
 }  // namespace
 
 std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at) {
   std::vector<GenericTest> tests(kLaggingTests);
   parallel_for(kLaggingTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
+    const Lagging& of = kLagging[i];
     auto term = std::make_shared<Effect>();
-    term->name = t.variable = i == 0 ? "acceleration, as if it were read later" : "acceleration, as if its mast bent";
-    term->component = t.channel = i == 0 ? "way of the right wheel [s]" : "marker, ahead and aside [s2]";
-    term->amplitudes.resize(i == 0 ? 1 : 2);
-    term->motions = i == 0 ? of_a_late_wheel : of_a_bending_mast;
+    term->name = t.variable = of.variable;
+    term->component = t.channel = of.channel;
+    term->amplitudes.resize(of.amplitudes);
+    term->motions = of.motions;
     ask(t, asked, term, looked_at);
   });
   return tests;
