@@ -224,6 +224,20 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
   EXPECT_FALSE(run->truth_has_heading);
 }
 
+TEST(Innovations, KeepAPoseAtTheEndThatIsStampedALittleLaterThanTheWheelsThatStandThere) {
+  Recording r;
+  r.time_s = {0.0, 0.02, 1.0, 2.0, 2.02, 2.3};
+  const double nan = std::nan("");
+  r.channels = {{"left_wheel_rad", {0.0, 0.0, 1.0, 2.0, 2.0, nan}},
+                {"right_wheel_rad", {0.0, 0.0, 1.0, 2.0, 2.0, nan}},
+                {"truth_x_m", {0.0, nan, nan, nan, nan, 0.15}},
+                {"truth_y_m", {0.0, nan, nan, nan, nan, 0.0}}};
+  EXPECT_EQ(innovation_run(r, Vehicle{})->truth.size(), 2u);
+  for (Channel& c : r.channels)
+    if (c.name == "left_wheel_rad") c.values[4] = 2.1;  // it drives on: nobody knows how far
+  EXPECT_FALSE(innovation_run(r, Vehicle{}).ok());
+}
+
 std::vector<char> aside_by_gate(const InnovationRun& run) {
   FilterOptions options;
   options.derivatives = false;

@@ -53,6 +53,43 @@ TEST(Adequacy, CallsATruthSeenThroughALensUnknownAndSaysThatItsPositionsAreBent)
   EXPECT_NEAR(cubic, there, 0.1 * there);  // 2 % at the rim, so much is the place itself off
 }
 
+// Seen from behind, or as if from there: the measured heading is turned.
+void turn_mounting(Recording& recording, double by_rad) {
+  for (Channel& c : recording.channels)
+    if (c.name == "truth_heading_rad")
+      for (double& heading : c.values) heading += by_rad;
+}
+
+TEST(Adequacy, CallsUnknownWhatIsInNoListThoughTheMountingIsTurnedBesides) {
+  test::Case c = case_of("compass", 4.0, 4, 9);
+  for (Recording& r : c.recordings) turn_mounting(r, 0.015);
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+}
+
+// A belt of its own stiffness between each wheel and its encoder: the wheel is behind by so much for each unit of its
+// rim's acceleration.
+TEST(Adequacy, CallsADriveUnknownThatYieldsToWhatItPushes) {
+  constexpr double kYields_s2 = 0.008;
+  Random random(17);
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0004, 0.01);
+  g.duration_s = 60.0;
+  const auto yielding = [](int) {
+    return [speed = 0.0, behind_m = 0.0](test::InjectedStep& s) mutable {
+      const double now = 0.075 * s.left_radps, behind = kYields_s2 * (now - speed) / s.dt_s;
+      s.left_m -= behind - behind_m;
+      speed = now, behind_m = behind;
+    };
+  };
+  const std::vector<Recording> recordings = test::three_runs(
+      g, random, [&](int) { return test::varied_driving(random, g.duration_s); }, yielding);
+  const Result<Diagnosis> d = diagnose(recordings, {}, Vehicle{});
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("yielded"), std::string::npos) << d->findings.front().where.regime;
+}
+
 // The place that is measured sways to and fro, each recording at a time of its own.
 void sway(std::vector<Recording>& recordings, double by_m) {
   double phase = 0.0;

@@ -232,6 +232,20 @@ TEST(Diagnose, SaysOfWhichWheelTheRadiusDependsOnSpeed) {
   EXPECT_NEAR(p.value, 0.02, 4.0 * p.stderr_value);
 }
 
+// However much a marker that sits elsewhere explains, calibration does without a name.
+TEST(Diagnose, SaysWhatCalibrationLeavesBeforeWhereTheTrackedPointSits) {
+  Case c = generated_case(short_case("lateral_slip", 2.0), 7402);
+  for (Recording& r : c.recordings)
+    change_truth(r, [](std::size_t, double& x, double& y, double& heading) {
+      x += 0.03 * std::cos(heading), y += 0.03 * std::sin(heading), heading += 0.2;
+    });
+  const Diagnosis d = diagnosed(c);
+  ASSERT_EQ(d.findings.size(), 2u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "lateral_slip");
+  EXPECT_EQ(d.findings[1].effect, "truth_mounting_offset");
+  EXPECT_GT(d.findings[1].log_likelihood_gain, d.findings[0].log_likelihood_gain);
+}
+
 TEST(Diagnose, SaysThatItCannotSayWhereTheTruthIsOnlyStartAndEnd) {
   CaseSettings c = short_case("lateral_slip", 3.0);
   c.truth = CaseSettings::Truth::ends;
