@@ -225,17 +225,23 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
 }
 
 TEST(Innovations, KeepAPoseAtTheEndThatIsStampedALittleLaterThanTheWheelsThatStandThere) {
-  Recording r;
-  r.time_s = {0.0, 0.02, 1.0, 2.0, 2.02, 2.3};
   const double nan = std::nan("");
-  r.channels = {{"left_wheel_rad", {0.0, 0.0, 1.0, 2.0, 2.0, nan}},
-                {"right_wheel_rad", {0.0, 0.0, 1.0, 2.0, 2.0, nan}},
-                {"truth_x_m", {0.0, nan, nan, nan, nan, 0.15}},
-                {"truth_y_m", {0.0, nan, nan, nan, nan, 0.0}}};
-  EXPECT_EQ(innovation_run(r, Vehicle{})->truth.size(), 2u);
-  for (Channel& c : r.channels)
-    if (c.name == "left_wheel_rad") c.values[4] = 2.1;  // it drives on: nobody knows how far
-  EXPECT_FALSE(innovation_run(r, Vehicle{}).ok());
+  for (const bool stands : {true, false}) {
+    Recording r;
+    Channel left{"left_wheel_rad", {}}, x{"truth_x_m", {}}, y{"truth_y_m", {}};
+    for (int i = 0; i < 100; ++i) {
+      r.time_s.push_back(0.02 * i);
+      left.values.push_back(stands ? std::min(i, 98) : i);
+      x.values.push_back(i == 0 ? 0.0 : nan);
+      y.values.push_back(i == 0 ? 0.0 : nan);
+    }
+    r.time_s.push_back(2.3);
+    left.values.push_back(nan);
+    x.values.push_back(7.0);
+    y.values.push_back(0.0);
+    r.channels = {left, {"right_wheel_rad", left.values}, x, y};
+    EXPECT_EQ(innovation_run(r, Vehicle{}).ok(), stands) << "where it drives on nobody knows how far";
+  }
 }
 
 std::vector<char> aside_by_gate(const InnovationRun& run) {
