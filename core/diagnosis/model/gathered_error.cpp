@@ -99,8 +99,10 @@ JointModel::GatheredError JointModel::gathered_error(int first_run) const {
       of[r].heading_rad2 = e->heading_rms_rad * e->heading_rms_rad;
       of[r].windows = e->windows;
       of[r].of_window = e->window_error;
-      for (const auto& [from_s, to_s] : e->window_s)
+      for (const auto& [from_s, to_s] : e->window_s) {
+        of[r].window_at_s.push_back(from_s);
         add_noise(of[r], noise, model.drive.wheelbase_m, guess, from_s, to_s);
+      }
       of[r].noise_position_m2 /= e->windows;
       of[r].noise_heading_rad2 /= e->windows;
     }
@@ -119,6 +121,7 @@ void JointModel::GatheredError::add(const GatheredError& other) {
     this->*mean = mine * this->*mean + others * other.*mean;
   windows = all;
   of_window.insert(of_window.end(), other.of_window.begin(), other.of_window.end());
+  window_at_s.insert(window_at_s.end(), other.window_at_s.begin(), other.window_at_s.end());
 }
 
 }  // namespace odolab

@@ -113,7 +113,8 @@ class JointModel {
     double position_m2 = 0.0, heading_rad2 = 0.0;
     double noise_position_m2 = 0.0, noise_heading_rad2 = 0.0;  // what the model's noise alone would leave
     int windows = 0;
-    std::vector<Pose> of_window;  // in the order of the runs
+    std::vector<Pose> of_window;      // in the order of the runs
+    std::vector<double> window_at_s;  // where each begins, by the truth's stamps
     void add(const GatheredError& of_other_runs);
   };
   GatheredError gathered_error(int first_run = 0) const;  // of the runs from that one on

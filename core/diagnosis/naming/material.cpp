@@ -12,7 +12,6 @@ constexpr double kNothing = 4e-10;  // square metres or radians: what no floor o
 constexpr double kByChance = 2.5;   // standard deviations
 constexpr double kOfOneWindow =
     3.0;  // what stays in it is of no chance beyond so many of all windows' standard deviations
-constexpr double kNoWorse = 1.05;  // where windows cannot be held against each other
 
 // Share of the squared error by which dead reckoning becomes worse, and by how much it may where the term is right:
 // what is taken away is independent of what stays, so the sum of squares should fall by its own, but for chance: twice
@@ -44,6 +43,16 @@ Change change_of(const JointModel::GatheredError& before, const JointModel::Gath
   return sum;
 }
 
+// A clock that moves may begin a run with another sample of the truth: then all its windows are others, with a noise of
+// their own.
+bool have_the_same_windows(const JointModel::GatheredError& a, const JointModel::GatheredError& b) {
+  return a.windows == b.windows && a.window_at_s == b.window_at_s;
+}
+
+// So much larger a mean square of so many windows may be by chance than that of so many others: each is the square of
+// two numbers, and as uncertain as it is large.
+double larger_by_chance(int windows) { return 1.0 + kByChance * std::sqrt(2.0 / std::max(1, windows)); }
+
 }  // namespace
 
 bool is_nothing(const JointModel::GatheredError& error) {
@@ -59,7 +68,7 @@ bool lowers(const JointModel::GatheredError& before, const JointModel::GatheredE
 }
 
 double worse_than_chance(const JointModel::GatheredError& before, const JointModel::GatheredError& after) {
-  if (before.windows == 0 || before.windows != after.windows || is_nothing(after)) return 0.0;
+  if (before.windows == 0 || !have_the_same_windows(before, after) || is_nothing(after)) return 0.0;
   const Change change = change_of(before, after);
   return change.worse - std::max(change.may_be_worse, 0.0);
 }
@@ -69,8 +78,8 @@ bool is_material(const JointModel& joint, const JointModel::GatheredError& befor
   const double distrust = joint.distrust(of_a_moment);
   const double of_numbers = std::min(0.5, (1.0 - kMaterial) * static_cast<double>(numbers));
   const double lower = joint.truth_noise_lasts ? std::max(of_numbers, 1.0 - kMostLeftWhereSmoothed) : of_numbers;
-  if (before.windows == 0 || before.windows != after.windows)
-    return lowers(before, after, std::lerp(kNoWorse, 1.0 - lower, distrust));
+  if (before.windows == 0 || !have_the_same_windows(before, after))
+    return lowers(before, after, std::lerp(larger_by_chance(before.windows), 1.0 - lower, distrust));
   const Change change = change_of(before, after);
   return !is_nothing(before) && change.worse < std::lerp(std::max(change.may_be_worse, 0.0), -lower, distrust);
 }
