@@ -130,7 +130,6 @@ Effect once(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm", "over 10 cm"};
-  e.tests_of_a_shape = 0.5;  // one length lies within another
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};

@@ -1,5 +1,7 @@
 #include "core/diagnosis/generic/lagging.h"
 
+#include <algorithm>
+
 #include "core/base/parallel.h"
 
 namespace odolab {
@@ -37,6 +39,21 @@ std::vector<Motions> of_a_yielding_drive(const DriveView& view, const std::vecto
   return {left, right};
 }
 
+// A drive yields to what it pushes, and never the other way; and wheels that are thought to go evenly from one reading
+// to the next are ahead of themselves by a twelfth of their acceleration times the square of that time, a quarter at
+// most.
+void leave_to_readings(GenericTest& t, const JointModel& joint) {
+  constexpr double kAtMost = 0.25;
+  double longest_s = 0.0;
+  for (const InnovationRun& run : joint.runs())
+    longest_s = std::max(
+        longest_s, (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1));
+  for (CandidateTest* of : {&t.test, &t.instead})
+    if (!of->value.empty() && *std::max_element(of->value.begin(), of->value.end()) < kAtMost * longest_s * longest_s)
+      of->statistic = 0.0;
+  t.p_value = t.p_value_of(t.test);
+}
+
 struct Lagging {
   const char *variable, *channel;
   std::size_t amplitudes;
@@ -62,6 +79,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
     term->amplitudes.resize(of.amplitudes);
     term->motions = of.motions;
     ask(t, asked, term, looked_at);
+    if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
   });
   return tests;
 }

@@ -73,15 +73,19 @@ double worse_than_chance(const JointModel::GatheredError& before, const JointMod
   return change.worse - std::max(change.may_be_worse, 0.0);
 }
 
-bool is_material(const JointModel& joint, const JointModel::GatheredError& before,
-                 const JointModel::GatheredError& after, std::size_t numbers, bool of_a_moment) {
-  const double distrust = joint.distrust(of_a_moment);
+bool is_material(double distrust, bool truth_noise_lasts, const JointModel::GatheredError& before,
+                 const JointModel::GatheredError& after, std::size_t numbers) {
   const double of_numbers = std::min(0.5, (1.0 - kMaterial) * static_cast<double>(numbers));
-  const double lower = joint.truth_noise_lasts ? std::max(of_numbers, 1.0 - kMostLeftWhereSmoothed) : of_numbers;
+  const double lower = truth_noise_lasts ? std::max(of_numbers, 1.0 - kMostLeftWhereSmoothed) : of_numbers;
   if (before.windows == 0 || !have_the_same_windows(before, after))
     return lowers(before, after, std::lerp(larger_by_chance(before.windows), 1.0 - lower, distrust));
   const Change change = change_of(before, after);
   return !is_nothing(before) && change.worse < std::lerp(std::max(change.may_be_worse, 0.0), -lower, distrust);
+}
+
+bool is_material(const JointModel& joint, const JointModel::GatheredError& before,
+                 const JointModel::GatheredError& after) {
+  return is_material(joint.distrust(), joint.truth_noise_lasts, before, after);
 }
 
 }  // namespace odolab

@@ -49,9 +49,10 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
   return near;
 }
 
-// Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often.
+// Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often. Not of
+// places and moments, where floors are uneven a little in earnest.
 bool is_one_sided(const Effect& e) {
-  return e.amplitudes.size() == 1 && (e.amplitudes[0].low == 0.0 || e.amplitudes[0].high == 0.0);
+  return !e.local && e.amplitudes.size() == 1 && (e.amplitudes[0].low == 0.0 || e.amplitudes[0].high == 0.0);
 }
 
 bool near_a_rest(const InnovationRun& run, double time_s) {

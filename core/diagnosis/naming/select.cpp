@@ -67,6 +67,18 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
 }
 
+// How little the likelihood is to be believed of a candidate: not at all less where it would stand though all were the
+// more uncertain for the correlation, by a factor without bounds where that is plain.
+double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error) {
+  constexpr double kPerOdds = 2.0;
+  const double distrust = joint.distrust(c.effect->local);
+  if (distrust == 0.0 || distrust >= 1.0) return distrust;
+  ScoredCandidate doubted = c;
+  doubted.test.inflation *= 1.0 + kPerOdds * distrust / (1.0 - distrust);
+  judge(doubted);
+  return doubted.p_value < family_wise_error ? 0.0 : distrust;
+}
+
 bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
   return a.effect->of_one_recording && b.effect->of_one_recording && a.test.shape[0] == b.test.shape[0] &&
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
@@ -269,8 +281,9 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
       if (known != fitted.end()) joint = known->model;
       const double kept = known != fitted.end() ? known->gained : let_in(joint, *standing[tried]);
       joint.fit_noise_and_all();
-      accepted = kept > 8.0 && is_material(before, before.gathered_error(), joint.gathered_error(),
-                                           standing[tried]->test.value.size(), standing[tried]->effect->local);
+      accepted = kept > 8.0 &&
+                 is_material(distrust_of(before, *standing[tried], family_wise_error), before.truth_noise_lasts,
+                             before.gathered_error(), joint.gathered_error(), standing[tried]->test.value.size());
       if (!accepted) joint = before;
     }
     if (!accepted) {
