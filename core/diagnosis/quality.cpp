@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/quantile.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
 #include "core/diagnosis/encoder_jumps.h"
@@ -79,10 +78,9 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
 
   DataFault frozen{"truth_frozen", "truth", recording.name, frozen_truth(truth, wheels, drive), ""};
   if (!frozen.time_s.empty()) {
-    std::size_t k = 0;
     for (Channel& c : out.recording.channels) {
       if (c.name.rfind("truth_", 0) != 0) continue;
-      k = 0;
+      std::size_t k = 0;
       for (std::size_t i = 0; i < out.recording.time_s.size(); ++i) {
         const double t = out.recording.time_s[i];
         while (k < frozen.time_s.size() && t > frozen.time_s[k].second) ++k;

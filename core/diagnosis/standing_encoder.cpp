@@ -16,13 +16,13 @@ double rotation(const WheelSample& s, Wheel wheel) { return wheel == Wheel::left
 class SteadyTruth {
  public:
   SteadyTruth(const std::vector<TruthSample>& samples, double time_offset_s)
-      : samples_(samples), offset_s_(time_offset_s), has_heading_(samples.front().heading_rad.has_value()) {
+      : samples_(samples),
+        offset_s_(time_offset_s),
+        has_heading_(samples.front().heading_rad.has_value() && samples.back().heading_rad.has_value()) {
     std::vector<double> second;
-    for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < samples.size(); ++i)
       second.push_back(
           std::abs(samples[i + 1].position.x_m - 2.0 * samples[i].position.x_m + samples[i - 1].position.x_m));
-      has_heading_ = has_heading_ && samples[i].heading_rad && samples[i + 1].heading_rad;
-    }
     noise_m_ = median(second) / 0.6745 / std::sqrt(6.0);
     period_s_ = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   }
@@ -30,12 +30,13 @@ class SteadyTruth {
   double period_s() const { return period_s_; }
   bool has_heading() const { return has_heading_; }
 
-  // Nothing in a gap, of which the next sample says nothing.
+  // Nothing in a gap, of which the next sample says nothing, nor where a heading is missing that others have.
   std::optional<Pose> at(double wheels_time_s) const {
     const double time_s = wheels_time_s + offset_s_;
     const auto it = std::lower_bound(samples_.begin() + 1, samples_.end() - 2, time_s,
                                      [](const TruthSample& t, double s) { return t.time_s < s; });
     if (std::abs(it->time_s - time_s) >= 2.0 * period_s_) return std::nullopt;
+    if (has_heading_ && !((it - 1)->heading_rad && it->heading_rad && (it + 1)->heading_rad)) return std::nullopt;
     const auto middle = [&](auto&& of) { return median({of(*(it - 1)), of(*it), of(*(it + 1))}); };
     return Pose{middle([](const TruthSample& t) { return t.position.x_m; }),
                 middle([](const TruthSample& t) { return t.position.y_m; }),
