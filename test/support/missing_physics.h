@@ -224,6 +224,13 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
     return [=](InjectedStep& s) {
       s.turn_rad += 0.02 * size * std::sin(2.0 * kPi * s.pose.x_m / 1.5) * std::abs(speed(s)) * s.dt_s;
     };
+  if (effect == "ripples")  // each wheel rolls further, and less far, by where it stands: 1.5 m along x
+    return [=](InjectedStep& s) {
+      const double by = 0.02 * size, left_x_m = (s.pose * Vec2{0.0, 0.5 * b}).x_m,
+                   right_x_m = (s.pose * Vec2{0.0, -0.5 * b}).x_m;
+      s.left_m *= 1.0 + by * std::sin(2.0 * kPi * left_x_m / 1.5);
+      s.right_m *= 1.0 + by * std::sin(2.0 * kPi * right_x_m / 1.5);
+    };
   if (effect == "gusts")  // carried to and fro, once in six seconds
     return [=](InjectedStep& s) {
       if (speed(s) != 0.0) s.room_m.y_m += 0.002 * size * std::sin(2.0 * kPi * s.time_s / 6.0) * s.dt_s;

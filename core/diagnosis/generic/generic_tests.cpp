@@ -71,12 +71,15 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
 }  // namespace
 
 const char* name_of_channel(int channel) {
-  static const char* const kNames[kGenericChannels] = {"forward per metre [1]", "sideways per metre [1]",
-                                                       "turn per metre [rad/m]", "turn per turn [1]"};
+  static const char* const kNames[] = {"forward per metre [1]",    "sideways per metre [1]",
+                                       "turn per metre [rad/m]",   "turn per turn [1]",
+                                       "left wheel per metre [1]", "right wheel per metre [1]"};
   return kNames[channel];
 }
 
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
+  if (channel == kLeftWheelAlone) return {0.5 * step.left_m, 0.0, -step.left_m / wheelbase_m};
+  if (channel == kRightWheelAlone) return {0.5 * step.right_m, 0.0, step.right_m / wheelbase_m};
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;
@@ -222,7 +225,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   rest.is_memory = true;
   rest.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     constexpr double kForgotten_m[] = {0.1, 0.5, 2.0};
-    constexpr double kStands_s = 0.5;
+    constexpr double kStands_s = 1.0;
     out.assign(std::size(kForgotten_m), std::vector<double>(view.steps.size()));
     double way_m = 1e3, stood_s = 0.0;  // what was before the run is not known
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -248,7 +251,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   groups.push_back(phases);
   groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return !g.values; }), groups.end());
 
-  // Each in each channel alone; what is remembered, which may show in all of them at once, in all together too.
+  // Each in each channel alone; what is remembered, which may show in all of them at once or at one
+  // wheel, in all together and in each wheel too.
   struct Asked {
     const Group* group;
     std::vector<int> channels;
@@ -257,7 +261,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   for (const Group& g : groups) {
     for (int channel = 0; channel < (g.of_turns ? kGenericChannels : kTurnOfItself); ++channel)
       asked.push_back({&g, {channel}});
-    if (g.is_memory) asked.push_back({&g, {0, 1, 2}});
+    if (!g.is_memory) continue;
+    asked.push_back({&g, {0, 1, 2}});
+    for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) asked.push_back({&g, {wheel}});
   }
   const auto count = static_cast<int>(asked.size());
   const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests;

@@ -40,6 +40,8 @@ struct GenericTest {
 // turned, as where the wheelbase is another one. Their names, and the motion of one unit of a channel, but the last, in
 // a step.
 constexpr int kGenericChannels = 4, kTurnOfItself = 3;
+// And what one wheel alone does, for each metre that it rolls.
+constexpr int kLeftWheelAlone = 4, kRightWheelAlone = 5;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 

@@ -48,23 +48,25 @@ double coordinate(Along along, const DriveView& view, const EffectStep& s) {
 constexpr int kChannelsOfAll = kTurnOfItself;
 
 // What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
-// time, for each second that it moves; and, in time, the pace of the clock, which all motion has in common, and the turn
-// by itself, as a wheelbase does that is wider for a while.
+// time, for each second that it moves; in time, the pace of the clock, which all motion has in common, and the turn
+// by itself, as a wheelbase does that is wider for a while; and, of the floor, how far each wheel rolls where it stands
+// itself: along one ripple of a floor both do alike, across it the one and then the other.
 constexpr int kAcross = kChannelsOfAll, kPace = kChannelsOfAll + 1, kTurning = kChannelsOfAll + 2,
-              kChannels = kChannelsOfAll + 3;
+              kUnderWheels = kChannelsOfAll + 3, kChannels = kChannelsOfAll + 4;
 
 // What is summed up: the generic channels; what carries it across the floor, along x and along y, for each metre and
-// for each second; the pace; the turn.
-enum Slot { across_m = kAcross, across_s = across_m + 2, of_pace = across_s + 2, of_turning, kSlots };
+// for each second; the pace; the turn; the way of one wheel.
+enum Slot { across_m = kAcross, across_s = across_m + 2, of_pace = across_s + 2, of_turning, of_wheel, kSlots };
 // Those that a wave in time modulates, that one along the way or the turning does, and one on the floor; and the
 // channels that they belong to.
 struct Modulated {
   int slot, channel;
 };
-constexpr Modulated kInTime[] = {{0, 0},          {1, 1}, {2, 2}, {across_s, kAcross}, {across_s + 1, kAcross},
-                                 {of_pace, kPace}, {of_turning, kTurning}};
+constexpr Modulated kInTime[] = {
+    {0, 0}, {1, 1}, {2, 2}, {across_s, kAcross}, {across_s + 1, kAcross}, {of_pace, kPace}, {of_turning, kTurning}};
 constexpr Modulated kOnTheWay[] = {{0, 0}, {1, 1}, {2, 2}};
-constexpr Modulated kOnTheFloor[] = {{0, 0}, {1, 1}, {2, 2}, {across_m, kAcross}, {across_m + 1, kAcross}};
+constexpr Modulated kOnTheFloor[] = {
+    {0, 0}, {1, 1}, {2, 2}, {across_m, kAcross}, {across_m + 1, kAcross}, {of_wheel, kUnderWheels}};
 
 // A wave: turns for each unit of its axis, or the wave vector in turns per metre.
 struct Wave {
@@ -125,6 +127,16 @@ void add_scores(const DriveView& view, const EffectStep& s, const BodyMotion& of
   score[of_turning] += product(unit_of(s, b, kTurning, along).of[0], of_step);
 }
 
+// What one wheel does, +1 for the left one and -1 for the right, that rolls as much further as it does.
+BodyMotion unit_of_wheel(const EffectStep& s, double wheelbase_m, double side) {
+  const double way_m = side > 0.0 ? s.left_m : s.right_m;
+  return {0.5 * way_m, 0.0, -side * way_m / wheelbase_m};
+}
+
+Vec2 place_of_wheel(const EffectStep& s, double wheelbase_m, double side) {
+  return s.position + 0.5 * side * wheelbase_m * Vec2{-s.sin_heading, s.cos_heading};
+}
+
 // A stretch of a run so short that no wave of the floor turns far within it.
 struct Bin {
   Vec2 at;  // in the middle
@@ -145,6 +157,25 @@ std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& s
     steps += 1.0;
     bin.at = bin.at + (1.0 / steps) * (s.position - bin.at);
     add_scores(view, s, score[i], Along::floor, bin.score);
+  }
+  return bins;
+}
+
+std::vector<Bin> bins_of_wheel(const DriveView& view, const std::vector<BodyMotion>& score, double side) {
+  const double b = view.drive.wheelbase_m;
+  std::vector<Bin> bins;
+  double way_m = 0.0, steps = 0.0;
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    if (bins.empty() || way_m > kBin_m) {
+      bins.emplace_back();
+      way_m = steps = 0.0;
+    }
+    Bin& bin = bins.back();
+    way_m += std::abs(side > 0.0 ? s.left_m : s.right_m);
+    steps += 1.0;
+    bin.at = bin.at + (1.0 / steps) * (place_of_wheel(s, b, side) - bin.at);
+    bin.score[of_wheel] += product(unit_of_wheel(s, b, side), score[i]);
   }
   return bins;
 }
@@ -221,33 +252,44 @@ std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& v
 
 // Wave vectors stand on a grid, so that the angle of each is one of x plus one of y, and all scores of a slot are the
 // product of two matrices.
-std::vector<Heard> heard_on_the_floor(const std::vector<std::vector<Bin>>& bins, const Floor& floor) {
+std::vector<Heard> heard_on_the_floor(const std::vector<std::vector<Bin>>& of_vehicle,
+                                      const std::vector<std::vector<Bin>>& of_wheels, const Floor& floor) {
   const double dx = kTurnsApart / std::max(floor.width_m(), 0.5), dy = kTurnsApart / std::max(floor.height_m(), 0.5);
   const double most = std::min(1.0 / kShortestLength_m,  // half a disc of so many at most
                                std::sqrt(2.0 * static_cast<double>(kMostOnTheFloor) * dx * dy / kPi));
   const auto nx = static_cast<Eigen::Index>(most / dx) + 1, ny = static_cast<Eigen::Index>(most / dy) + 1;
-  std::vector<const Bin*> all;
-  for (const std::vector<Bin>& of_run : bins)
-    for (const Bin& b : of_run) all.push_back(&b);
-  const auto n = static_cast<Eigen::Index>(all.size());
-  Eigen::MatrixXd of_x(n, 2 * nx), of_y(n, 2 * ny);  // cosines, then sines
-  for (Eigen::Index b = 0; b < n; ++b) {
-    const Vec2 at = all[static_cast<std::size_t>(b)]->at - floor.low;
-    for (Eigen::Index i = 0; i < nx; ++i) {
-      const double angle = 2.0 * kPi * dx * static_cast<double>(i) * at.x_m;
-      of_x(b, i) = std::cos(angle), of_x(b, nx + i) = std::sin(angle);
+  struct Turned {
+    std::vector<const Bin*> bins;
+    Eigen::MatrixXd of_x, of_y;  // cosines, then sines
+  };
+  const auto turned = [&](const std::vector<std::vector<Bin>>& bins) {
+    Turned t;
+    for (const std::vector<Bin>& of_run : bins)
+      for (const Bin& b : of_run) t.bins.push_back(&b);
+    const auto n = static_cast<Eigen::Index>(t.bins.size());
+    t.of_x.resize(n, 2 * nx), t.of_y.resize(n, 2 * ny);
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const Vec2 at = t.bins[static_cast<std::size_t>(b)]->at - floor.low;
+      for (Eigen::Index i = 0; i < nx; ++i) {
+        const double angle = 2.0 * kPi * dx * static_cast<double>(i) * at.x_m;
+        t.of_x(b, i) = std::cos(angle), t.of_x(b, nx + i) = std::sin(angle);
+      }
+      for (Eigen::Index j = 0; j < ny; ++j) {
+        const double angle = 2.0 * kPi * dy * static_cast<double>(j) * at.y_m;
+        t.of_y(b, j) = std::cos(angle), t.of_y(b, ny + j) = std::sin(angle);
+      }
     }
-    for (Eigen::Index j = 0; j < ny; ++j) {
-      const double angle = 2.0 * kPi * dy * static_cast<double>(j) * at.y_m;
-      of_y(b, j) = std::cos(angle), of_y(b, ny + j) = std::sin(angle);
-    }
-  }
+    return t;
+  };
+  const Turned vehicle = turned(of_vehicle), wheels = turned(of_wheels);
   constexpr std::size_t kMany = std::size(kOnTheFloor);
   std::array<Eigen::MatrixXd, kMany> sums;
   parallel_for(static_cast<int>(kMany), [&](int m) {
-    Eigen::VectorXd score(n);
-    for (Eigen::Index b = 0; b < n; ++b) score(b) = all[static_cast<std::size_t>(b)]->score[kOnTheFloor[m].slot];
-    sums[static_cast<std::size_t>(m)].noalias() = (score.asDiagonal() * of_x).transpose() * of_y;
+    const int slot = kOnTheFloor[m].slot;
+    const Turned& of = slot == of_wheel ? wheels : vehicle;
+    Eigen::VectorXd score(static_cast<Eigen::Index>(of.bins.size()));
+    for (Eigen::Index b = 0; b < score.size(); ++b) score(b) = of.bins[static_cast<std::size_t>(b)]->score[slot];
+    sums[static_cast<std::size_t>(m)].noalias() = (score.asDiagonal() * of.of_x).transpose() * of.of_y;
   });
   std::vector<Heard> heard;
   for (Eigen::Index i = 0; i < nx; ++i)
@@ -310,6 +352,17 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
       const Unit u = unit_of(s, view.drive.wheelbase_m, channel, wave.along);
+      if (channel == kUnderWheels) {
+        for (const double side : {1.0, -1.0}) {
+          const BodyMotion m = unit_of_wheel(s, view.drive.wheelbase_m, side);
+          const double at = 2.0 * kPi * dot(wave.per_m, place_of_wheel(s, view.drive.wheelbase_m, side));
+          for (std::size_t k = 0; k < of_each; ++k) {
+            const double by = k == 0 ? std::cos(at) : std::sin(at);
+            out[k][i].forward_m += by * m.forward_m, out[k][i].turn_rad += by * m.turn_rad;
+          }
+        }
+        continue;
+      }
       const double angle = 2.0 * kPi * wave.turns(view, s), c = std::cos(angle), sn = std::sin(angle);
       for (std::size_t k = 0; k < of_each; ++k) {
         const double by = k % 2 == 0 ? c : sn;
@@ -338,19 +391,21 @@ std::string name_of(const Wave& wave) {
 std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests) {
   const std::vector<DriveView>& views = asked.joint.views();
   const std::size_t runs = views.size();
-  std::vector<std::vector<Bin>> bins(runs);
+  std::vector<std::vector<Bin>> bins(runs), of_wheels(2 * runs);
   std::vector<std::vector<BodyMotion>> scores(runs);
   parallel_for(static_cast<int>(runs), [&](int run) {
     const auto r = static_cast<std::size_t>(run);
     scores[r] = asked.joint.score_of_motions(run);
     bins[r] = bins_of(views[r], scores[r]);
+    of_wheels[2 * r] = bins_of_wheel(views[r], scores[r], 1.0);
+    of_wheels[2 * r + 1] = bins_of_wheel(views[r], scores[r], -1.0);
   });
   constexpr std::size_t kMany = std::size(kAxes) + 1;
   std::array<std::vector<Heard>, kMany> heard_of;
   parallel_for(static_cast<int>(kMany), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    heard_of[k] =
-        k < std::size(kAxes) ? heard_along(kAxes[k], views, scores) : heard_on_the_floor(bins, floor_of(views));
+    heard_of[k] = k < std::size(kAxes) ? heard_along(kAxes[k], views, scores)
+                                       : heard_on_the_floor(bins, of_wheels, floor_of(views));
   });
   if (heard_of.front().empty()) return {};
   std::vector<Heard> heard;
@@ -376,7 +431,7 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
   double looked_at = other_tests;
   for (const Heard& h : heard)
     looked_at += h.wave.along == Along::time    ? kChannels
-                 : h.wave.along == Along::floor ? kChannelsOfAll + 1
+                 : h.wave.along == Along::floor ? kChannelsOfAll + 2
                                                 : kChannelsOfAll;
   std::vector<GenericTest> tests(chosen.size());
   parallel_for(static_cast<int>(chosen.size()), [&](int i) {
@@ -384,8 +439,9 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     const Wave wave = between_neighbours(*chosen[static_cast<std::size_t>(i)].wave, channel, views, scores);
     t.variable = name_of(wave);
-    t.channel = channel == kPace      ? "pace of its clock [1]"
-                : channel == kTurning ? name_of_channel(kTurnOfItself)
+    t.channel = channel == kPace          ? "pace of its clock [1]"
+                : channel == kUnderWheels ? "way of the wheel that is there, per metre [1]"
+                : channel == kTurning     ? name_of_channel(kTurnOfItself)
                 : channel == kAcross
                     ? wave.in_time() ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);

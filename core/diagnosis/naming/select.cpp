@@ -31,9 +31,42 @@ bool looks_like(const Effect& a, const Effect& b) {
   return a.name != b.name && (names(a, b) || names(b, a));
 }
 
+Motions motion_of(const Effect& effect, const DriveView& view, const std::vector<double>& shape,
+                  const std::vector<double>& value) {
+  Motions sum(view.steps.size());
+  const std::vector<Motions> columns = effect.motions(view, shape);
+  for (std::size_t k = 0; k < columns.size() && k < value.size(); ++k) columns[k].add_to(sum, value[k]);
+  return sum;
+}
+
+// Whether another effect that acts but here and there acts where this one does, and half as strongly: no castor kicks
+// twice alike.
+bool happens_within_another(const JointModel& joint, const Effect& event, const CandidateTest& test) {
+  constexpr double kSeldom = 0.2, kAsStrongly = 0.5;
+  const auto size_m = [](const BodyMotion& m, double base_m) {
+    return std::abs(m.forward_m) + std::abs(m.sideways_m) + 0.5 * base_m * std::abs(m.turn_rad);
+  };
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(), [&](const AcceptedEffect& a) {
+    if (a.effect == &event || !a.acts_on_motion()) return false;
+    double own_m = 0.0, other_m = 0.0, acts = 0.0, steps = 0.0;
+    for (const DriveView& view : joint.views()) {
+      const Motions own = motion_of(event, view, test.shape, test.value);
+      const Motions other = motion_of(*a.effect, view, a.shape, a.value);
+      for (std::size_t i = 0; i < view.steps.size(); ++i) {
+        const double of_own = size_m(own.at(i), view.drive.wheelbase_m),
+                     of_other = size_m(other.at(i), view.drive.wheelbase_m);
+        own_m += of_own, other_m += of_own > 0.0 ? of_other : 0.0;
+        acts += of_other > 0.0 ? 1.0 : 0.0, steps += 1.0;
+      }
+    }
+    return acts < kSeldom * steps && other_m > kAsStrongly * own_m;
+  });
+}
+
 // Of all the evidence, that an effect must have beside those that are let in. Where innovations are correlated a small
 // share is believed as little as an event's.
-double least_share(const JointModel& joint, const Effect& effect, double distrust) {
+double least_share(const JointModel& joint, const Effect& effect, const CandidateTest& test, double distrust) {
+  if (effect.local && happens_within_another(joint, effect, test)) return kFormError;
   if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
                   [&](const AcceptedEffect& a) { return looks_like(*a.effect, effect); }))
     return kLeastShareBesideItsLike;
@@ -234,7 +267,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     const auto find_standing = [&] {
       for (const ScoredCandidate& c : scored)
         if (stands(c, family_wise_error) && !is_refuted(c) && !of_the_same(joint, c) && !is_a_clock_of_each(c) &&
-            c.test.statistic > explained * least_share(joint, *c.effect, distrust))
+            c.test.statistic > explained * least_share(joint, *c.effect, c.test, distrust))
           standing.push_back(&c);
     };
     find_standing();
@@ -350,7 +383,7 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
     ScoredCandidate own;
     for (const ScoredCandidate& c : instead)
       if (c.effect == joint.accepted[k].effect) own = c;
-    const double least = least_share(joint, *joint.accepted[k].effect, joint.distrust());
+    const double least = least_share(joint, *joint.accepted[k].effect, own.test, joint.distrust());
     if (!own.effect || !stands(own, family_wise_error) || share_of(k) < least) {
       JointModel without = joint;
       const double lost = joint.lost_without(static_cast<int>(k), &without);

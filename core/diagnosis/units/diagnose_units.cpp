@@ -1,6 +1,7 @@
 #include "core/diagnosis/units/diagnose_units.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/diagnosis/units/geometry_fit.h"
@@ -45,6 +46,32 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
     }
   }
   if (dropped && d.findings.empty()) d.verdict = Verdict::nothing_missing;
+}
+
+bool has_findings_of_vehicle(const Diagnosis& d) {
+  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.component != "truth"; });
+}
+
+// Trucks know better how they stand to each other than a coarse truth knows where they are. False where they say
+// nothing of a joint, or what the truth contradicts.
+bool take_biases_from_inside(GeometryFit& geometry, const Diagnosis& inside) {
+  constexpr double kBetterKnown = 0.5, kContradicted = 3.0;  // times the error by the truth
+  bool taken = false;
+  for (JointEstimate& e : geometry.joints)
+    for (const Finding& f : inside.findings) {
+      if (e.parameter.effect.empty() || f.effect != e.parameter.effect || f.component != e.parameter.component)
+        continue;
+      const FoundParameter& bias = f.parameters.front();
+      const double off = bias.value - (e.value - e.nominal);
+      if (!e.determined || bias.stderr_value > kBetterKnown * e.stderr_value ||
+          std::abs(off) > kContradicted * e.stderr_value)
+        continue;
+      e.value = e.nominal + bias.value;
+      e.stderr_value = bias.stderr_value;
+      e.parameter.of(geometry.vehicle) = e.value;
+      taken = true;
+    }
+  return taken;
 }
 
 // Too little outside truth to say where each unit was.
@@ -116,6 +143,10 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   }
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   prove_biases(d, runs, geometry, nominal);
+  if (units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind) && !has_findings_of_vehicle(d)) {
+    const Result<Diagnosis> inside = diagnose_inside(train, held_out, nominal, of_one, progress);
+    if (inside && take_biases_from_inside(geometry, *inside)) d = merged(diagnoses, geometry, nominal, train);
+  }
   if (erring) add_erring_joint(*erring, nominal, d);
   return d;
 }

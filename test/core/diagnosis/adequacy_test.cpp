@@ -53,6 +53,40 @@ TEST(Adequacy, CallsATruthSeenThroughALensUnknownAndSaysThatItsPositionsAreBent)
   EXPECT_NEAR(cubic, there, 0.1 * there);  // 2 % at the rim, so much is the place itself off
 }
 
+// Curves of six seconds to either side, one in three in reverse, with rests of a second and a half between.
+test::SpeedProfile curves_and_rests(int run) {
+  constexpr double kLeg_s = 6.0, kAll_s = 7.5;
+  return [run](double t) {
+    const int leg = static_cast<int>(t / kAll_s) + run;
+    const double at_s = std::fmod(t, kAll_s);
+    if (at_s >= kLeg_s) return test::WheelSpeedsAt{};
+    const double pace = (leg % 3 == 2 ? -4.0 : 4.0) * (1.0 - std::cos(2.0 * kPi * at_s / kLeg_s));
+    const double turn = leg % 2 == 0 ? 0.25 : -0.4;
+    return test::WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
+  };
+}
+
+TEST(Adequacy, CallsATyreThatIsFlatAfterStandingUnknownAndSaysThatItGoesWithTheWaySince) {
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.01);
+  g.duration_s = 60.0;
+  const auto flat = [](int) {  // the left one; it is round again half a metre on
+    return [stood_s = 0.0, rolled_m = 1e3](test::InjectedStep& s) mutable {
+      const bool stands = s.left_radps == 0.0 && s.right_radps == 0.0;
+      if (!stands && stood_s > 1.0) rolled_m = 0.0;
+      stood_s = stands ? stood_s + s.dt_s : 0.0;
+      rolled_m += std::abs(s.left_m);
+      s.left_m *= 1.0 - 0.02 * std::exp(-rolled_m / 0.5);
+    };
+  };
+  Random random(64);
+  const Result<Diagnosis> d = diagnose(test::three_runs(g, random, curves_and_rests, flat), {}, Vehicle{});
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  const std::string& regime = d->findings.front().where.regime;
+  EXPECT_EQ(regime.find("left wheel per metre"), 0u) << regime;
+  EXPECT_NE(regime.find("way since it stood"), std::string::npos) << regime;
+}
+
 // Seen from behind, or as if from there: the measured heading is turned.
 void turn_mounting(Recording& recording, double by_rad) {
   for (Channel& c : recording.channels)

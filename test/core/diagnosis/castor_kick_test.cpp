@@ -15,7 +15,8 @@ constexpr double kOff_rad = 5.0 * kPi / 180.0;
 // Straights forth and back, in which it turns about within half a second, each long enough for a castor to swing round:
 // turned about, it stands five degrees off and obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is
 // turned by the share of half a turn that it swings.
-std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& drive, double kick_rad) {
+std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& drive, double kick_rad,
+                                      double scatter = 0.0) {
   GeneratorSettings g = under_motion_capture(drive, 0.0008, 0.01);
   g.duration_s = 60.0;
   const auto legs = [](int run) -> SpeedProfile {
@@ -24,14 +25,18 @@ std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& d
       return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
     };
   };
-  const auto swinging = [kick_rad](int) {
-    return [kick_rad, angle_rad = 0.0, direction = 1](InjectedStep& s) mutable {
+  const auto swinging = [kick_rad, scatter](int run) {
+    return [kick_rad, scatter, each = Random(static_cast<std::uint64_t>(run)), this_rad = kick_rad, angle_rad = 0.0,
+            direction = 1](InjectedStep& s) mutable {
       const double way_m = 0.5 * 0.075 * (s.left_radps + s.right_radps) * s.dt_s;
       const int now = way_m > 0.0 ? 1 : -1;
-      if (now != direction) angle_rad = kPi - kOff_rad, direction = now;
+      if (now != direction) {
+        angle_rad = kPi - kOff_rad, direction = now;
+        this_rad = kick_rad * (1.0 + scatter * each.normal());
+      }
       const double swung = std::min(angle_rad, std::sin(angle_rad) * std::abs(way_m) / kTrail_m);
       angle_rad -= swung;
-      s.turn_rad += kick_rad * swung / kPi;
+      s.turn_rad += this_rad * swung / kPi;
     };
   };
   return three_runs(g, random, legs, swinging);
@@ -50,6 +55,13 @@ TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {
   constexpr double kKick_rad = 0.008;
   Random random(61);
   expect_measured(diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, kKick_rad), {}, Vehicle{}).value(), kKick_rad);
+}
+
+TEST(CastorReversalKick, IsOneThoughNoTwoOfItsKicksAreAlike) {
+  Random random(63);
+  const Diagnosis d = diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, 0.02, 0.3), {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u) << d.findings[1].effect;
+  EXPECT_EQ(d.findings[0].effect, "castor_reversal_kick");
 }
 
 TEST(CastorReversalKick, IsMeasuredThoughItTurnsTheVehicleByLessThanACountOfItsWheels) {

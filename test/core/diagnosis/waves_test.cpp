@@ -89,6 +89,22 @@ TEST(Waves, OfTheFloorAreFoundInALargeHallToo) {
   EXPECT_NEAR(degrees, 0.0, 5.0);
 }
 
+TEST(Waves, OfTheFloorUnderEachWheelSayMoreThanUnderTheMiddleOfTheAxle) {
+  test::CaseSettings settings;
+  settings.effect = "ripples";
+  settings.runs = 2;
+  settings.duration_s = 40.0;
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(calibrated(test::generated_case(settings, 11))), 0);
+  const GenericTest& t = strongest(tests);
+  EXPECT_EQ(t.channel, "way of the wheel that is there, per metre [1]");
+  EXPECT_LT(t.p_value, 1e-6);
+  double length_m = 0.0, degrees = 90.0;
+  ASSERT_EQ(std::sscanf(t.variable.c_str(), "place, in waves of %lf m towards %lf", &length_m, &degrees), 2)
+      << t.variable;
+  EXPECT_NEAR(length_m, 1.5, 0.3);  // as above
+  EXPECT_NEAR(degrees, 0.0, 15.0);
+}
+
 TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   const JointModel joint = calibrated(short_case("gusts"));
   const std::vector<GenericTest> tests = wave_tests(AskedModel(joint), 0);

@@ -163,6 +163,22 @@ TEST(DiagnoseUnits, TellABiasedLinkEncoderFromTheTrucks) {
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.012, 4.0 * d.findings[0].parameters[0].stderr_value);
 }
 
+// A camera that reads headings to a degree puts truck B to 2 cm; by their wheels the trucks know it to a tenth of that.
+TEST(DiagnoseUnits, NameABiasThatACoarseTruthCannotShowByWhatTheTrucksSayOfEachOther) {
+  Clapper actual = crooked_clapper();
+  actual.link_angle_a_offset_rad = 0.005;
+  LinkedRunSettings settings;
+  settings.duration_s = 60.0;
+  settings.truth_m = 0.008;
+  settings.truth_rad = 0.02;
+  const Diagnosis d = diagnosed(clapper_runs(actual, settings, 75), Clapper{});
+  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  EXPECT_EQ(d.findings[0].effect, "link_angle_bias");
+  EXPECT_EQ(d.findings[0].component, "truck_a");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, 0.005, 4.0 * d.findings[0].parameters[0].stderr_value);
+  EXPECT_LT(d.findings[0].parameters[0].stderr_value, 0.0008);
+}
+
 // All lengths as shares of the wheels': a link 2.5 % longer, in its file, than wheels 2.5 % too small in theirs.
 TEST(DiagnoseUnits, TakeWheelsThatAreAllTooSmallFromTheInsideForNoBiasOfTheLink) {
   Clapper file;
