@@ -42,7 +42,7 @@ Motions motion_of(const Effect& effect, const DriveView& view, const std::vector
 // Whether another effect that acts but here and there acts where this one does, and half as strongly: no castor kicks
 // twice alike.
 bool happens_within_another(const JointModel& joint, const Effect& event, const CandidateTest& test) {
-  constexpr double kSeldom = 0.2, kAsStrongly = 0.5;
+  constexpr double kSeldom = 0.4, kAsStrongly = 0.5;
   const auto size_m = [](const BodyMotion& m, double base_m) {
     return std::abs(m.forward_m) + std::abs(m.sideways_m) + 0.5 * base_m * std::abs(m.turn_rad);
   };
