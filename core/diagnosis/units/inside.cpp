@@ -1,5 +1,6 @@
 #include "core/diagnosis/units/inside.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -135,6 +136,59 @@ void widen_what_turns_lose(GeometryFit& fit) {
       e.stderr_value = std::hypot(e.stderr_value, kLostInTurns * (e.value - e.nominal));
 }
 
+// All that is fitted from the inside.
+std::vector<double*> parts_of(Known& known, const std::vector<JointParameter>& joints) {
+  std::vector<double*> parts;
+  for (const JointParameter& p : joints) parts.push_back(&p.of(known.vehicle));
+  for (DifferentialDrive& d : known.drives)
+    parts.insert(parts.end(), {&d.wheel_radius_left_m, &d.wheel_radius_right_m, &d.wheelbase_m});
+  return parts;
+}
+
+Eigen::VectorXd numbers_of(Known& known, const std::vector<JointParameter>& joints) {
+  const std::vector<double*> parts = parts_of(known, joints);
+  Eigen::VectorXd x(static_cast<Eigen::Index>(parts.size()));
+  for (Eigen::Index k = 0; k < x.size(); ++k) x(k) = *parts[static_cast<std::size_t>(k)];
+  return x;
+}
+
+void set_numbers(Known& known, const std::vector<JointParameter>& joints, const Eigen::VectorXd& x) {
+  const std::vector<double*> parts = parts_of(known, joints);
+  for (Eigen::Index k = 0; k < x.size(); ++k) *parts[static_cast<std::size_t>(k)] = x(k);
+  for (std::size_t u = 0; u < known.drives.size(); ++u) known.vehicle = with_drive(known.vehicle, u, known.drives[u]);
+}
+
+// The point that a slowly converging map leaves as it is, by what its last steps had in common (Anderson 1965).
+class FixedPoint {
+ public:
+  Eigen::VectorXd next(const Eigen::VectorXd& at, const Eigen::VectorXd& to) {
+    const Eigen::VectorXd step = to - at;
+    Eigen::VectorXd x = to;
+    if (last_step_.size() > 0) {
+      constexpr std::size_t kMost = 5;
+      if (changes_.size() == kMost) changes_.erase(changes_.begin());
+      changes_.push_back({to - last_to_, step - last_step_});
+      const auto m = static_cast<Eigen::Index>(changes_.size());
+      Eigen::MatrixXd of_step(step.size(), m), of_to(step.size(), m);
+      for (Eigen::Index k = 0; k < m; ++k) {
+        of_to.col(k) = changes_[static_cast<std::size_t>(k)].of_to;
+        of_step.col(k) = changes_[static_cast<std::size_t>(k)].of_step;
+      }
+      x -= of_to * of_step.colPivHouseholderQr().solve(step);
+    }
+    last_to_ = to;
+    last_step_ = step;
+    return x;
+  }
+
+ private:
+  struct Change {
+    Eigen::VectorXd of_to, of_step;
+  };
+  std::vector<Change> changes_;
+  Eigen::VectorXd last_to_, last_step_;
+};
+
 // Joints and wheels by what the units contradict each other.
 Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, const Vehicle& nominal,
                                          const Progress& progress) {
@@ -143,9 +197,12 @@ Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, c
   if (std::holds_alternative<MultiCastor>(vehicle.kind)) {
     Known known{vehicle, {}};
     for (const VehicleUnit& unit : units) known.drives.push_back(unit.drive);
-    // The common way is that of wheels and pivots as they were believed to be: by turns, until both agree. Each turn
-    // leaves a third with three castors.
-    constexpr int kTurns = 4;
+    // The common way is that of wheels and pivots as they were believed to be: by turns, until both agree. What is
+    // nearly common to all castors, as wheels that are all too small, moves by a tenth of its way in each.
+    constexpr int kTurns = 14;
+    constexpr double kAgree = 2e-6;  // m and rad
+    const std::vector<JointParameter> joints = joint_parameters(vehicle);
+    FixedPoint fixed;
     GeometryFit fit;
     for (int turn = 0; turn < kTurns; ++turn) {
       std::vector<JoinedRun> runs;
@@ -155,8 +212,10 @@ Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, c
         runs.push_back({u.samples, *track});
       }
       fit = fitted_geometry(runs, vehicle, held_joints(vehicle));
-      known.vehicle = fit.vehicle;
-      for (std::size_t u = 0; u < units.size(); ++u) known.vehicle = with_drive(known.vehicle, u, fit.drives[u]);
+      Known then{fit.vehicle, fit.drives};
+      const Eigen::VectorXd at = numbers_of(known, joints), to = numbers_of(then, joints);
+      if ((to - at).cwiseAbs().maxCoeff() < kAgree) break;
+      if (turn + 1 < kTurns) set_numbers(known, joints, fixed.next(at, to));
     }
     set_most_pivots_right(fit);
     fit.vehicle = without_mounting(fit.vehicle);
