@@ -78,8 +78,8 @@ const char* name_of_channel(int channel) {
 }
 
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
-  if (channel == kLeftWheelAlone) return {0.5 * step.left_m, 0.0, -step.left_m / wheelbase_m};
-  if (channel == kRightWheelAlone) return {0.5 * step.right_m, 0.0, step.right_m / wheelbase_m};
+  if (channel == kLeftWheelAlone) return by_wheel(Wheel::left, step.left_m, wheelbase_m);
+  if (channel == kRightWheelAlone) return by_wheel(Wheel::right, step.right_m, wheelbase_m);
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;

@@ -127,13 +127,10 @@ void add_scores(const DriveView& view, const EffectStep& s, const BodyMotion& of
   score[of_turning] += product(unit_of(s, b, kTurning, along).of[0], of_step);
 }
 
-// What one wheel does, +1 for the left one and -1 for the right, that rolls as much further as it does.
-BodyMotion unit_of_wheel(const EffectStep& s, double wheelbase_m, double side) {
-  const double way_m = side > 0.0 ? s.left_m : s.right_m;
-  return {0.5 * way_m, 0.0, -side * way_m / wheelbase_m};
-}
+double way_of(const EffectStep& s, Wheel wheel) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
-Vec2 place_of_wheel(const EffectStep& s, double wheelbase_m, double side) {
+Vec2 place_of_wheel(const EffectStep& s, double wheelbase_m, Wheel wheel) {
+  const double side = wheel == Wheel::left ? 1.0 : -1.0;
   return s.position + 0.5 * side * wheelbase_m * Vec2{-s.sin_heading, s.cos_heading};
 }
 
@@ -143,41 +140,40 @@ struct Bin {
   double score[kSlots] = {};
 };
 
-std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
+// `way_m` and `place` are of what goes there, `add` puts the score of one step into a bin.
+template <typename Way, typename Place, typename Add>
+std::vector<Bin> bins_along(const DriveView& view, const Way& way_m, const Place& place, const Add& add) {
   std::vector<Bin> bins;
-  double way_m = 0.0, steps = 0.0;
+  double gone_m = 0.0, steps = 0.0;
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     const EffectStep& s = view.steps[i];
-    if (bins.empty() || way_m > kBin_m) {
+    if (bins.empty() || gone_m > kBin_m) {
       bins.emplace_back();
-      way_m = steps = 0.0;
+      gone_m = steps = 0.0;
     }
     Bin& bin = bins.back();
-    way_m += std::abs(s.forward_m());
+    gone_m += std::abs(way_m(s));
     steps += 1.0;
-    bin.at = bin.at + (1.0 / steps) * (s.position - bin.at);
-    add_scores(view, s, score[i], Along::floor, bin.score);
+    bin.at = bin.at + (1.0 / steps) * (place(s) - bin.at);
+    add(bin, s, i);
   }
   return bins;
 }
 
-std::vector<Bin> bins_of_wheel(const DriveView& view, const std::vector<BodyMotion>& score, double side) {
+std::vector<Bin> bins_of(const DriveView& view, const std::vector<BodyMotion>& score) {
+  return bins_along(
+      view, [](const EffectStep& s) { return s.forward_m(); }, [](const EffectStep& s) { return s.position; },
+      [&](Bin& bin, const EffectStep& s, std::size_t i) { add_scores(view, s, score[i], Along::floor, bin.score); });
+}
+
+std::vector<Bin> bins_of_wheel(const DriveView& view, const std::vector<BodyMotion>& score, Wheel wheel) {
   const double b = view.drive.wheelbase_m;
-  std::vector<Bin> bins;
-  double way_m = 0.0, steps = 0.0;
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const EffectStep& s = view.steps[i];
-    if (bins.empty() || way_m > kBin_m) {
-      bins.emplace_back();
-      way_m = steps = 0.0;
-    }
-    Bin& bin = bins.back();
-    way_m += std::abs(side > 0.0 ? s.left_m : s.right_m);
-    steps += 1.0;
-    bin.at = bin.at + (1.0 / steps) * (place_of_wheel(s, b, side) - bin.at);
-    bin.score[of_wheel] += product(unit_of_wheel(s, b, side), score[i]);
-  }
-  return bins;
+  return bins_along(
+      view, [&](const EffectStep& s) { return way_of(s, wheel); },
+      [&](const EffectStep& s) { return place_of_wheel(s, b, wheel); },
+      [&](Bin& bin, const EffectStep& s, std::size_t i) {
+        bin.score[of_wheel] += product(by_wheel(wheel, way_of(s, wheel), b), score[i]);
+      });
 }
 
 // A wave and the square of its score in every channel.
@@ -353,9 +349,9 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
       const EffectStep& s = view.steps[i];
       const Unit u = unit_of(s, view.drive.wheelbase_m, channel, wave.along);
       if (channel == kUnderWheels) {
-        for (const double side : {1.0, -1.0}) {
-          const BodyMotion m = unit_of_wheel(s, view.drive.wheelbase_m, side);
-          const double at = 2.0 * kPi * dot(wave.per_m, place_of_wheel(s, view.drive.wheelbase_m, side));
+        for (const Wheel wheel : {Wheel::left, Wheel::right}) {
+          const BodyMotion m = by_wheel(wheel, way_of(s, wheel), view.drive.wheelbase_m);
+          const double at = 2.0 * kPi * dot(wave.per_m, place_of_wheel(s, view.drive.wheelbase_m, wheel));
           for (std::size_t k = 0; k < of_each; ++k) {
             const double by = k == 0 ? std::cos(at) : std::sin(at);
             out[k][i].forward_m += by * m.forward_m, out[k][i].turn_rad += by * m.turn_rad;
@@ -397,8 +393,8 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     const auto r = static_cast<std::size_t>(run);
     scores[r] = asked.joint.score_of_motions(run);
     bins[r] = bins_of(views[r], scores[r]);
-    of_wheels[2 * r] = bins_of_wheel(views[r], scores[r], 1.0);
-    of_wheels[2 * r + 1] = bins_of_wheel(views[r], scores[r], -1.0);
+    of_wheels[2 * r] = bins_of_wheel(views[r], scores[r], Wheel::left);
+    of_wheels[2 * r + 1] = bins_of_wheel(views[r], scores[r], Wheel::right);
   });
   constexpr std::size_t kMany = std::size(kAxes) + 1;
   std::array<std::vector<Heard>, kMany> heard_of;

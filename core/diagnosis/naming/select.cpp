@@ -66,7 +66,7 @@ bool happens_within_another(const JointModel& joint, const Effect& event, const 
 // Of all the evidence, that an effect must have beside those that are let in. Where innovations are correlated a small
 // share is believed as little as an event's.
 double least_share(const JointModel& joint, const Effect& effect, const CandidateTest& test, double distrust) {
-  if (effect.local && happens_within_another(joint, effect, test)) return kFormError;
+  if (effect.local && !test.value.empty() && happens_within_another(joint, effect, test)) return kFormError;
   if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
                   [&](const AcceptedEffect& a) { return looks_like(*a.effect, effect); }))
     return kLeastShareBesideItsLike;
