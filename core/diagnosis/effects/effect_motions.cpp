@@ -1,6 +1,16 @@
 #include "core/diagnosis/effects/effect_motions.h"
 
+#include <algorithm>
+
 namespace odolab {
+
+Motions motion_of(const Effect& effect, const DriveView& view, const std::vector<double>& shape,
+                  const std::vector<double>& value) {
+  Motions sum(view.steps.size());
+  const std::vector<Motions> columns = effect.motions(view, shape);
+  for (std::size_t k = 0; k < std::min(columns.size(), value.size()); ++k) columns[k].add_to(sum, value[k]);
+  return sum;
+}
 
 std::vector<BodyMotion> motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects) {
   std::vector<BodyMotion> sum(view.steps.size());

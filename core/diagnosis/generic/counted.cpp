@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/diagnosis/effects/effect_motions.h"
+
 namespace odolab {
 
 namespace {
@@ -49,9 +51,7 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
   Moved moved;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
-    const std::vector<Motions> columns = term.motions(view, {});
-    Motions motion(view.steps.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].add_to(motion, value[k]);
+    const Motions motion = motion_of(term, view, {}, value);
     const double count = count_rad(joint.runs()[r], drive);
     std::vector<double> left_by_m, right_by_m;
     Extent left_m, right_m;

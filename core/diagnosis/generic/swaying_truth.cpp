@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/effects/effect_motions.h"
+
 namespace odolab {
 
 namespace {
@@ -9,9 +11,7 @@ namespace {
 bool is_within_truths_error(const JointModel& joint, const Effect& term, const std::vector<double>& value) {
   const double error_m = joint.noise_as_recorded().truth_position_m;
   for (const DriveView& view : joint.views()) {
-    const std::vector<Motions> columns = term.motions(view, {});
-    Motions motion(view.steps.size());
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].add_to(motion, value[k]);
+    const Motions motion = motion_of(term, view, {}, value);
     Vec2 gone_m, low_m, high_m;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];

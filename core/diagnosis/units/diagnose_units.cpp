@@ -8,6 +8,7 @@
 #include "core/diagnosis/units/inside.h"
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
@@ -50,6 +51,14 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
 
 bool has_findings_of_vehicle(const Diagnosis& d) {
   return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.component != "truth"; });
+}
+
+// Whether a bias that is worth a name may lie hidden in what the truth does not tell.
+bool hides_a_bias(const GeometryFit& geometry) {
+  return std::any_of(geometry.joints.begin(), geometry.joints.end(), [](const JointEstimate& e) {
+    return !e.parameter.effect.empty() && e.parameter.component != "truth" && e.determined &&
+           kSigmasOfBias * e.stderr_value > e.parameter.least;
+  });
 }
 
 // Trucks know better how they stand to each other than a coarse truth knows where they are. False where they say
@@ -125,26 +134,28 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     for (std::size_t r = 0; r < runs_held_out.size(); ++r)
       own_held_out.push_back(recording_of_unit(held_out[r], runs_held_out[r].samples, runs_held_out[r].tracked,
                                                geometry.vehicle, u, clock_held_out_s[r], !units[u].carries_truth));
-    const double from = 0.1 + 0.9 * static_cast<double>(u) / static_cast<double>(units.size());
     const Progress part = [&](double share) {
-      return goes_on(progress, from + 0.9 * share / static_cast<double>(units.size()));
+      return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
     };
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units[u], nominal), of_one, part);
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, own, units[u].drive);
     if (!units[u].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal.kind));
     if (!units[u].carries_truth) {
-      const auto& own = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
+      const auto& calibrated = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
       std::optional<ErringJoint> of_unit =
-          erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, own), u);
+          erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, calibrated), u);
       if (of_unit && (!erring || of_unit->gain > erring->gain)) erring = std::move(of_unit);
     }
     diagnoses.push_back(std::move(*one));
   }
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   prove_biases(d, runs, geometry, nominal);
-  if (units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind) && !has_findings_of_vehicle(d)) {
-    const Result<Diagnosis> inside = diagnose_inside(train, held_out, nominal, of_one, progress);
+  const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
+  if (are_trucks && !has_findings_of_vehicle(d) && hides_a_bias(geometry)) {
+    const Progress nearly_done = [&](double) { return goes_on(progress, 0.95); };
+    const Result<Diagnosis> inside = diagnose_inside(train, held_out, nominal, options, nearly_done);
+    if (!inside && !goes_on(progress, 0.95)) return inside.error();
     if (inside && take_biases_from_inside(geometry, *inside)) d = merged(diagnoses, geometry, nominal, train);
   }
   if (erring) add_erring_joint(*erring, nominal, d);

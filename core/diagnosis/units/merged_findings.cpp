@@ -14,7 +14,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kSigmas = 6.0;  // of a mounting or a bias, as in the diagnosis of one drive: least sizes beside it
 constexpr double kLeastClock_s = 0.004;
 
 // What all units see alike, whichever of them it was named by.
@@ -114,7 +113,7 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
       const FoundParameter* heading = parameter_of(f, "heading_rad");
       const double turned = toe ? -toe->value : heading ? heading->value : 0.0;
       const double error = toe ? toe->stderr_value : heading ? heading->stderr_value : 0.0;
-      if (std::abs(turned) < 0.003 || std::abs(turned) < kSigmas * error) continue;
+      if (std::abs(turned) < 0.003 || std::abs(turned) < kSigmasOfBias * error) continue;
       Finding biased;
       const std::string stands = (unit.name == "trailer" ? "the " : "") + part_words(unit.name);
       biased.effect = bias->effect;
@@ -173,8 +172,8 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
   for (const JointEstimate& e : geometry.joints) {
     if (e.parameter.effect.empty() || e.parameter.component == "truth" || !e.determined) continue;
     const double off = e.value - e.nominal, z = off / e.stderr_value;
-    if (std::abs(z) < kSigmas || std::abs(off) < e.parameter.least) continue;
-    if (e.feigned > 0.0 && std::abs(off) < e.feigned + kSigmas * e.stderr_value) {
+    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.parameter.least) continue;
+    if (e.feigned > 0.0 && std::abs(off) < e.feigned + kSigmasOfBias * e.stderr_value) {
       not_told.push_back(or_scale_in_words(e));
       continue;
     }
@@ -218,7 +217,7 @@ void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<
     if (e.parameter.component != "truth" || !e.determined) continue;
     const double off = e.value - e.nominal, z = off / e.stderr_value;
     mounting.parameters.push_back({e.parameter.parameter, e.value, e.stderr_value, e.parameter.unit});
-    if (std::abs(z) < kSigmas || std::abs(off) < e.parameter.least) continue;
+    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.parameter.least) continue;
     material = true;
     mounting.log_likelihood_gain += 0.5 * z * z;
   }
@@ -238,7 +237,7 @@ void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<
     variance += geometry.clock_stderr_s[r] * geometry.clock_stderr_s[r] / (n * n);
   }
   const double z = mean_s / std::sqrt(std::max(variance, 1e-18));
-  if (std::abs(z) < kSigmas || std::abs(mean_s) < kLeastClock_s) return;
+  if (std::abs(z) < kSigmasOfBias || std::abs(mean_s) < kLeastClock_s) return;
   Finding clock;
   clock.effect = "truth_time_offset";
   clock.component = "truth";

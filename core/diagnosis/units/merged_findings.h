@@ -9,6 +9,9 @@
 
 namespace odolab {
 
+// A mounting or a bias is named above so many standard errors, as in the diagnosis of one drive: least sizes beside it.
+constexpr double kSigmasOfBias = 6.0;
+
 // The findings of one unit in the vehicle's words. What remains of the truth's mounting is a biased encoder, or lengths
 // that are calibration.
 void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRounding& rounding,

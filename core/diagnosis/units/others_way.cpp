@@ -1,0 +1,46 @@
+#include "core/diagnosis/units/others_way.h"
+
+#include "core/diagnosis/units/unit_models.h"
+#include "core/odometry/cast.h"
+#include "core/odometry/differential_drive.h"
+
+namespace odolab {
+
+namespace {
+
+Track reckoned(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive) {
+  std::vector<WheelSample> wheels;
+  for (const UnitSample& s : samples) wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+  return dead_reckoned(wheels, drive, Pose{});
+}
+
+}  // namespace
+
+Vehicle without_mounting(Vehicle vehicle) {
+  vehicle.truth = {};
+  return vehicle;
+}
+
+Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& samples, std::size_t without) {
+  if (const auto* platform = std::get_if<MultiCastor>(&known.vehicle.kind)) {
+    std::vector<CastorSample> readings;
+    for (const UnitSample& s : samples) {
+      CastorSample sample{s.time_s, {}};
+      for (std::size_t k = 0; k < s.wheels.size(); ++k) sample.castors.push_back({s.wheels[k], s.joints[k]});
+      readings.push_back(std::move(sample));
+    }
+    CastOptions options;
+    options.left_out = without < known.drives.size() ? static_cast<int>(without) + 1 : 0;
+    if (const std::string problem = problem_in(options, *platform); !problem.empty())
+      return Error{known.vehicle.name, problem, "three castors or more, of which the others judge one"};
+    return castor_track(readings, *platform, Pose{}, options);
+  }
+  const std::size_t by = without == 0 ? 1 : 0;
+  Track track = reckoned(samples, by, known.drives[by]);
+  for (std::size_t i = 0; i < track.size(); ++i)
+    track[i].pose = track[i].pose * inverse(tracked_T_axle(known.vehicle, by, samples[i].joints));
+  unwrap_headings(track);
+  return track;
+}
+
+}  // namespace odolab
