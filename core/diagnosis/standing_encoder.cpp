@@ -19,14 +19,12 @@ class SteadyTruth {
       : samples_(samples),
         offset_s_(time_offset_s),
         has_heading_(samples.front().heading_rad.has_value() && samples.back().heading_rad.has_value()) {
-    std::vector<double> second;
-    for (std::size_t i = 1; i + 1 < samples.size(); ++i)
-      second.push_back(
-          std::abs(samples[i + 1].position.x_m - 2.0 * samples[i].position.x_m + samples[i - 1].position.x_m));
-    noise_m_ = median(second) / 0.6745 / std::sqrt(6.0);
+    noise_m_ = noise_of([](const TruthSample& t) { return t.position.x_m; });
+    if (has_heading_) noise_rad_ = noise_of([](const TruthSample& t) { return t.heading_rad.value_or(0.0); });
     period_s_ = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   }
   double noise_m() const { return noise_m_; }
+  double noise_rad() const { return noise_rad_; }
   double period_s() const { return period_s_; }
   bool has_heading() const { return has_heading_; }
 
@@ -44,8 +42,16 @@ class SteadyTruth {
   }
 
  private:
+  template <typename Of>
+  double noise_of(const Of& of) const {
+    std::vector<double> second;
+    for (std::size_t i = 1; i + 1 < samples_.size(); ++i)
+      second.push_back(std::abs(of(samples_[i + 1]) - 2.0 * of(samples_[i]) + of(samples_[i - 1])));
+    return median(second) / 0.6745 / std::sqrt(6.0);
+  }
+
   const std::vector<TruthSample>& samples_;
-  double offset_s_, noise_m_ = 0.0, period_s_ = 0.0;
+  double offset_s_, noise_m_ = 0.0, noise_rad_ = 0.0, period_s_ = 0.0;
   bool has_heading_;
 };
 
@@ -54,39 +60,56 @@ class SteadyTruth {
 TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel wheel,
                                const std::vector<TruthSample>& truth, const Vehicle& vehicle) {
   constexpr double kLeast_m = 0.03, kTimesTheNoise = 8.0, kLeast_s = 0.15, kBefore_s = 0.3;
+  constexpr double kScale = 0.08;  // error of a length in the file
+  constexpr double kFar_rad = 1.0;
   constexpr double kOfThePaceBefore = 0.4, kInTheMiddle = 0.25;  // of the whole way, in the middle half of the time
   TimeStretches stands;
   if (truth.size() < 4) return stands;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
   const SteadyTruth steady(truth, vehicle.truth.time_offset_s);
+  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
-  const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
-  const double side_m = (wheel == Wheel::left ? -0.5 : 0.5) * drive.wheelbase_m;
-  const double least_m = kLeast_m + kTimesTheNoise * steady.noise_m() + 2.0 * least_count_rad(wheels, wheel) * radius_m;
+  const auto radius_m = [&](Wheel of) {
+    return of == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
+  };
+  const double base_m = wheel == Wheel::left ? -drive.wheelbase_m : drive.wheelbase_m;
+  const double fixed_m = kLeast_m + 2.0 * least_count_rad(wheels, wheel) * radius_m(wheel);
+  const double by_place_m = fixed_m + kTimesTheNoise * steady.noise_m(),
+               by_turn_m = fixed_m + kTimesTheNoise * drive.wheelbase_m * steady.noise_rad();
   for (std::size_t i = 0; i + 1 < wheels.size();) {
     std::size_t j = i;
     while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
     const double from_s = wheels[i].time_s, span_s = wheels[j].time_s - from_s;
-    // The wheel's own way by the truth: of the centre, and half the base times the turn; of the centre alone where
-    // nothing is known of the turn and both wheels hold.
-    const auto way_m = [&](double begin_s, double end_s) {
-      const std::optional<Pose> a = steady.at(begin_s), b = steady.at(end_s);
+    const bool both_hold = rotation(wheels[i], other) == rotation(wheels[j], other);
+    const auto of_other_m = [&](std::size_t begin, std::size_t end) {
+      return radius_m(other) * (rotation(wheels[end], other) - rotation(wheels[begin], other));
+    };
+    const bool turns_far = std::abs(of_other_m(i, j)) > kFar_rad * drive.wheelbase_m;  // a chord is no arc
+    const bool by_turn = steady.has_heading() && !both_hold && (turns_far || by_turn_m < by_place_m);
+    // The wheel's own way by the truth, and beyond what lengths in the file that are a little wrong make of it. Where
+    // headings are known better than places: the other wheel's, and the base times the turn. Else that of the centre,
+    // and half the base times the turn; of the centre alone where nothing is known of the turn and both wheels hold.
+    const auto way_m = [&](std::size_t begin, std::size_t end) {
+      const std::optional<Pose> a = steady.at(wheels[begin].time_s), b = steady.at(wheels[end].time_s);
       if (!a || !b) return 0.0;
       const Vec2 by = b->position() - a->position();
-      const bool both_hold = wheels[i].left_rad == wheels[j].left_rad && wheels[i].right_rad == wheels[j].right_rad;
       if (!steady.has_heading()) return both_hold ? length(by) : 0.0;
       const double turn = b->heading_rad - a->heading_rad,
                    heading = a->heading_rad - vehicle.truth.axle_T_tracked.heading_rad + 0.5 * turn;
-      return std::abs(dot(by, Vec2{std::cos(heading), std::sin(heading)}) + side_m * turn);
+      const double by_centre_m = dot(by, Vec2{std::cos(heading), std::sin(heading)});
+      const double across_m = (by_turn ? 1.0 : 0.5) * base_m * turn;
+      return std::max(
+          0.0, std::abs((by_turn ? of_other_m(begin, end) : by_centre_m) + across_m) - kScale * std::abs(across_m));
     };
     if (j > i + 3 && span_s > std::max(kLeast_s, 1.5 * steady.period_s())) {
-      const double all_m = way_m(from_s, from_s + span_s);
+      const double all_m = way_m(i, j);
       std::size_t before = i;
       while (before > 0 && from_s - wheels[before].time_s < kBefore_s) --before;
       const double pace_mps =
-          radius_m * std::abs(rad(i) - rad(before)) / std::max(from_s - wheels[before].time_s, 1e-3);
-      if (all_m > least_m && pace_mps > kOfThePaceBefore * all_m / span_s &&
-          way_m(from_s + 0.25 * span_s, from_s + 0.75 * span_s) > kInTheMiddle * all_m)
+          radius_m(wheel) * std::abs(rad(i) - rad(before)) / std::max(from_s - wheels[before].time_s, 1e-3);
+      const std::size_t quarter = (j - i) / 4;
+      if (all_m > (by_turn ? by_turn_m : by_place_m) && pace_mps > kOfThePaceBefore * all_m / span_s &&
+          way_m(i + quarter, j - quarter) > kInTheMiddle * all_m)
         stands.push_back({from_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
     }
     i = j > i ? j : i + 1;

@@ -78,6 +78,64 @@ TEST(Checked, LeavesItOutAtRestTooWhereItDoesSoOnTheWay) {
   EXPECT_NEAR(c.faults[0].time_s[1].second, 14.6, 0.06);
 }
 
+// Half a second in which the left wheel rolls 6 cm and its encoder says nothing, then or later.
+Recording with_counts_lost(double truth_position_noise_m, double truth_heading_noise_rad) {
+  test::GeneratorSettings g;
+  g.drive.wheel_radius_left_m = g.drive.wheel_radius_right_m = 0.03;
+  g.drive.wheelbase_m = 0.15;
+  g.truth_position_noise_m = truth_position_noise_m;
+  g.truth_heading_noise_rad = truth_heading_noise_rad;
+  g.inject = [](test::InjectedStep& s) {
+    if (s.time_s > 12.0 && s.time_s < 12.5) s.left_read_rad = 0.0;
+  };
+  Random random(3);
+  return generated(
+      g,
+      [](double t) {
+        return test::WheelSpeedsAt{4.0 + std::sin(t), 4.0 + std::cos(0.7 * t)};
+      },
+      random);
+}
+
+Vehicle small_robot() {
+  Vehicle v;
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.0303;  // a file that is a little wrong
+  drive.wheelbase_m = 0.156;
+  v.kind = drive;
+  return v;
+}
+
+TEST(Checked, FindsAnEncoderThatStandsByTheTurnWherePlacesAreCoarse) {
+  for (const double noise_m : {0.001, 0.02}) {
+    const CheckedRecording c = checked(with_counts_lost(noise_m, 0.005), small_robot());
+    ASSERT_EQ(c.faults.size(), 1u) << noise_m;
+    EXPECT_EQ(c.faults[0].component, "left_wheel");
+    ASSERT_EQ(c.faults[0].time_s.size(), 1u);
+    EXPECT_NEAR(c.faults[0].time_s[0].first, 12.0, 0.05);
+    EXPECT_NEAR(c.faults[0].time_s[0].second, 12.5, 0.05);
+  }
+}
+
+// About one wheel that stands, by twice around: a wheelbase that is 4 % wrong makes 8 cm of it.
+TEST(Checked, TakesAWheelThatIsPivotedAboutForOneThatStands) {
+  test::GeneratorSettings g;
+  g.drive.wheel_radius_left_m = g.drive.wheel_radius_right_m = 0.03;
+  g.drive.wheelbase_m = 0.15;
+  g.truth_heading_noise_rad = 0.002;
+  for (const double noise_m : {0.0005, 0.02}) {
+    g.truth_position_noise_m = noise_m;
+    Random random(5);
+    const Recording r = generated(
+        g,
+        [](double t) {
+          return test::WheelSpeedsAt{t > 10.0 && t < 20.0 ? 0.0 : 4.0, 6.0};
+        },
+        random);
+    EXPECT_TRUE(checked(r, small_robot()).faults.empty()) << noise_m;
+  }
+}
+
 TEST(Checked, TakesAnEncoderOfTwelveCountsForSoundWhereOneOfThemLasts) {
   Recording r;
   test::GeneratorSettings g;
