@@ -15,6 +15,7 @@
 #include "core/calibration/umbmark.h"
 #include "core/io/guide_toml.h"
 #include "core/io/vehicle_toml.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

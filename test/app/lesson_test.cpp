@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/gui/session.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

@@ -11,6 +11,7 @@
 #include "app/gui/planned_path.h"
 #include "app/gui/views.h"
 #include "physics/benchmark.h"
+#include "source_dir.h"
 #include "test/support/same_bits.h"
 
 namespace odolab {

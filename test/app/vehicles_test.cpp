@@ -6,6 +6,7 @@
 
 #include "app/gui/session.h"
 #include "app/gui/views.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

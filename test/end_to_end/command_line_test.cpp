@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "source_dir.h"
 #include "test/end_to_end/program.h"
 
 namespace odolab {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "source_dir.h"
 #include "test/end_to_end/program.h"
 
 namespace odolab {

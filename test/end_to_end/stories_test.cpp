@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "source_dir.h"
 #include "test/end_to_end/program.h"
 
 namespace odolab {

@@ -9,6 +9,7 @@
 #include "core/scenario/suited_scenario.h"
 #include "physics/replay.h"
 #include "physics/simulation.h"
+#include "source_dir.h"
 #include "test/support/finished_run.h"
 
 namespace odolab {

@@ -8,6 +8,7 @@
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "physics/simulation.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

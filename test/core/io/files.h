@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "source_dir.h"
 
 namespace odolab {
 

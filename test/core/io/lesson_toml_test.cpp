@@ -8,6 +8,7 @@
 
 #include "core/io/file_kind.h"
 #include "core/io/scenario_toml.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/io/vehicle_toml.h"
 #include "core/io/whole_file.h"
+#include "source_dir.h"
 #include "test/core/io/files.h"
 
 namespace odolab {

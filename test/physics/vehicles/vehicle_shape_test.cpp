@@ -7,6 +7,7 @@
 #include "core/io/vehicle_toml.h"
 #include "core/scenario/suited_scenario.h"
 #include "physics/simulation.h"
+#include "source_dir.h"
 
 namespace odolab {
 namespace {

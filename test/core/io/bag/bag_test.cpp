@@ -5,6 +5,7 @@
 
 #include "core/io/import/imported_recording.h"
 #include "core/io/recording_csv.h"
+#include "source_dir.h"
 #include "test/core/io/files.h"
 
 namespace odolab {
