@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,12 +78,14 @@ std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, do
 // A shape that is given and not estimated: when the session of all recordings began.
 inline constexpr const char* kSessionStart = "session_start_s";
 
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 struct Effect {
   std::string name, component;
   struct Amplitude {
     std::string name, unit;
     double medium = 0.0;            // a size that matters in practice: what "not testable" is judged by
-    double low = -1e9, high = 1e9;  // physical bounds
+    double low = -kUnbounded, high = kUnbounded;  // physical bounds
   };
   std::vector<Amplitude> amplitudes;  // the motion is linear in these
   std::vector<Amplitude> shapes;      // and not in these
