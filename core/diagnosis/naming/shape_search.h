@@ -1,0 +1,30 @@
+// Where an entry of the catalogue fits best: at which place, time or threshold, and in which form.
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/model/candidate_scan.h"
+
+namespace odolab {
+
+struct SearchedShapes {
+  CandidateTest best;     // without inflation; a statistic of zero where nothing that is physical fits at all
+  std::size_t tried = 1;  // shapes that were scanned, times forms
+  std::vector<std::vector<double>> shapes;  // those scanned
+  // Of all that could be tested, and the number of the shape that each belongs to.
+  std::vector<double> statistics;
+  std::vector<std::size_t> of_shape;
+};
+
+SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect);
+
+// Whether its amplitudes are such as there are.
+bool is_physical(const Effect& effect, const std::vector<double>& value);
+
+// Two places: the square of how far they are apart, and their radii together; those without a radius are small.
+struct Apart {
+  double away_m2 = 0.0, radii_m = 0.0;
+};
+Apart apart(const Effect& effect, const std::vector<double>& shape, const std::vector<double>& other);
+
+}  // namespace odolab
