@@ -39,7 +39,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     const double se = intervals.stderr_of_nuisance(3 + k);
     const double z = by[k] / std::max(p->stderr_value, se);
     mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
-    if (std::abs(z) > 6.0 && std::abs(by[k]) > least[k]) {
+    if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
       material = true, gain += 0.5 * z * z;
       moved = moved || k < 2;
     }
@@ -78,29 +78,27 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   }
 }
 
-void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-               const Vehicle& nominal, bool from_commands) {
-  for (const ParameterEstimate& estimate : fit.parameters) {
-    const ParameterEstimate* p = &estimate;
-    if (p->name != "truth_mounting.time_offset_s" || !p->determined) continue;
-    double mean = 0.0;
-    for (double c : joint.clock_s) mean += c / static_cast<double>(joint.clock_s.size());
-    const double off = mean - nominal.truth.time_offset_s, z = off / p->stderr_value;
-    if (std::abs(z) > 6.0 && std::abs(off) > 0.004) {
-      Finding f;
-      const bool delay = from_commands && off > 0.0;
-      f.effect = delay ? "actuator_delay" : "truth_time_offset";
-      f.component = delay ? "vehicle" : "truth";
-      f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : mean, p->stderr_value, "s"}};
-      f.log_likelihood_gain = 0.5 * z * z;
-      f.p_value = chi_square_tail(z * z, 1);
-      f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
-      if (delay)
-        f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
-                                  "one clock for commands and truth: on their own the two are the same"});
-      findings.push_back(f);
-    }
-  }
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+               const LeastSquaresCalibration& fit, const Vehicle& nominal, bool from_commands) {
+  constexpr double kLeast_s = 0.004;
+  if (std::none_of(fit.parameters.begin(), fit.parameters.end(),
+                   [](const ParameterEstimate& p) { return p.name == "truth_mounting.time_offset_s" && p.determined; }))
+    return;
+  const SharedClock clock = intervals.shared_clock(joint);
+  const double off = clock.offset_s - nominal.truth.time_offset_s, z = off / clock.stderr_s;
+  if (std::abs(z) < kSigmasOfBias || std::abs(off) < kLeast_s) return;
+  Finding f;
+  const bool delay = from_commands && off > 0.0;
+  f.effect = delay ? "actuator_delay" : "truth_time_offset";
+  f.component = delay ? "vehicle" : "truth";
+  f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : clock.offset_s, clock.stderr_s, "s"}};
+  f.log_likelihood_gain = 0.5 * z * z;
+  f.p_value = chi_square_tail(z * z, 1);
+  f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
+  if (delay)
+    f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
+                              "one clock for commands and truth: on their own the two are the same"});
+  findings.push_back(f);
 }
 
 Finding finding_of(const DataFault& fault) {

@@ -10,14 +10,17 @@
 
 namespace odolab {
 
+// A mounting, a clock or a biased joint is named above so many standard errors, each with a least size of its own.
+constexpr double kSigmasOfBias = 6.0;
+
 // Where the mounting is not where the vehicle's file says. A small turn of it alone is what wheels do that are not
 // square to the axle; then that is the name, with the mounting beside it.
 void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
                   const LeastSquaresCalibration& fit, const Vehicle& nominal);
 
 // A late base that follows commands, and a late truth, are the same: both are said.
-void add_clock(std::vector<Finding>& findings, const JointModel& joint, const LeastSquaresCalibration& fit,
-               const Vehicle& nominal, bool from_commands);
+void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+               const LeastSquaresCalibration& fit, const Vehicle& nominal, bool from_commands);
 
 // The order of findings: what calibration leaves, the strongest first, before what it finds itself (where the truth
 // sits on the vehicle, its clock, and what is the same as these).

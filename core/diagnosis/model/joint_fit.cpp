@@ -106,4 +106,9 @@ MatrixXd JointModel::covariance() const { return gram_.ldlt().solve(MatrixXd::Id
 
 double JointModel::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, covariance()(c, c))); }
 
+SharedClock JointModel::shared_clock() const {
+  const auto runs = static_cast<Eigen::Index>(runs_.size());
+  return odolab::shared_clock(clock_s, covariance().block(clock_column(0), clock_column(0), runs, runs));
+}
+
 }  // namespace odolab

@@ -10,6 +10,7 @@
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/model/linearised.h"
+#include "core/diagnosis/model/shared_clock.h"
 
 namespace odolab {
 
@@ -101,6 +102,7 @@ class JointModel {
   int scalars() const { return scalars_; }
   Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, half counts, amplitudes
   double stderr_of_nuisance(int c) const;
+  SharedClock shared_clock() const;
   int first_column(int accepted) const;  // of an accepted effect's amplitudes
   // How much wider than the curvature says each column's estimate scatters, from the scatter of the score over batches:
   // 1 or more.

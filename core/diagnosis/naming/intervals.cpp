@@ -80,6 +80,11 @@ Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const Mat
 
 double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, columns(c, c))); }
 
+SharedClock Intervals::shared_clock(const JointModel& joint) const {
+  const auto runs = static_cast<Eigen::Index>(joint.clock_s.size());
+  return odolab::shared_clock(joint.clock_s, columns.block(6, 6, runs, runs));
+}
+
 std::vector<int> free_shapes(const Effect& effect) {
   std::vector<int> free;
   if (effect.shape_follows_amplitude) return free;
@@ -193,9 +198,8 @@ LeastSquaresCalibration calibration_with(const JointModel& joint, const Interval
   out.vehicle.kind = joint.model.drive;
   out.vehicle.truth = joint.model.truth;
   out.time_offset_s = joint.clock_s;
-  const double runs = static_cast<double>(joint.clock_s.size());
-  out.vehicle.truth.time_offset_s = 0.0;
-  for (double c : joint.clock_s) out.vehicle.truth.time_offset_s += c / runs;
+  const SharedClock clock = intervals.shared_clock(joint);
+  out.vehicle.truth.time_offset_s = clock.offset_s;
   out.noise = joint.noise_as_recorded();
   const TruthMounting& truth = out.vehicle.truth;
   const struct {
@@ -216,9 +220,9 @@ LeastSquaresCalibration calibration_with(const JointModel& joint, const Interval
       if (c < 6)
         row(c) = 1.0;
       else
-        row.segment(6, static_cast<Eigen::Index>(joint.clock_s.size())).setConstant(1.0 / runs);
+        row.segment(6, clock.weights.size()) = clock.weights;
       p.value = known[c].value;
-      p.stderr_value = std::sqrt(std::max(0.0, row.dot(intervals.columns * row)));
+      p.stderr_value = c < 6 ? std::sqrt(std::max(0.0, row.dot(intervals.columns * row))) : clock.stderr_s;
       rows.push_back(row);
     }
   out.covariance.clear();

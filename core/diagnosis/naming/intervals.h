@@ -13,6 +13,7 @@ struct Intervals {
   std::vector<Eigen::MatrixXd> of_effect;  // covariance of each accepted effect's amplitudes, then of its free shapes
 
   double stderr_of_nuisance(int c) const;
+  SharedClock shared_clock(const JointModel& joint) const;
 };
 
 // Which entries of a shape are estimated: not the number of a recording, nor one that is its own amplitude.

@@ -230,18 +230,15 @@ void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<
                             : "the tracked point is not where the vehicle's file has it";
     all.push_back(mounting);
   }
-  double mean_s = 0.0, variance = 0.0;
-  const double n = static_cast<double>(geometry.clock_s.size());
-  for (std::size_t r = 0; r < geometry.clock_s.size(); ++r) {
-    mean_s += geometry.clock_s[r] / n;
-    variance += geometry.clock_stderr_s[r] * geometry.clock_stderr_s[r] / (n * n);
-  }
-  const double z = mean_s / std::sqrt(std::max(variance, 1e-18));
-  if (std::abs(z) < kSigmasOfBias || std::abs(mean_s) < kLeastClock_s) return;
+  const Eigen::VectorXd error_s = Eigen::Map<const Eigen::VectorXd>(
+      geometry.clock_stderr_s.data(), static_cast<Eigen::Index>(geometry.clock_stderr_s.size()));
+  const SharedClock shared = shared_clock(geometry.clock_s, Eigen::MatrixXd(error_s.cwiseAbs2().asDiagonal()));
+  const double z = shared.offset_s / shared.stderr_s;
+  if (geometry.clock_s.empty() || std::abs(z) < kSigmasOfBias || std::abs(shared.offset_s) < kLeastClock_s) return;
   Finding clock;
   clock.effect = "truth_time_offset";
   clock.component = "truth";
-  clock.parameters = {{"offset_s", nominal.truth.time_offset_s + mean_s, std::sqrt(variance), "s"}};
+  clock.parameters = {{"offset_s", nominal.truth.time_offset_s + shared.offset_s, shared.stderr_s, "s"}};
   clock.log_likelihood_gain = 0.5 * z * z;
   clock.p_value = chi_square_tail(z * z, 1);
   clock.sentence = "the truth's clock is off against the vehicle's";

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/geometry_fit.h"
 
 namespace odolab {
-
-// A mounting or a bias is named above so many standard errors, as in the diagnosis of one drive: least sizes beside it.
-constexpr double kSigmasOfBias = 6.0;
 
 // The findings of one unit in the vehicle's words. What remains of the truth's mounting is a biased encoder, or lengths
 // that are calibration.
