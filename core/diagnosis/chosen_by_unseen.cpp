@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
 
@@ -15,10 +16,39 @@ JointModel with_instead(JointModel joint, std::size_t name, const ScoredCandidat
   return joint;
 }
 
+// Another form of the same name, where it fits as well and predicts better.
+void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name) {
+  const Effect& effect = *joint.accepted[name].effect;
+  if (effect.forms.size() < 2 || joint.accepted[name].is_held || joint.distrust() > 0.0) return;
+  const std::vector<double> shape = joint.accepted[name].shape;
+  const auto tested = [&](const std::vector<double>& of) {
+    return joint.test(joint.columns_of(effect, of), static_cast<int>(name));
+  };
+  const double own = tested(shape).statistic;
+  Predicted best = predictor.of(joint, joint.model.noise);
+  const JointModel fitted = joint;
+  for (std::size_t form = 0; form < effect.forms.size(); ++form) {
+    ScoredCandidate other;
+    other.effect = &effect;
+    other.test.shape = shape;
+    other.test.shape.back() = static_cast<double>(form);
+    if (other.test.shape == shape) continue;
+    const CandidateTest test = tested(other.test.shape);
+    if (test.statistic < own - 2.0 * kClearlyBeaten || !is_physical(effect, test.value)) continue;
+    other.test.value = test.value;
+    JointModel model = with_instead(fitted, name, other);
+    Predicted by_other = predictor.of(model, fitted.model.noise);
+    if (!by_other.unseen || !best.unseen || likelier_where_unseen(by_other, best) < 2.0 * kClearlyBeaten) continue;
+    joint = std::move(model);
+    best = std::move(by_other);
+  }
+}
+
 }  // namespace
 
 void choose_by_unseen(const Predictor& predictor, JointModel& joint, Selected& selected) {
   if (predictor.leaves_out_in_turn()) return;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) choose_form(predictor, joint, k);
   std::optional<Predicted> by_joint;  // asked once for each model
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     for (std::vector<ScoredCandidate>* others : {&selected.coming_back[k], &selected.alternatives[k]})

@@ -9,7 +9,8 @@ namespace odolab {
 // Where an alternative predicts the recordings held out better than chance could make it, it takes the name's place:
 // the model is fitted anew, and the name is no alternative any more. Where it predicts them worse, it is none. What
 // happened once may be what comes back but did so once only in what was fitted: that, too, is asked, although it says
-// less there. Does nothing where none were held out.
+// less there. And of the forms in which a name fits as well the one is taken that makes them likelier. Does nothing
+// where none were held out.
 void choose_by_unseen(const Predictor& predictor, JointModel& joint, Selected& selected);
 
 }  // namespace odolab

@@ -7,6 +7,7 @@
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/naming/clocks_first.h"
 #include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/naming/select.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -19,8 +20,7 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal) {
   Vehicle v = nominal;
   v.kind = j.model.drive;
   v.truth = j.model.truth;
-  v.truth.time_offset_s = 0.0;
-  for (double c : j.clock_s) v.truth.time_offset_s += c / static_cast<double>(j.clock_s.size());
+  v.truth.time_offset_s = j.shared_clock().offset_s;
   return v;
 }
 
@@ -61,6 +61,7 @@ Predicted::Side side_of(const std::vector<JointModel>& models) {
   double chi2 = 0.0, scalars = 0.0;
   for (const JointModel& j : models) {
     side.of_model.push_back(j.gathered_error());
+    side.minus_two_log_likelihood.push_back(j.minus_two_log_likelihood());
     side.error.add(side.of_model.back());
     chi2 += j.chi2(), scalars += j.scalars();
   }
@@ -99,7 +100,7 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   placebo.shapes.clear();
   placebo.shape_follows_amplitude = placebo.of_one_recording = placebo.and_later_recordings = placebo.clock_rate =
       false;
-  for (Effect::Amplitude& a : placebo.amplitudes) a.low = -1e9, a.high = 1e9;
+  for (Effect::Amplitude& a : placebo.amplitudes) a.low = -kUnbounded, a.high = kUnbounded;
   const auto motions = of.motions;
   placebo.motions = [motions, shape](const DriveView& view, const std::vector<double>&) {
     std::vector<Motions> m = motions(view, shape);
@@ -115,6 +116,10 @@ Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
 }
 
 }  // namespace
+
+bool Predicted::tells(std::size_t model, const Predicted& other) const {
+  return is_foretold.empty() || is_foretold.size() != other.is_foretold.size() || is_foretold[model];
+}
 
 Predictor::Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
                      const Vehicle& nominal)
@@ -191,28 +196,37 @@ void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, co
   if (by_after.unseen) d.held_out = table([](const Predicted& p) { return *p.unseen; });
 }
 
+double likelier_where_unseen(const Predicted& one, const Predicted& other) {
+  double gained = 0.0;
+  for (std::size_t m = 0; m < one.unseen->minus_two_log_likelihood.size(); ++m)
+    if (one.tells(m, other))
+      gained += other.unseen->minus_two_log_likelihood[m] - one.unseen->minus_two_log_likelihood[m];
+  return gained;
+}
+
+double worse_where_unseen(const Predicted& one, const Predicted& other, bool is_white) {
+  if (is_white && likelier_where_unseen(one, other) > 2.0 * kClearlyBeaten) return 0.0;
+  JointModel::GatheredError was, is;
+  for (std::size_t m = 0; m < one.unseen->of_model.size(); ++m) {
+    if (!one.tells(m, other)) continue;
+    was.add(other.unseen->of_model[m]);
+    is.add(one.unseen->of_model[m]);
+  }
+  return worse_than_chance(was, is);
+}
+
 std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel& joint, const Predicted& by_joint,
                                    const Predicted& by_calibrated) {
   if (joint.accepted.empty() || !by_joint.unseen) return std::nullopt;
-  // Of the runs that could be foretold.
-  const auto error_of = [&](const Predicted& p) {
-    if (by_joint.is_foretold.empty() || p.is_foretold.size() != by_joint.is_foretold.size()) return p.unseen->error;
-    JointModel::GatheredError sum;
-    for (std::size_t r = 0; r < p.is_foretold.size(); ++r)
-      if (by_joint.is_foretold[r]) sum.add(p.unseen->of_model[r]);
-    return sum;
-  };
-  const auto worse_than = [&](const Predicted& other) {
-    return worse_than_chance(error_of(other), error_of(by_joint));
-  };
-  if (worse_than(by_calibrated) <= 0.0) return std::nullopt;
+  const bool is_white = joint.distrust() == 0.0;
+  if (worse_where_unseen(by_joint, by_calibrated, is_white) <= 0.0) return std::nullopt;
   std::optional<std::size_t> worst;
   double most = 0.0;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     JointModel without = joint;
     without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
     without.fit(3);
-    const double worse = worse_than(predictor.of(without, joint.model.noise));
+    const double worse = worse_where_unseen(by_joint, predictor.of(without, joint.model.noise), is_white);
     if (worse > most) most = worse, worst = k;
   }
   return worst;

@@ -18,12 +18,14 @@ struct Predicted {
     FitFigures figures;
     JointModel::GatheredError error;
     std::vector<JointModel::GatheredError> of_model;  // what that is made of: one, or one for each run left out in turn
+    std::vector<double> minus_two_log_likelihood;     // of each of these
   };
   Side fitted;
   std::optional<Side> unseen;  // unset where there is none
   // Where each run was left out in turn: whether all that acts in that run is known from the others. Else what it comes
   // to says nothing of what is known.
   std::vector<char> is_foretold;
+  bool tells(std::size_t model, const Predicted& other) const;  // so of one of the models of what was not fitted
 };
 
 // Predicts what was not fitted: the recordings held out, by a model that is frozen but for their clocks; where there
@@ -52,6 +54,14 @@ class Predictor {
 void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
            const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
            const std::vector<Recording>& train);
+
+// By what share of its squared error dead reckoning of what was not fitted is worse by one model than by another,
+// beyond chance. Zero where innovations are white and make the one likelier: windows of a metre hold few of the moments
+// at which a clock or a short event shows, and all of the wheels' noise.
+double worse_where_unseen(const Predicted& one, const Predicted& other, bool is_white);
+
+// By how much twice the log-likelihood of what was not fitted is larger by one model than by another.
+double likelier_where_unseen(const Predicted& one, const Predicted& other);
 
 // Of the accepted effects the one by which what was not fitted is predicted worse than chance could make it, if any;
 // the worst of them.

@@ -33,7 +33,7 @@ double likelihood_at(JointModel& joint, int run, const Lags& lags) {
 
 // Pattern search: both ends together, then one against the other.
 Lags likeliest(JointModel& joint, int run, Lags at) {
-  constexpr double kFirst_s = 0.01, kLast_s = 0.001;
+  constexpr double kFirst_s = 0.01, kLast_s = 0.0001;
   const bool with_rate = joint.clock_rate_of(run) != nullptr;
   double best = likelihood_at(joint, run, at);
   const auto better = [&](double first_s, double last_s) {

@@ -51,5 +51,46 @@ TEST(Diagnose, LetsRunsHeldOutChooseBetweenNamesThatTheOthersDoNotTellApart) {
   EXPECT_EQ(said(chosen, "payload_radius_change"), 0);
 }
 
+// Both wheels slip by the vehicle's acceleration. On straights, and in bends at an even pace, that is the same as each
+// by its own; where it turns on the spot it is not.
+Recording slipping(Random& random, bool spins) {
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0004, 0.01);
+  g.duration_s = 40.0;
+  const auto was_mps = std::make_shared<double>(0.0);
+  g.inject = [was_mps](InjectedStep& s) {
+    const double speed_mps = 0.5 * 0.075 * (s.left_radps + s.right_radps), a_mps2 = (speed_mps - *was_mps) / s.dt_s;
+    *was_mps = speed_mps;
+    s.left_m -= 0.008 * a_mps2 * 0.075 * std::abs(s.left_radps) * s.dt_s;
+    s.right_m -= 0.008 * a_mps2 * 0.075 * std::abs(s.right_radps) * s.dt_s;
+  };
+  return generated(
+      g,
+      [=](double t) {
+        const double pace = 5.0 * std::clamp(1.5 * std::sin(1.2 * t), -1.0, 1.0);
+        if (spins) return WheelSpeedsAt{-pace, pace};
+        return std::fmod(t, 16.0) < 8.0 ? WheelSpeedsAt{pace, pace} : WheelSpeedsAt{1.5, 2.5};
+      },
+      random);
+}
+
+TEST(Diagnose, LetsRunsHeldOutChooseTheFormOfANameThatTheOthersDoNotTell) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Random random(seed);
+    std::vector<Recording> given;
+    for (int run = 0; run < 3; ++run) {
+      given.push_back(slipping(random, false));
+      given.back().name = "run_" + std::to_string(run + 1);
+    }
+    Recording spins = slipping(random, true);
+    spins.name = "held_out";
+    const Diagnosis d = diagnose(given, {spins}, Vehicle{}).value();
+    ASSERT_EQ(said(d, "traction_slip"), 1) << seed;
+    const auto slip = std::find_if(d.findings.begin(), d.findings.end(),
+                                   [](const Finding& f) { return f.effect == "traction_slip"; });
+    ASSERT_NE(slip, d.findings.end());
+    EXPECT_EQ(slip->form_in_words, "the vehicle by its acceleration") << seed;
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test
