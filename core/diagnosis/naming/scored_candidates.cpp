@@ -6,6 +6,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
+#include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
 
@@ -13,41 +14,6 @@ namespace {
 
 // Median and 90 % quantile of chi-square for freedom 1 to 3.
 constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.706, 4.605, 6.251};
-
-bool physical(const Effect& e, const std::vector<double>& value) {
-  for (std::size_t k = 0; k < value.size(); ++k)
-    if (value[k] < e.amplitudes[k].low || value[k] > e.amplitudes[k].high) return false;
-  return true;
-}
-
-std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<double>& shape, double scale) {
-  std::vector<std::vector<double>> near;
-  for (std::size_t k = 0; k < e.shapes.size(); ++k)
-    for (double side : {-1.0, 1.0}) {
-      if (!is_estimated(e.shapes[k])) continue;
-      std::vector<double> s = shape;
-      const std::string& unit = e.shapes[k].unit;
-      if (unit == "s" && !e.shape_follows_amplitude)
-        s[k] += side * scale * (e.local ? 0.1 : 3.0);
-      else if (e.shapes[k].name == "radius_m")
-        s[k] *= 1.0 + side * 0.25 * scale;
-      else if (unit == "m")
-        s[k] += side * scale * 0.2;
-      else
-        s[k] *= 1.0 + side * 0.15 * scale;
-      near.push_back(s);
-    }
-  // A place is not found along the axes alone.
-  for (std::size_t k = 0; k + 1 < e.shapes.size(); ++k)
-    if (e.shapes[k].name == "x_m" && e.shapes[k + 1].name == "y_m")
-      for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}}) {
-        std::vector<double> s = shape;
-        s[k] += x * scale * 0.15;
-        s[k + 1] += y * scale * 0.15;
-        near.push_back(s);
-      }
-  return near;
-}
 
 // Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often. Not of
 // places and moments, where floors are uneven a little in earnest.
@@ -115,35 +81,11 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
 
 constexpr std::size_t kFewestElsewhere = 20;  // to know a scatter from
 
-// Two places: the square of how far they are apart, and their radii together; those without a radius are small.
-struct Apart {
-  double away_m2 = 0.0, radii_m = 0.0;
-};
-
-Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
-  Apart p;
-  for (std::size_t k = 0; k < e.shapes.size(); ++k) {
-    if (e.shapes[k].name == "radius_m")
-      p.radii_m = a[k] + b[k];
-    else if (e.shapes[k].unit == "m")
-      p.away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
-  }
-  return p;
-}
-
 // Whether some wheel may be on two patches at once.
 bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<double>& b, double wheelbase_m) {
   const Apart p = apart(e, a, b);
   const double reach_m = p.radii_m > 0.0 ? p.radii_m + wheelbase_m : 0.0;
   return p.away_m2 < reach_m * reach_m;
-}
-
-// So near each other that what is looked for from one is found from the other.
-bool is_one_place(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
-  constexpr double kSmall_m = 0.25;
-  const Apart p = apart(e, a, b);
-  const double near_m = std::max(kSmall_m, 0.5 * p.radii_m);
-  return p.away_m2 < near_m * near_m;
 }
 
 // The same place, met by one wheel alone.
@@ -203,99 +145,15 @@ void judge(ScoredCandidate& c) {
 }
 
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
-                                 int tests) {
+                                 double tests) {
   ScoredCandidate best;
   best.effect = &e;
-  std::vector<std::vector<double>> shapes;
-  if (e.scan)
-    shapes = e.scan(joint.views());
-  else
-    shapes.push_back({});
-  // Few shapes are tried in every form; where there are many, the best one is.
-  const std::size_t forms = std::max<std::size_t>(1, e.forms.size());
-  const std::size_t scanned = shapes.size() * forms;
-  const bool every_form = forms > 1 && shapes.size() <= 40;
-  if (forms > 1) {
-    std::vector<std::vector<double>> with_form;
-    for (std::size_t form = 0; form < (every_form ? forms : 1); ++form)
-      for (std::vector<double> s : shapes) {
-        s.push_back(static_cast<double>(every_form ? form : static_cast<std::size_t>(e.form_of_the_scan)));
-        with_form.push_back(s);
-      }
-    shapes = with_form;
-  }
-  std::vector<double> statistics;
-  std::vector<std::size_t> of_shape;  // the number of the shape that each of them belongs to
-  const auto take = [&](CandidateTest t, const std::vector<double>& shape) {
-    if (t.value.empty() || !physical(e, t.value)) return false;
-    if (t.statistic <= best.test.statistic) return false;
-    t.shape = shape;
-    best.test = std::move(t);
-    return true;
-  };
-  const auto consider = [&](const std::vector<double>& shape) { return take(scan.test(e, shape), shape); };
-  std::vector<std::pair<double, std::size_t>> places;  // a place is looked for from several starts
-  const std::vector<CandidateTest> scanned_tests = scan.tests(e, shapes);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const CandidateTest& t = scanned_tests[k];
-    if (t.freedom > 0 && t.survives > 0.0) statistics.push_back(t.statistic);
-    take(t, shapes[k]);
-    of_shape.resize(statistics.size(), k);
-    if (e.local && e.scan && e.shapes.size() >= 2 && !e.of_one_recording && !statistics.empty())
-      places.emplace_back(-statistics.back(), k);
-  }
+  SearchedShapes searched = best_shape(joint.views(), scan, e);
+  best.test = std::move(searched.best);
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests = std::log(static_cast<double>(tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
-                           std::log(e.tests_of_a_shape * static_cast<double>(std::max<std::size_t>(1, scanned)));
-  const auto other_forms = [&] {
-    for (std::size_t form = 0; form < forms; ++form) {
-      std::vector<double> s = best.test.shape;
-      s.back() = static_cast<double>(form);
-      consider(s);
-    }
-  };
-  if (forms > 1 && !every_form) other_forms();
-  // Refined only where there is something to refine: a place, or a limit of speed, is sharp, and half of what it says,
-  // or less, shows beside it.
-  constexpr double kWorthRefining = 7.0, kWorthAnotherStart = 10.0;
-  if (e.scan && best.test.statistic > kWorthRefining) {
-    const auto climb = [&] {
-      for (double scale : {1.0, 0.5, 0.25, 0.12, 0.06})
-        for (int round = 0; round < 4; ++round) {
-          bool moved = false;
-          const std::vector<std::vector<double>> near = shapes_near(e, best.test.shape, scale);
-          const std::vector<CandidateTest> there = scan.tests(e, near);
-          for (std::size_t k = 0; k < near.size(); ++k) moved = take(there[k], near[k]) || moved;
-          if (!moved) break;
-        }
-    };
-    climb();
-    if (forms > 1 && !places.empty()) other_forms(), climb();
-    std::sort(places.begin(), places.end());
-    const ScoredCandidate first = best;
-    ScoredCandidate top = best;
-    constexpr std::size_t kStarts = 4;
-    constexpr double kWorthAStart = 0.5;  // of the best place that was scanned
-    std::vector<std::size_t> starts;
-    for (const auto& [minus_statistic, k] : places) {
-      if (starts.size() >= kStarts || -minus_statistic < kWorthAnotherStart ||
-          minus_statistic > kWorthAStart * places.front().first)
-        break;
-      const auto is_one_with = [&, k = k](std::size_t other) { return is_one_place(e, shapes[k], shapes[other]); };
-      if (std::any_of(starts.begin(), starts.end(), is_one_with)) continue;
-      starts.push_back(k);
-    }
-    for (std::size_t n = 1; n < starts.size(); ++n) {  // the first is where it began
-      best = first;
-      best.test.statistic = 0.0;
-      if (!consider(shapes[starts[n]])) continue;
-      if (forms > 1) other_forms();
-      climb();
-      if (best.test.statistic > top.test.statistic) top = best;
-    }
-    best = top;
-    if (forms > 1) other_forms();
-  }
+  const double log_tests = std::log(tests * (is_one_sided(e) ? 0.5 : 1.0)) +
+                           std::log(e.tests_of_a_shape * static_cast<double>(searched.tried));
+  std::vector<double>& statistics = searched.statistics;
   const std::vector<double> shape = best.test.shape;
   best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
   best.test.shape = shape;
@@ -303,7 +161,8 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   if (e.local && !e.of_one_recording) {
     std::vector<double> elsewhere;
     for (std::size_t n = 0; n < statistics.size(); ++n)
-      if (!overlap(e, shapes[of_shape[n]], shape, joint.model.drive.wheelbase_m)) elsewhere.push_back(statistics[n]);
+      if (!overlap(e, searched.shapes[searched.of_shape[n]], shape, joint.model.drive.wheelbase_m))
+        elsewhere.push_back(statistics[n]);
     statistics = std::move(elsewhere);
     if (statistics.size() < kFewestElsewhere) {
       best.test = joint.test(joint.columns_of(e, shape), without, true);
@@ -318,7 +177,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     if (e.of_one_recording && rests_at(joint, shape)) {
       std::vector<double> at_rest;
       for (std::size_t n = 0; n < statistics.size(); ++n)
-        if (rests_at(joint, shapes[of_shape[n]])) at_rest.push_back(statistics[n]);
+        if (rests_at(joint, searched.shapes[searched.of_shape[n]])) at_rest.push_back(statistics[n]);
       if (at_rest.size() >= kFewestElsewhere)
         best.test.inflation = std::max(best.test.inflation, scatter_of(at_rest, best.test.freedom));
     }
@@ -352,10 +211,12 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
   for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
   std::vector<ScoredCandidate> scored(all.size());
   const CandidateScan scan(joint, without);
-  // Half of the error is for what happens in one place or moment, half for all others: those are few entries, and each
-  // was looked for so often that it needs the larger share to be seen at all.
-  const auto local = std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; });
-  const int entries[2] = {2 * static_cast<int>(std::ssize(all) - local), 2 * static_cast<int>(local)};
+  // Two thirds of the error are for what happens in one place or moment, one for all others: those are few entries, and
+  // each was looked for so often that it needs the larger share to be seen at all.
+  constexpr double kShareOfLocal = 2.0 / 3.0;
+  const auto local =
+      static_cast<double>(std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; }));
+  const double tests[2] = {(static_cast<double>(all.size()) - local) / (1.0 - kShareOfLocal), local / kShareOfLocal};
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Effect& e = *all[i];
     scored[i].effect = &e;
@@ -363,7 +224,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     if (joint.truth_jumps && is_short(e)) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
-    scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
+    scored[i] = scored_candidate(joint, scan, e, without, tests[e.local ? 1 : 0]);
   });
   std::vector<char> in_vain(scored.size(), 0);
   for (std::size_t i = 0; i < scored.size(); ++i)

@@ -74,6 +74,11 @@ double distrust_of(const JointModel& joint, const ScoredCandidate& c, double fam
   return doubted.p_value < family_wise_error ? 0.0 : distrust;
 }
 
+// What was looked for in more places and at more times than another must say so much more, in twice the log-likelihood.
+double more_by_tries(const ScoredCandidate& c, const ScoredCandidate& other) {
+  return 2.0 * std::max(0.0, c.log_tests - other.log_tests);
+}
+
 // Whether a candidate in a name's place says beside the name as much: then it is something else, and no other name for
 // it.
 bool says_as_much_beside(const ScoredCandidate& instead, const std::vector<ScoredCandidate>& with_all) {
@@ -170,6 +175,7 @@ class Selection {
       exchange_names();
     }
     drop_what_does_not_stand();
+    out_.beside_all = std::move(with_all_);
     return std::move(out_);
   }
 
@@ -245,7 +251,7 @@ class Selection {
       return {};
     std::vector<Fitted> fitted;
     for (const ScoredCandidate* c : {standing.front(), *strongest}) fitted.push_back(fitted_with(c));
-    if (fitted[1].gained > fitted[0].gained + 2.0 * kClearlyBeaten)
+    if (fitted[1].gained > fitted[0].gained + 2.0 * kClearlyBeaten + more_by_tries(**strongest, *standing.front()))
       std::rotate(standing.begin(), strongest, strongest + 1);
     return fitted;
   }
@@ -310,7 +316,8 @@ class Selection {
                                     [&](const ScoredCandidate& c) { return c.effect == joint_.accepted[k].effect; });
       const ScoredCandidate& top = instead.front();
       if (own == instead.end() || is_taken(top) || is_refuted(top) || !stands(top, family_wise_error_) ||
-          top.test.judged() < own->test.judged() + 2.0 * kClearlyBeaten || is_simpler(*own, top))
+          top.test.judged() < own->test.judged() + 2.0 * kClearlyBeaten + more_by_tries(top, *own) ||
+          is_simpler(*own, top))
         continue;
       joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
       let_in(joint_, top);
@@ -377,10 +384,8 @@ class Selection {
           c.effect->name == own.effect->name || says_as_much_beside(c, with_all_))
         continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
-      // What was looked for in more places and at more times must say so much more.
-      const double by_tries = 2.0 * std::max(0.0, own.log_tests - c.log_tests);
       const double beaten_by =
-          std::max(2.0 * kClearlyBeaten + by_tries, at_one_place ? kFormError * own.test.judged() : 0.0);
+          std::max(2.0 * kClearlyBeaten + more_by_tries(own, c), at_one_place ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by)
         alternatives.push_back(c);
       else if (own.effect->of_one_recording && !c.effect->of_one_recording && stands(c, family_wise_error_) &&

@@ -15,6 +15,7 @@ struct Selected {
   // Of what happened once: what says less, but comes back, so that recordings it was not fitted to may decide.
   std::vector<std::vector<ScoredCandidate>> coming_back;
   std::vector<ScoredCandidate> first_look;  // all candidates before any was let in
+  std::vector<ScoredCandidate> beside_all;  // and beside all that stayed; empty where none did
 };
 // `refuted`: names that are not to be let in.
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
