@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/advice/advice.h"
+#include "core/diagnosis/asked_effects.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/adequacy.h"
 #include "core/diagnosis/generic/contradicted.h"
@@ -20,7 +21,8 @@ namespace odolab {
 
 namespace {
 
-constexpr int kFewestInnovations = 40;  // beyond the parameters: fewer cannot judge a model
+constexpr double kOfTheUnnamed = 1.0 / 6.0;  // of the family-wise error of names, that something without one may have
+constexpr int kFewestInnovations = 40;       // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
   char buffer[300];
@@ -201,10 +203,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     explained += selected.evidence[k].test.statistic;
   }
   add_mounting(found, joint, intervals, d.calibration_alone, nominal);
-  add_clock(found, joint, d.calibration_alone, nominal, ready->from_commands);
+  add_clock(found, joint, intervals, d.calibration_alone, nominal, ready->from_commands);
 
-  const Adequacy adequacy =
-      judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise, 0.25 * options.family_wise_error);
+  const Adequacy adequacy = judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise,
+                                            kOfTheUnnamed * options.family_wise_error);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
@@ -243,7 +245,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
   const std::vector<Confusion> confused =
       d.verdict == Verdict::ambiguous ? confusions(joint, selected) : std::vector<Confusion>{};
-  const Advice next = advice(joint, confused, options.family_wise_error);
+  const std::vector<Visible> looks = visible(joint, options.family_wise_error);
+  const Advice next = advice(joint, confused, unseen(looks));
+  d.asked = asked_effects(joint, selected, looks);
   d.not_testable = next.not_testable;
   // Less than a third of them could show.
   if (d.verdict == Verdict::nothing_missing && 3 * d.not_testable.size() > 2 * entries_for_encoders())

@@ -77,6 +77,21 @@ struct NotTestable {
   std::string effect, because, drive_this;
 };
 
+// An effect of the catalogue that was asked for, of the part where it seems likeliest, named or not.
+struct AskedEffect {
+  std::string effect, component;
+  bool named = false;
+  double log_likelihood_gain = 0.0;            // beside the calibration alone, scatter allowed for
+  std::optional<double> gain_beside_findings;  // where something was named, and this was not
+  double p_value = 1.0;                        // family-wise, beside the calibration alone
+  // Of what it does to the tracks, what calibration leaves to be seen; and what would bend it most for an effect of
+  // medium size: "wheelbase_m" by so much. Unset where these drives hold nothing that would show it.
+  std::optional<double> survives;
+  std::optional<FoundParameter> bends;
+  // The smallest size that would have been seen nine times in ten. Unset where none would, and of what was named.
+  std::optional<FoundParameter> least_seen;
+};
+
 // What the mismatch that calibration leaves depends on: its response to a variable of the motion, with its 95 % band.
 struct Response {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
@@ -103,6 +118,7 @@ struct Diagnosis {
   FitTable train, held_out;
   bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others
   FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
+  std::vector<AskedEffect> asked;  // every effect once, the likeliest first
   std::vector<NotTestable> not_testable;
   std::string next_drive;
   std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
@@ -113,7 +129,8 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
-  double family_wise_error = 0.02;
+  // That a name is given though nothing is missing. Tries are counted generously, so that about half of it comes about.
+  double family_wise_error = 0.03;
 };
 
 // Recordings of one vehicle. `held_out` give no name and no number: they are predicted after everything is frozen, and

@@ -151,6 +151,37 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
                  "two that differ by less than about 3 are not told apart.");
 }
 
+void add_asked(HtmlReport& report, const Diagnosis& d) {
+  if (d.asked.empty()) return;
+  constexpr double kCertain = 1e-12;
+  report.heading("Every effect that was asked for");
+  report.paragraph(
+      "The gain in log-likelihood beside the calibration and, where something was found, beside that too; the chance "
+      "of "
+      "such a gain if nothing were there, with all that was tried allowed for; how much of an effect's signature the "
+      "calibration leaves to be seen on these drives, and which of its numbers the rest would bend; and the smallest "
+      "size "
+      "that would have been seen nine times in ten.");
+  const bool any_named = std::any_of(d.asked.begin(), d.asked.end(), [](const AskedEffect& a) { return a.named; });
+  std::vector<std::string> header{"effect", "gain"};
+  if (any_named) header.push_back("beside what was found");
+  header.insert(header.end(), {"chance", "left to be seen", "would bend", "least size seen"});
+  std::vector<std::vector<std::string>> rows;
+  for (const AskedEffect& a : d.asked) {
+    std::vector<std::string> row{effect_text(a.effect, a.component), number_text("%.1f", a.log_likelihood_gain)};
+    if (any_named)
+      row.push_back(a.named ? "named" : a.gain_beside_findings ? number_text("%.1f", *a.gain_beside_findings) : "");
+    row.push_back(a.p_value < kCertain ? "none" : a.p_value < 1.0 ? number_text("%.2g", a.p_value) : "1");
+    row.push_back(a.survives ? number_text("%.2g %%", 100.0 * *a.survives) : "");
+    row.push_back(a.bends ? parameter_words(a.bends->name) : "");
+    row.push_back(a.least_seen ? quantity_text(a.least_seen->value, 0.0, a.least_seen->unit)
+                  : a.named    ? ""
+                               : "any size");
+    rows.push_back(row);
+  }
+  report.word_table(header, rows);
+}
+
 struct FitRow {
   const char* name;
   const std::optional<FitFigures>& figures;
@@ -253,6 +284,7 @@ HtmlReport diagnosis_report(const Diagnosis& diagnosis) {
   add_place_and_time(report, diagnosis);
   add_responses(report, diagnosis);
   add_evidence(report, diagnosis);
+  add_asked(report, diagnosis);
   add_proof(report, diagnosis);
   add_limits(report, diagnosis);
   add_calibration(report, diagnosis.calibration);

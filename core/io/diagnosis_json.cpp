@@ -73,6 +73,26 @@ void put(Json& json, const char* key, const std::optional<FitFigures>& figures) 
   entry["normalised_chi2"] = figures->normalised_chi2;
 }
 
+Json asked_json(const AskedEffect& asked) {
+  Json json = Json::object();
+  json["effect"] = asked.effect;
+  json["component"] = asked.component;
+  json["named"] = asked.named;
+  json["log_likelihood_gain"] = asked.log_likelihood_gain;
+  if (asked.gain_beside_findings) json["log_likelihood_gain_beside_findings"] = *asked.gain_beside_findings;
+  json["p_value"] = asked.p_value;
+  if (asked.survives) json["survives_calibration"] = *asked.survives;
+  const auto put_size = [&](const char* key, const std::optional<FoundParameter>& of) {
+    if (!of) return;
+    json[key]["parameter"] = of->name;
+    json[key]["value"] = of->value;
+    json[key]["unit"] = of->unit;
+  };
+  put_size("bends_calibration", asked.bends);
+  put_size("least_size_seen", asked.least_seen);
+  return json;
+}
+
 Json fit_json(const FitTable& fit) {
   Json json = Json::object();
   put(json, "nominal", fit.nominal);
@@ -115,6 +135,8 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   Json& simulation = json["simulation"] = Json::object();
   put(simulation, "before", diagnosis.simulation.calibrated);
   put(simulation, "after", diagnosis.simulation.with_findings);
+  Json& asked = json["asked"] = Json::array();
+  for (const AskedEffect& a : diagnosis.asked) asked.push_back(asked_json(a));
   Json& not_testable = json["not_testable_here"] = Json::array();
   for (const NotTestable& n : diagnosis.not_testable) {
     Json& entry = not_testable.push_back(Json::object());

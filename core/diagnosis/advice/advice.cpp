@@ -97,9 +97,8 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
 
 }  // namespace
 
-Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, double family_wise_error) {
+Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark) {
   Advice out;
-  const std::vector<Visible> dark = unseen(joint, family_wise_error);
   if (dark.empty() && confused.empty()) return out;
 
   const DrivingRange range = range_of(joint);

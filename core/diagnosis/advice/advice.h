@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/advice/visible.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
 
@@ -25,7 +25,7 @@ struct Advice {
   std::vector<DriveLeg> next_legs;  // the same to be driven; empty where words are all there is
 };
 
-// `family_wise_error`: of the test that a size must pass to have been seen.
-Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, double family_wise_error);
+// `dark`: what would not have been seen.
+Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark);
 
 }  // namespace odolab

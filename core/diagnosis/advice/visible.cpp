@@ -12,6 +12,9 @@ namespace odolab {
 
 namespace {
 
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 constexpr int kShapes = 9;  // of a scan, to find what is typical
 
 // The chi-square that is exceeded with that probability.
@@ -42,8 +45,23 @@ Visible visible_at(const JointModel& joint, const Effect& e, const std::vector<d
   return out;
 }
 
+// The column that takes up most of a medium one, in its standard errors.
+void bend(Visible& v, const JointModel& joint, const MatrixXd& covariance) {
+  if (!v.excited) return;
+  const VectorXd taken = joint.absorbed(joint.columns_of(*v.effect, v.shape)).col(v.weakest) *
+                         v.effect->amplitudes[static_cast<std::size_t>(v.weakest)].medium;
+  const Eigen::Index first_amplitude = joint.first_column(0);
+  VectorXd in_errors(first_amplitude);
+  for (Eigen::Index c = 0; c < first_amplitude; ++c)
+    in_errors(c) = covariance(c, c) > 0.0 ? std::abs(taken(c)) / std::sqrt(covariance(c, c)) : 0.0;
+  Eigen::Index most = 0;
+  in_errors.maxCoeff(&most);
+  v.bends = static_cast<int>(most);
+  v.bends_by = taken(most);
+}
+
 // Nothing where the recordings are too few for it to be asked.
-std::optional<Visible> visible(const JointModel& joint, const Effect& e, double family_wise_error) {
+std::optional<Visible> typical(const JointModel& joint, const Effect& e, double family_wise_error) {
   std::vector<std::vector<double>> shapes{{}};
   std::size_t scanned = 1;
   if (e.shape_follows_amplitude) {
@@ -71,7 +89,7 @@ std::optional<Visible> visible(const JointModel& joint, const Effect& e, double 
 
 }  // namespace
 
-std::vector<Visible> unseen(const JointModel& joint, double family_wise_error) {
+std::vector<Visible> visible(const JointModel& joint, double family_wise_error) {
   const bool commands = joint.views().front().from_commands;
   std::vector<const Effect*> asked;
   for (const Effect& e : catalogue()) {
@@ -84,10 +102,8 @@ std::vector<Visible> unseen(const JointModel& joint, double family_wise_error) {
     asked.push_back(&e);
   }
   std::vector<std::optional<Visible>> looks(asked.size());
-  parallel_for(static_cast<int>(asked.size()), [&](int i) { looks[i] = visible(joint, *asked[i], family_wise_error); });
-  // Of an effect that shows in several ways the clearest counts; of one that several parts may have, the part on which
-  // it shows least.
-  std::vector<Visible> seen, dark;
+  parallel_for(static_cast<int>(asked.size()), [&](int i) { looks[i] = typical(joint, *asked[i], family_wise_error); });
+  std::vector<Visible> seen;
   for (const std::optional<Visible>& v : looks) {
     if (!v) continue;
     const auto same = std::find_if(seen.begin(), seen.end(), [&](const Visible& s) {
@@ -98,15 +114,27 @@ std::vector<Visible> unseen(const JointModel& joint, double family_wise_error) {
     else if (v->needed < same->needed)
       *same = *v;
   }
-  for (const Visible& v : seen) {
-    if (v.needed <= 1.0) continue;
+  const MatrixXd covariance = joint.covariance();
+  for (Visible& v : seen) bend(v, joint, covariance);
+  return seen;
+}
+
+std::vector<Visible> least_visible(const std::vector<Visible>& visible) {
+  std::vector<Visible> least;
+  for (const Visible& v : visible) {
     const auto same =
-        std::find_if(dark.begin(), dark.end(), [&](const Visible& d) { return d.effect->name == v.effect->name; });
-    if (same == dark.end())
-      dark.push_back(v);
+        std::find_if(least.begin(), least.end(), [&](const Visible& l) { return l.effect->name == v.effect->name; });
+    if (same == least.end())
+      least.push_back(v);
     else if (v.needed > same->needed)
       *same = v;
   }
+  return least;
+}
+
+std::vector<Visible> unseen(const std::vector<Visible>& visible) {
+  std::vector<Visible> dark = least_visible(visible);
+  std::erase_if(dark, [](const Visible& v) { return v.needed <= 1.0; });
   return dark;
 }
 

@@ -20,11 +20,21 @@ struct Visible {
   double inflation = 1.0;
   int weakest = 0;  // amplitude
   bool excited = false;
+  // What calibration would do for a medium one: the column of the model that moves most, in its standard errors, and by
+  // how much. Columns 0 to 5 are radii, wheelbase and mounting, then come the clocks.
+  int bends = -1;
+  double bends_by = 0.0;
 };
 
-// The entries of the catalogue of which a medium size would not have been seen, each effect once. `family_wise_error`:
-// of the test that a size must pass.
-std::vector<Visible> unseen(const JointModel& joint, double family_wise_error);
+// The entries of the catalogue that are not in the model, once for each part that may have them, in the form that shows
+// clearest. `family_wise_error`: of the test that a size must pass.
+std::vector<Visible> visible(const JointModel& joint, double family_wise_error);
+
+// Of each effect the part on which it shows least.
+std::vector<Visible> least_visible(const std::vector<Visible>& visible);
+
+// Those of which a medium size would not have been seen.
+std::vector<Visible> unseen(const std::vector<Visible>& visible);
 
 // Why not, in words.
 std::string because_of(const Visible& v);

@@ -130,6 +130,9 @@ Judged judged(const DrawnCase& c, const Progress& progress) {
     return j;
   }
   j.verdict = d->verdict;
+  for (const DrawnEffect& e : c.effects)
+    for (const AskedEffect& asked : d->asked)
+      if (asked.effect == e.active.effect) j.asked_p.push_back(asked.p_value);
   judge_names(j, *d);
   judge_parameters(j, c, *d);
   judge_place(j, c, *d);
@@ -185,6 +188,7 @@ std::string Judged::line() const {
   if (time_error_s) text += number_text(" time %.2f s", *time_error_s);
   for (std::size_t k = 0; k < oracle_sigma.size(); ++k)
     text += number_text(" of %.1f sigma,", significance[k]) + number_text(" oracle off by %+.1f", oracle_sigma[k]);
+  for (double p : asked_p) text += number_text(" p %.2g", p);
   text += number_text(" %.0f counts", counts_per_turn);
   if (!failed.empty()) text += " FAILED " + failed;
   return text + number_text(" (%.1f s", seconds) + ", " + std::to_string(thrown_away) + " thrown)";

@@ -43,6 +43,8 @@ struct Judged {
   Concealment concealed;
   std::string failed;  // the error, where diagnosis gave one
 
+  std::vector<double> asked_p;  // of each effect of the truth, by itself beside the calibration alone; family-wise
+
   bool named_first = false;   // the strongest finding is one of the truth
   bool named_all = false;     // all of the truth is among the findings
   bool only_those = false;    // and nothing else

@@ -1,0 +1,67 @@
+#include "core/diagnosis/asked_effects.h"
+
+#include <algorithm>
+
+namespace odolab {
+
+namespace {
+
+const char* const kColumns[6][2] = {
+    {"wheel_radius_left_m", "m"}, {"wheel_radius_right_m", "m"}, {"wheelbase_m", "m"}, {"x_m", "m"}, {"y_m", "m"},
+    {"heading_rad", "rad"}};
+
+bool is_likelier(const ScoredCandidate& a, const ScoredCandidate& b) {
+  return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
+}
+
+// Of an effect its likeliest part.
+const ScoredCandidate* likeliest(const std::vector<ScoredCandidate>& scored, const std::string& effect) {
+  const ScoredCandidate* best = nullptr;
+  for (const ScoredCandidate& c : scored)
+    if (c.effect->name == effect && (!best || is_likelier(c, *best))) best = &c;
+  return best;
+}
+
+void add_visible(AskedEffect& asked, const JointModel& joint, const Visible& v) {
+  if (!v.excited) return;
+  asked.survives = v.survives;
+  const auto clocks = static_cast<int>(joint.runs().size());
+  if (v.bends >= 0 && v.bends < 6)
+    asked.bends = FoundParameter{kColumns[v.bends][0], v.bends_by, 0.0, kColumns[v.bends][1]};
+  else if (v.bends >= 6 && v.bends < 6 + clocks)
+    asked.bends = FoundParameter{"truth_time_offset_s", v.bends_by, 0.0, "s"};
+  constexpr double kNoSize = 1e4;  // of the medium one: none of any size
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  if (v.needed < kNoSize) asked.least_seen = FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
+}
+
+}  // namespace
+
+std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& selected,
+                                       const std::vector<Visible>& visible) {
+  const std::vector<Visible> least = least_visible(visible);
+  std::vector<AskedEffect> all;
+  for (const ScoredCandidate& c : selected.first_look) {
+    const std::string& name = c.effect->name;
+    if (std::any_of(all.begin(), all.end(), [&](const AskedEffect& a) { return a.effect == name; })) continue;
+    const ScoredCandidate* best = likeliest(selected.first_look, name);
+    AskedEffect asked;
+    asked.effect = name;
+    asked.component = best->effect->component;
+    asked.log_likelihood_gain = 0.5 * best->test.judged();
+    asked.p_value = best->p_value;
+    for (const AcceptedEffect& a : joint.accepted)
+      if (a.effect->name == name) asked.named = true, asked.component = a.effect->component;
+    if (const ScoredCandidate* beside = likeliest(selected.beside_all, name); beside && !asked.named)
+      asked.gain_beside_findings = 0.5 * beside->test.judged();
+    for (const Visible& v : least)
+      if (v.effect->name == name) add_visible(asked, joint, v);
+    all.push_back(std::move(asked));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const AskedEffect& a, const AskedEffect& b) {
+    return a.p_value != b.p_value ? a.p_value < b.p_value : a.log_likelihood_gain > b.log_likelihood_gain;
+  });
+  return all;
+}
+
+}  // namespace odolab
