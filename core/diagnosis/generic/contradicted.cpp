@@ -34,6 +34,28 @@ int count(const Contradicted& of_run) {
   return places;
 }
 
+// When and where something happened once.
+struct Moment {
+  int run = 0;
+  double at_s = 0.0;
+  Vec2 place;
+};
+
+Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
+  const int run = static_cast<int>(a.shape[0]);
+  const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
+  const std::size_t step = std::min(view.step_at(a.shape[1]), view.steps.size() - 1);
+  return {run, a.shape[1], view.steps[step].position};
+}
+
+// What comes twice to one place, a wheel's breadth apart, is the floor's: nobody pushes there again.
+constexpr double kOnePlace_m = 0.2;
+bool are_at_one_place(const Moment& a, const Moment& b, double wheelbase_m) {
+  constexpr double kAgain_s = 5.0;
+  return (a.run != b.run || std::abs(a.at_s - b.at_s) > kAgain_s) &&
+         length(a.place - b.place) < std::max(kOnePlace_m, wheelbase_m);
+}
+
 }  // namespace
 
 // Once may be a truth that found itself elsewhere. What names mend three quarters of is theirs; and what acts all the
@@ -85,16 +107,21 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
   constexpr int kTooMany = 3;
   Unnamed u;
-  int moments = 0;
-  for (const AcceptedEffect& a : joint.accepted) {
-    if (!a.effect->local || !a.effect->of_one_recording) continue;
-    ++moments;
-    u.where.time_s.emplace_back(a.shape[1], a.shape[1]);
-  }
-  if (moments < kTooMany) return std::nullopt;
+  std::vector<Moment> moments;
+  for (const AcceptedEffect& a : joint.accepted)
+    if (a.effect->local && a.effect->of_one_recording) moments.push_back(moment_of(joint, a));
+  for (const Moment& m : moments) u.where.time_s.emplace_back(m.at_s, m.at_s);
   if (joint.runs().size() > 1) u.where.time_s.clear();  // times of several recordings
-  u.where.regime = "what happens at " + std::to_string(moments) +
-                   " moments or more, each of which would be a push or a bump of its own";
+  if (static_cast<int>(moments.size()) >= kTooMany) {
+    u.where.regime = "what happens at " + std::to_string(moments.size()) +
+                     " moments or more, each of which would be a push or a bump of its own";
+    return u;
+  }
+  if (moments.size() != 2 || !are_at_one_place(moments[0], moments[1], joint.model.drive.wheelbase_m))
+    return std::nullopt;
+  const Vec2 between = 0.5 * (moments[0].place + moments[1].place);
+  u.where.zone = WhereFound::Zone{between.x_m, between.y_m, std::max(kOnePlace_m, joint.model.drive.wheelbase_m)};
+  u.where.regime = "what happens at one place, otherwise each time that the vehicle comes there";
   return u;
 }
 

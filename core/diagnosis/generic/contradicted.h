@@ -16,7 +16,8 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 // is fitted to them too, and names mend less than half of that.
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
 
-// Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier.
+// Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier; or two
+// of them at one place of the floor.
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint);
 
 // Where what the wheels say scatters more than any wheel rolls, as if that were noise.

@@ -124,6 +124,35 @@ TEST(Adequacy, CallsADriveUnknownThatYieldsToWhatItPushes) {
   EXPECT_NE(d->findings.front().where.regime.find("yielded"), std::string::npos) << d->findings.front().where.regime;
 }
 
+// A belt in the floor, over which each run goes once, on a line of its own: each by itself is a push.
+TEST(Adequacy, CallsUnknownWhatHappensTwiceAtOnePlaceOfTheFloor) {
+  constexpr Vec2 kBelt{2.0, 0.0};
+  constexpr double kHalf_m = 0.08, kCarries = 0.04;  // the share of the way by which it carries the vehicle aside
+  Random random(29);
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0002, 0.01);
+  g.duration_s = 40.0;
+  const auto carried = [&](int run) {
+    return [=](test::InjectedStep& s) {
+      // Each way on past the place, the second run at a turn of the belt.
+      if (run < 2 && length(s.pose.position() - kBelt) < kHalf_m)
+        s.sideways_m += (run == 0 ? 1.0 : -1.0) * kCarries * s.left_m;
+    };
+  };
+  const auto drives = [](int run) {
+    return [=](double t) {
+      const double bend = t < 14.0 ? 0.0 : (run == 2 ? 0.5 : 0.3) * std::sin(0.6 * t), slow = 2.0 + run;
+      return test::WheelSpeedsAt{slow * (1.0 - bend), slow * (1.0 + bend)};
+    };
+  };
+  const Result<Diagnosis> d = diagnose(test::three_runs(g, random, drives, carried), {}, Vehicle{});
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  ASSERT_FALSE(d->findings.empty());
+  ASSERT_TRUE(d->findings.front().where.zone) << d->findings.front().where.regime;
+  EXPECT_NEAR(d->findings.front().where.zone->x_m, kBelt.x_m, 0.1);
+  EXPECT_NEAR(d->findings.front().where.zone->y_m, kBelt.y_m, 0.1);
+}
+
 // The place that is measured sways to and fro, each recording at a time of its own.
 void sway(std::vector<Recording>& recordings, double by_m) {
   double phase = 0.0;
