@@ -123,6 +123,8 @@ class JointModel {
   // How little the likelihood is to be believed, since innovations are correlated: from 0, white, to 1. `of_a_moment`:
   // of what acts at one moment or place.
   double distrust(bool of_a_moment = false) const;
+  // How much wider a sum of innovations scatters than if they were white: one and more.
+  double wider_by_correlation() const;
   Track poses(int run) const;  // corrected, at the wheels' times
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;

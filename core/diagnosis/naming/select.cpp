@@ -62,14 +62,14 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
 }
 
-// How little the likelihood is to be believed of a candidate: not at all less where it would stand though all were the
-// more uncertain for the correlation, by a factor without bounds where that is plain.
+// How little the likelihood is to be believed of a candidate: not at all less where it would stand though all scattered
+// as much more as correlated innovations let it.
 double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error) {
-  constexpr double kPerOdds = 2.0;
+  constexpr double kPerOdds = 2.0;  // at most: a factor without bounds as the correlation nears what is not believed
   const double distrust = joint.distrust(c.effect->local);
   if (distrust == 0.0 || distrust >= 1.0) return distrust;
   ScoredCandidate doubted = c;
-  doubted.test.inflation *= 1.0 + kPerOdds * distrust / (1.0 - distrust);
+  doubted.test.inflation *= std::min(1.0 + kPerOdds * distrust / (1.0 - distrust), joint.wider_by_correlation());
   judge(doubted);
   return doubted.p_value < family_wise_error ? 0.0 : distrust;
 }
