@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/naming/shape_likelihood.h"
+#include "core/diagnosis/naming/shape_search.h"
 #include "core/diagnosis/naming/time_at_rest.h"
 
 namespace odolab {
@@ -95,12 +96,13 @@ std::vector<int> free_shapes(const Effect& effect) {
 
 Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
   const std::size_t count = joint.accepted.size();
-  std::vector<MatrixXd> of_shape(count);
+  std::vector<MatrixXd> of_shape(count), of_amplitudes(count);
   bool moved = false;
   for (std::size_t a = 0; a < count; ++a) {
     if (free_shapes(*joint.accepted[a].effect).empty() || joint.accepted[a].shape.empty()) continue;
     const ShapeLikelihood shape = shape_likelihood(joint, static_cast<int>(a), inflation[a]);
     of_shape[a] = shape.covariance;
+    of_amplitudes[a] = shape.of_amplitudes;
     const bool mean_is_good = shape.lost < 2.0 * inflation[a];  // not so between two summits
     joint.accepted[a].shape = mean_is_good ? shape.mean : shape.best;
     const std::vector<int> free = free_shapes(*joint.accepted[a].effect);
@@ -121,6 +123,7 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
   Intervals out;
   const VectorXd wider = joint.inflation_of_columns().cwiseSqrt();
   out.columns = wider.asDiagonal() * joint.covariance() * wider.asDiagonal();
+  const MatrixXd at_these_shapes = out.columns;
   std::vector<MatrixXd> moves(count);  // the columns by the shapes
   for (std::size_t a = 0; a < count; ++a) {
     if (of_shape[a].size() == 0) continue;
@@ -133,18 +136,23 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     const int m = static_cast<int>(of_shape[a].rows());
     MatrixXd block = MatrixXd::Zero(n + m, n + m);
     block.topLeftCorner(n, n) = out.columns.block(first, first, n, n);
+    // A patch may be small and slippery or large and less so: no derivative by its radius says how much.
+    const bool is_patch = m > 0 && is_a_patch(*joint.accepted[a].effect);
+    if (is_patch) block.topLeftCorner(n, n) = at_these_shapes.block(first, first, n, n) + of_amplitudes[a];
     double square = 0.0;
     for (double v : joint.accepted[a].value) square += v * v / n;
     const double form = joint.accepted[a].effect->forms.size() > 1 ? kErrorOfForms : kFormError;
     for (int k = 0; k < n; ++k) block(k, k) += form * form * square;
     if (m > 0) {
       block.bottomRightCorner(m, m) = of_shape[a];
-      if (moves[a].cols() == m) {
+      if (moves[a].cols() == m && !is_patch) {
         block.topRightCorner(n, m) = moves[a].middleRows(first, n) * of_shape[a];
         block.bottomLeftCorner(m, n) = block.topRightCorner(n, m).transpose();
       }
     }
-    for (int k = 0; k < n; ++k) joint.accepted[a].stderr_value[k] = std::sqrt(block(k, k));
+    // Whether there is a patch at all was asked of all places and sizes together.
+    for (int k = 0; k < n; ++k)
+      joint.accepted[a].stderr_value[k] = std::sqrt(is_patch ? at_these_shapes(first + k, first + k) : block(k, k));
     for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2);
     out.of_effect.push_back(block);
   }

@@ -8,6 +8,7 @@
 #include "core/calibration/minimise.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
 
@@ -16,18 +17,43 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kRounds = 3, kSamples = 40;
+constexpr int kRounds = 4, kSamples = 40;
 constexpr double kWorst = 1e12;  // stands for a shape that cannot be
 
-// Twice the log-likelihood that a shape loses against none, negative: lower is better.
-double misfit(const CandidateScan& scan, const Effect& e, const std::vector<double>& shape) {
+// Twice the log-likelihood that a shape loses against none, negative: lower is better. `value`: its amplitudes, where
+// it is one.
+double misfit(const CandidateScan& scan, const Effect& e, const std::vector<double>& shape,
+              std::vector<double>* value = nullptr) {
   for (std::size_t k = 0; k < e.shapes.size(); ++k)
     if (shape[k] < e.shapes[k].low || shape[k] > e.shapes[k].high) return kWorst;
   const CandidateTest t = scan.test(e, shape);
   if (t.value.empty()) return kWorst;
   for (std::size_t k = 0; k < t.value.size(); ++k)
     if (t.value[k] < e.amplitudes[k].low || t.value[k] > e.amplitudes[k].high) return 0.0;
+  if (value) *value = t.value;
   return -t.statistic;
+}
+
+struct Sample {
+  VectorXd at;
+  double misfit = 0.0;
+  std::vector<double> value;
+};
+
+MatrixXd amplitudes_of(const std::vector<Sample>& samples, const std::vector<double>& weight, Eigen::Index n) {
+  VectorXd mean = VectorXd::Zero(n);
+  MatrixXd square = MatrixXd::Zero(n, n);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (static_cast<Eigen::Index>(samples[i].value.size()) != n) continue;
+    const VectorXd value = Eigen::Map<const VectorXd>(samples[i].value.data(), n);
+    sum += weight[i];
+    mean += weight[i] * value;
+    square += weight[i] * value * value.transpose();
+  }
+  if (sum <= 0.0) return MatrixXd::Zero(n, n);
+  mean /= sum;
+  return square / sum - mean * mean.transpose();
 }
 
 // Normal density up to a factor, with the lower Cholesky factor of its covariance.
@@ -95,12 +121,11 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
       while (w > 1e-3 && lost(w) > 2.0) w *= 0.5;
     width[k] = w;
   });
-  for (int k = 0; k < m; ++k) root(k, k) = width[k];
+  // A patch is also moved and widened at once, so that one rim stays where it is: what each entry loses by itself says
+  // too little of that.
+  constexpr double kPatchToBeginWith = 0.5;
+  for (int k = 0; k < m; ++k) root(k, k) = is_a_patch(*a.effect) ? std::max(width[k], kPatchToBeginWith) : width[k];
 
-  struct Sample {
-    VectorXd at;
-    double misfit = 0.0;
-  };
   std::vector<Sample> samples;
   std::vector<std::pair<VectorXd, MatrixXd>> proposals;  // mean and root
   VectorXd mean = VectorXd::Zero(m);
@@ -112,11 +137,11 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
     for (int i = 0; i < kSamples; ++i) {
       VectorXd z(m);
       for (int k = 0; k < m; ++k) z(k) = random.normal();
-      samples.push_back({mean + root * z, 0.0});
+      samples.push_back({mean + root * z, 0.0, {}});
     }
     parallel_for(kSamples, [&](int i) {
       Sample& s = samples[from + static_cast<std::size_t>(i)];
-      s.misfit = misfit(scan, *a.effect, shape_at(s.at, centre));
+      s.misfit = misfit(scan, *a.effect, shape_at(s.at, centre), &s.value);
     });
     for (std::size_t i = from; i < samples.size(); ++i)
       if (samples[i].misfit < best) best = samples[i].misfit, out.best = shape_at(samples[i].at, centre);
@@ -145,6 +170,7 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
     covariance.setZero();
     for (std::size_t i = 0; i < samples.size(); ++i)
       covariance += weight[i] * (samples[i].at - mean) * (samples[i].at - mean).transpose();
+    out.of_amplitudes = amplitudes_of(samples, weight, static_cast<Eigen::Index>(a.value.size()));
     const MatrixXd wider = 1.5 * covariance + 1e-8 * MatrixXd::Identity(m, m);
     root = wider.llt().matrixL();
   }

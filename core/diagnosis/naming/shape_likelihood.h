@@ -8,10 +8,11 @@
 namespace odolab {
 
 struct ShapeLikelihood {
-  std::vector<double> best;    // the whole shape, where the likelihood is highest
-  std::vector<double> mean;    // the whole shape, weighted by the likelihood
-  Eigen::MatrixXd covariance;  // of the free entries about `mean`
-  double lost = 0.0;           // chi-square that `mean` costs against `best`
+  std::vector<double> best;       // the whole shape, where the likelihood is highest
+  std::vector<double> mean;       // the whole shape, weighted by the likelihood
+  Eigen::MatrixXd covariance;     // of the free entries about `mean`
+  Eigen::MatrixXd of_amplitudes;  // covariance of the amplitudes that belong to them
+  double lost = 0.0;              // chi-square that `mean` costs against `best`
 };
 
 // The profile of the likelihood over the shape of an accepted effect, tempered by `inflation`: climbed by simplex, then

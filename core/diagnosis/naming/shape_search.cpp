@@ -51,8 +51,6 @@ bool is_one_place(const Effect& e, const std::vector<double>& a, const std::vect
   return p.away_m2 < near_m * near_m;
 }
 
-bool is_a_patch(const Effect& e) { return e.local && e.shapes.size() > 2 && e.shapes[2].name == "radius_m"; }
-
 // Patches about one, larger and smaller: rims are sharp, so that a climb may come to rest beside the summit.
 std::vector<std::vector<double>> patches_about(const std::vector<double>& patch) {
   std::vector<std::vector<double>> about;
@@ -219,6 +217,8 @@ class ShapeSearch {
 };
 
 }  // namespace
+
+bool is_a_patch(const Effect& e) { return e.local && e.shapes.size() > 2 && e.shapes[2].name == "radius_m"; }
 
 bool is_physical(const Effect& e, const std::vector<double>& value) {
   for (std::size_t k = 0; k < value.size(); ++k)

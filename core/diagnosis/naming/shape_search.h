@@ -18,6 +18,8 @@ struct SearchedShapes {
 
 SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect);
 
+bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radius
+
 // Whether its amplitudes are such as there are.
 bool is_physical(const Effect& effect, const std::vector<double>& value);
 
