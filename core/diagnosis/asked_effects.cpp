@@ -6,9 +6,10 @@ namespace odolab {
 
 namespace {
 
-const char* const kColumns[6][2] = {
-    {"wheel_radius_left_m", "m"}, {"wheel_radius_right_m", "m"}, {"wheelbase_m", "m"}, {"x_m", "m"}, {"y_m", "m"},
-    {"heading_rad", "rad"}};
+// Parameters of the calibration by the model's columns.
+constexpr const char* kColumns[6][2] = {{"wheel_radius_left_m", "m"}, {"wheel_radius_right_m", "m"},
+                                        {"wheelbase_m", "m"},         {"truth_mounting.x_m", "m"},
+                                        {"truth_mounting.y_m", "m"},  {"truth_mounting.heading_rad", "rad"}};
 
 bool is_likelier(const ScoredCandidate& a, const ScoredCandidate& b) {
   return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
@@ -29,7 +30,7 @@ void add_visible(AskedEffect& asked, const JointModel& joint, const Visible& v) 
   if (v.bends >= 0 && v.bends < 6)
     asked.bends = FoundParameter{kColumns[v.bends][0], v.bends_by, 0.0, kColumns[v.bends][1]};
   else if (v.bends >= 6 && v.bends < 6 + clocks)
-    asked.bends = FoundParameter{"truth_time_offset_s", v.bends_by, 0.0, "s"};
+    asked.bends = FoundParameter{"truth_mounting.time_offset_s", v.bends_by, 0.0, "s"};
   constexpr double kNoSize = 1e4;  // of the medium one: none of any size
   const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
   if (v.needed < kNoSize) asked.least_seen = FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
@@ -40,9 +41,11 @@ void add_visible(AskedEffect& asked, const JointModel& joint, const Visible& v) 
 std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& selected,
                                        const std::vector<Visible>& visible) {
   const std::vector<Visible> least = least_visible(visible);
+  const bool from_commands = joint.views().front().from_commands;
   std::vector<AskedEffect> all;
   for (const ScoredCandidate& c : selected.first_look) {
     const std::string& name = c.effect->name;
+    if (c.effect->only_commands && !from_commands) continue;
     if (std::any_of(all.begin(), all.end(), [&](const AskedEffect& a) { return a.effect == name; })) continue;
     const ScoredCandidate* best = likeliest(selected.first_look, name);
     AskedEffect asked;
@@ -56,6 +59,10 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
       asked.gain_beside_findings = 0.5 * beside->test.judged();
     for (const Visible& v : least)
       if (v.effect->name == name) add_visible(asked, joint, v);
+    if (name == "wheel_toe" && !asked.named) {  // to the last digit a mounting turned the other way
+      asked.survives = 0.0;
+      asked.bends = FoundParameter{kColumns[5][0], -best->effect->amplitudes[0].medium, 0.0, kColumns[5][1]};
+    }
     all.push_back(std::move(asked));
   }
   std::stable_sort(all.begin(), all.end(), [](const AskedEffect& a, const AskedEffect& b) {

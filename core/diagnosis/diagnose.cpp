@@ -21,7 +21,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kOfTheUnnamed = 1.0 / 6.0;  // of the family-wise error of names, that something without one may have
+constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
 constexpr int kFewestInnovations = 40;       // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {

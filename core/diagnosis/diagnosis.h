@@ -129,8 +129,7 @@ struct Diagnosis {
 };
 
 struct DiagnosisOptions {
-  // That a name is given though nothing is missing. Tries are counted generously, so that about half of it comes about.
-  double family_wise_error = 0.03;
+  double family_wise_error = 0.02;
 };
 
 // Recordings of one vehicle. `held_out` give no name and no number: they are predicted after everything is frozen, and

@@ -156,27 +156,25 @@ void add_asked(HtmlReport& report, const Diagnosis& d) {
   constexpr double kCertain = 1e-12;
   report.heading("Every effect that was asked for");
   report.paragraph(
-      "The gain in log-likelihood beside the calibration and, where something was found, beside that too; the chance "
-      "of "
-      "such a gain if nothing were there, with all that was tried allowed for; how much of an effect's signature the "
-      "calibration leaves to be seen on these drives, and which of its numbers the rest would bend; and the smallest "
-      "size "
-      "that would have been seen nine times in ten.");
+      "Gain: in log-likelihood, beside the calibration and beside what was found. Chance: of such a gain where nothing "
+      "is "
+      "missing, all that was tried allowed for. Left to be seen: of what the effect does to the recordings, what "
+      "calibration would not take up on these drives; most of the rest would go into the parameter named. Least size: "
+      "what "
+      "would have been seen nine times in ten.");
   const bool any_named = std::any_of(d.asked.begin(), d.asked.end(), [](const AskedEffect& a) { return a.named; });
   std::vector<std::string> header{"effect", "gain"};
   if (any_named) header.push_back("beside what was found");
-  header.insert(header.end(), {"chance", "left to be seen", "would bend", "least size seen"});
+  header.insert(header.end(), {"chance", "left to be seen", "would bend", "least size"});
   std::vector<std::vector<std::string>> rows;
   for (const AskedEffect& a : d.asked) {
     std::vector<std::string> row{effect_text(a.effect, a.component), number_text("%.1f", a.log_likelihood_gain)};
     if (any_named)
       row.push_back(a.named ? "named" : a.gain_beside_findings ? number_text("%.1f", *a.gain_beside_findings) : "");
-    row.push_back(a.p_value < kCertain ? "none" : a.p_value < 1.0 ? number_text("%.2g", a.p_value) : "1");
-    row.push_back(a.survives ? number_text("%.2g %%", 100.0 * *a.survives) : "");
+    row.push_back(a.p_value < kCertain ? "none" : number_text("%.2g", a.p_value));
+    row.push_back(a.survives ? number_text(*a.survives < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * *a.survives) : "");
     row.push_back(a.bends ? parameter_words(a.bends->name) : "");
-    row.push_back(a.least_seen ? quantity_text(a.least_seen->value, 0.0, a.least_seen->unit)
-                  : a.named    ? ""
-                               : "any size");
+    row.push_back(a.least_seen ? size_text(a.least_seen->value, a.least_seen->unit) : a.named ? "" : "none would show");
     rows.push_back(row);
   }
   report.word_table(header, rows);

@@ -234,6 +234,11 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
   return text + shown.unit;
 }
 
+std::string size_text(double value, const std::string& unit) {
+  const Shown shown = shown_as(unit);
+  return number_text("%.2g", value * shown.factor) + shown.unit;
+}
+
 std::string where_text(const WhereFound& where) {
   std::vector<std::string> parts;
   std::string when = where.recording.empty() ? "" : "in " + where.recording;

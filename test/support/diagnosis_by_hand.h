@@ -68,6 +68,14 @@ inline Diagnosis diagnosis_by_hand() {
                 FitFigures{0.0017, 0.0022, 1.0}, FitFigures{0.0052, 0.0071, 5.6}, FitFigures{0.0066, 0.0097, 9.2}};
   d.simulation.calibrated = FitFigures{0.0064, 0.0095, 8.8};
   d.simulation.with_findings = FitFigures{0.0020, 0.0027, 1.2};
+  AskedEffect slip;
+  slip.effect = "lateral_slip";
+  slip.component = "vehicle";
+  slip.log_likelihood_gain = 1.5;
+  slip.gain_beside_findings = 0.25;
+  slip.survives = 0.004;
+  slip.bends = FoundParameter{"truth_mounting.x_m", 0.0031, 0.0, "m"};
+  d.asked = {slip};
   d.not_testable = {{"lateral_slip", "no arc was driven at two speeds", "arcs of 1 m radius at 0.2 and 0.6 m/s"},
                     {"castor_reversal_kick", "the robot never reversed", "three metres forward and back"}};
   d.next_drive = "Two arcs of 1 m radius, at 0.2 and 0.6 m/s, 40 s in all.";

@@ -145,13 +145,13 @@ void judge(ScoredCandidate& c) {
 }
 
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
-                                 double tests) {
+                                 int tests) {
   ScoredCandidate best;
   best.effect = &e;
   SearchedShapes searched = best_shape(joint.views(), scan, e);
   best.test = std::move(searched.best);
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests = std::log(tests * (is_one_sided(e) ? 0.5 : 1.0)) +
+  const double log_tests = std::log(static_cast<double>(tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
                            std::log(e.tests_of_a_shape * static_cast<double>(searched.tried));
   std::vector<double>& statistics = searched.statistics;
   const std::vector<double> shape = best.test.shape;
@@ -211,12 +211,10 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
   for (const DriveView& v : joint.views()) commands = commands || v.from_commands;
   std::vector<ScoredCandidate> scored(all.size());
   const CandidateScan scan(joint, without);
-  // Two thirds of the error are for what happens in one place or moment, one for all others: those are few entries, and
-  // each was looked for so often that it needs the larger share to be seen at all.
-  constexpr double kShareOfLocal = 2.0 / 3.0;
-  const auto local =
-      static_cast<double>(std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; }));
-  const double tests[2] = {(static_cast<double>(all.size()) - local) / (1.0 - kShareOfLocal), local / kShareOfLocal};
+  // Half of the error is for what happens in one place or moment, half for all others: those are few entries, and each
+  // was looked for so often that it needs the larger share to be seen at all.
+  const auto local = std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; });
+  const int entries[2] = {2 * static_cast<int>(std::ssize(all) - local), 2 * static_cast<int>(local)};
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Effect& e = *all[i];
     scored[i].effect = &e;
@@ -224,7 +222,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     if (joint.truth_jumps && is_short(e)) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
-    scored[i] = scored_candidate(joint, scan, e, without, tests[e.local ? 1 : 0]);
+    scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
   std::vector<char> in_vain(scored.size(), 0);
   for (std::size_t i = 0; i < scored.size(); ++i)

@@ -21,7 +21,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
 
 // The best shape of one entry, which is one of so many `tests`; `scan` is of the same question.
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& effect, int without,
-                                 double tests);
+                                 int tests);
 
 // Its p value, from its test.
 void judge(ScoredCandidate& candidate);

@@ -44,6 +44,13 @@ TEST(DiagnosisJson, SaysWhatTheSchemasExampleSays) {
   EXPECT_TRUE(json["next_drive"].is_string());
 }
 
+TEST(DiagnosisJson, SaysOfEveryEffectThatWasAskedForOnlyWhatIsKnown) {
+  EXPECT_EQ(parsed(test::diagnosis_by_hand())["asked"], nlohmann::json::parse(R"([{
+      "effect": "lateral_slip", "component": "vehicle", "named": false, "log_likelihood_gain": 1.5,
+      "log_likelihood_gain_beside_findings": 0.25, "p_value": 1.0, "survives_calibration": 0.004,
+      "bends_calibration": {"parameter": "truth_mounting.x_m", "value": 0.0031, "unit": "m"}}])"));
+}
+
 TEST(DiagnosisJson, WhereHoldsOnlyWhatApplies) {
   const nlohmann::json json = parsed(test::diagnosis_by_hand());
   EXPECT_EQ(json["findings"][0]["where"],

@@ -20,6 +20,12 @@ TEST(QuantityText, HasAsManyDigitsAsItsErrorBears) {
   EXPECT_EQ(quantity_text(3.0, std::nan(""), "m/s"), "3000 mm/s");
 }
 
+TEST(SizeText, HasTwoDigitsInTheUnitsOfTheReport) {
+  EXPECT_EQ(size_text(0.0016871, "1"), "0.17 %");
+  EXPECT_EQ(size_text(0.0003079, "m/(m/s2)"), "0.31 mm/(m/s2)");
+  EXPECT_EQ(size_text(3.497e-5, "1/s"), "0.0035 % per s");
+}
+
 TEST(VerdictSentence, NamesWhatWasFound) {
   Diagnosis d = test::diagnosis_by_hand();
   EXPECT_EQ(verdict_sentence(d),
@@ -119,6 +125,7 @@ TEST(DiagnosisReport, IsOnePageWithEveryPart) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   // two recordings, each with its track before and after and its residual; a response; evidence; before and after
   EXPECT_EQ(count(html, "<svg "), 2u * 3u + 3u);
+  EXPECT_NE(html.find("none would show"), std::string::npos);  // of the effect that no drive here could show
   EXPECT_EQ(html.find("src="), std::string::npos);
   EXPECT_EQ(html.find("href="), std::string::npos);
   EXPECT_EQ(html.find("nan"), std::string::npos);
