@@ -25,7 +25,7 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
     return joint.test(joint.columns_of(effect, of), static_cast<int>(name));
   };
   const double own = tested(shape).statistic;
-  Predicted best = predictor.of(joint, joint.model.noise);
+  std::optional<Predicted> best;  // asked where there is another form
   const JointModel fitted = joint;
   for (std::size_t form = 0; form < effect.forms.size(); ++form) {
     ScoredCandidate other;
@@ -37,8 +37,9 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
     if (test.statistic < own - 2.0 * kClearlyBeaten || !is_physical(effect, test.value)) continue;
     other.test.value = test.value;
     JointModel model = with_instead(fitted, name, other);
+    if (!best) best = predictor.of(fitted, fitted.model.noise);
     Predicted by_other = predictor.of(model, fitted.model.noise);
-    if (!by_other.unseen || !best.unseen || likelier_where_unseen(by_other, best) < 2.0 * kClearlyBeaten) continue;
+    if (!by_other.unseen || !best->unseen || likelier_where_unseen(by_other, *best) < 2.0 * kClearlyBeaten) continue;
     joint = std::move(model);
     best = std::move(by_other);
   }
