@@ -80,13 +80,12 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
 
 void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
                const LeastSquaresCalibration& fit, const Vehicle& nominal, bool from_commands) {
-  constexpr double kLeast_s = 0.004;
   if (std::none_of(fit.parameters.begin(), fit.parameters.end(),
                    [](const ParameterEstimate& p) { return p.name == "truth_mounting.time_offset_s" && p.determined; }))
     return;
   const SharedClock clock = intervals.shared_clock(joint);
   const double off = clock.offset_s - nominal.truth.time_offset_s, z = off / clock.stderr_s;
-  if (std::abs(z) < kSigmasOfBias || std::abs(off) < kLeast_s) return;
+  if (std::abs(z) < kSigmasOfBias || std::abs(off) < kLeastClock_s) return;
   Finding f;
   const bool delay = from_commands && off > 0.0;
   f.effect = delay ? "actuator_delay" : "truth_time_offset";

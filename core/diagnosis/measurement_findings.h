@@ -12,6 +12,7 @@ namespace odolab {
 
 // A mounting, a clock or a biased joint is named above so many standard errors, each with a least size of its own.
 constexpr double kSigmasOfBias = 6.0;
+constexpr double kLeastClock_s = 0.004;  // of an offset that is said
 
 // Where the mounting is not where the vehicle's file says. A small turn of it alone is what wheels do that are not
 // square to the axle; then that is the name, with the mounting beside it.

@@ -14,8 +14,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kLeastClock_s = 0.004;
-
 // What all units see alike, whichever of them it was named by.
 bool is_common(const std::string& effect) {
   return effect == "clock_rate" || effect == "floor_slope_creep" || effect == "slip_zone" || effect == "truth_frozen";
