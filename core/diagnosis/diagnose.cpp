@@ -22,7 +22,7 @@ namespace odolab {
 namespace {
 
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
-constexpr int kFewestInnovations = 40;       // beyond the parameters: fewer cannot judge a model
+constexpr int kFewestInnovations = 40;  // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
   char buffer[300];
@@ -210,6 +210,13 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
+  d.something_sways = adequacy.sway.has_value();
+  if (adequacy.sway)
+    d.warnings.push_back(
+        "the vehicle, or the truth by itself, comes and goes by " +
+        text("%.2g mm to either side with ", 1e3 * adequacy.sway->to_either_side_m) + adequacy.sway->wave +
+        ": no more than one sample of the truth errs, so which of both it is cannot be told; a stop of "
+        "two such waves would");
   d.responses = responses_of(adequacy.generic, !joint.accepted.empty());
 
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));

@@ -25,6 +25,37 @@ std::vector<double> inflations_of(const Selected& selected) {
   return inflations;
 }
 
+// Of a name that does not stand out, the one to take out: what shares its evidence and says less, where that alone had
+// made its size uncertain, or else itself.
+std::size_t to_take_out(const JointModel& joint, const Selected& selected, std::size_t k) {
+  const auto says = [&](std::size_t j) { return selected.evidence[j].test.judged(); };
+  for (std::size_t j = 0; j < joint.accepted.size(); ++j) {
+    if (j == k || says(j) >= says(k) || !joint.accepted[j].acts_on_motion()) continue;
+    JointModel without = joint;
+    without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(j));
+    without.fit(3);
+    without.fit_noise_and_all();
+    std::vector<double> inflations = inflations_of(selected);
+    inflations.erase(inflations.begin() + static_cast<std::ptrdiff_t>(j));
+    refined(without, inflations);
+    if (stands_out(without, without.accepted[j < k ? k - 1 : k])) return j;
+  }
+  return k;
+}
+
+// What each name says once another was taken out.
+void ask_again(const JointModel& joint, Selected& selected) {
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const AcceptedEffect& a = joint.accepted[k];
+    if (a.is_held) continue;
+    ScoredCandidate& c = selected.evidence[k];
+    const CandidateTest again = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(k), !a.effect->local);
+    c.test.statistic = again.statistic;
+    if (!a.effect->local) c.test.inflation = again.inflation;
+    judge(c);
+  }
+}
+
 // A name's evidence in all recordings together, those held out among them, by its own count of tries: in the place of
 // the k-th accepted effect.
 ScoredCandidate of_all_recordings(const JointModel& of_all, std::size_t k, ScoredCandidate c, const Effect& effect,
@@ -115,7 +146,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   // it was not fitted to refute.
   const auto untenable = [&]() -> std::optional<std::size_t> {
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
-      if (!stands_out(joint, joint.accepted[k])) return k;
+      if (!stands_out(joint, joint.accepted[k])) return to_take_out(joint, selected, k);
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);
     now.by_joint = joint.accepted.empty() ? now.by_calibrated : predictor.of(joint, joint.model.noise);
     if (const auto k = refuted(predictor, joint, now.by_joint, now.by_calibrated)) {
@@ -145,6 +176,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     if (!joint.accepted.empty()) {
       joint.fit(3);
       joint.fit_noise_and_all();
+      ask_again(joint, selected);
     } else {
       joint = calibrated;
       if (untenables.size() < kMostUntenable) {  // what it stood for may have another name

@@ -220,6 +220,14 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
   return out;
 }
 
+std::optional<Adequacy::Sway> sway_of(const std::vector<GenericTest>& generic, double error) {
+  const GenericTest* clearest = nullptr;
+  for (const GenericTest& g : generic)
+    if (g.sway && g.sway->p_value < (clearest ? clearest->sway->p_value : error)) clearest = &g;
+  if (!clearest) return std::nullopt;
+  return Adequacy::Sway{clearest->variable, clearest->sway->to_either_side_m};
+}
+
 std::ptrdiff_t names_of_physics(const JointModel& joint) {
   return std::count_if(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
 }
@@ -231,6 +239,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, error);
+  out.sway = sway_of(out.generic, error);
   double explained = 0.0;
   for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
   if (const Left left = what_is_left(joint, out.generic, error); left.group) {

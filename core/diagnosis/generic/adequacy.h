@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/diagnosis/generic/generic_tests.h"
@@ -15,6 +16,12 @@ struct Adequacy {
   std::optional<Unnamed> unnamed;    // where the names are not enough
   std::optional<Unnamed> as_likely;  // where they may be, but something without a name is not beaten by them either
   bool something_small_is_left = false;
+  // What comes and goes with time and may as well be a truth that sways; its wave in words.
+  struct Sway {
+    std::string wave;
+    double to_either_side_m = 0.0;
+  };
+  std::optional<Sway> sway;
 };
 
 // Of all recordings that there are; `calibrated`: without any name.

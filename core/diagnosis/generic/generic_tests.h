@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct GenericTest {
   std::vector<GenericWave> waves;  // where it is periodic instead
   std::vector<GenericCurve> curves;
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
+  // Where a truth that sways within its own error would do the same (`swaying_truth.h`): what it would say of it.
+  struct Sway {
+    double to_either_side_m = 0.0, p_value = 1.0;
+  };
+  std::optional<Sway> sway;
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/correlation.h"
 #include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
@@ -99,26 +100,17 @@ double JointModel::distrust(bool of_a_moment) const {
   return std::clamp((most - kWhite) / (kCorrelated - kWhite), 0.0, 1.0);
 }
 
-// The channel's that is widest: one and twice the sum of its correlations, as far as these are above zero together two
-// by two (Geyer 1992, "Practical Markov chain Monte Carlo": the initial positive sequence).
+// The channel's that is widest.
 double JointModel::wider_by_correlation() const {
-  constexpr std::size_t kMostApart = 200;
   double widest = 1.0;
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    std::vector<double> product(kMostApart + 1, 0.0);
+    std::vector<std::vector<double>> innovations;
     for (const LinearisedRun& linear : now_->runs) {
       const Whitened& r = linear.residual();
-      for (std::size_t apart = 0; apart <= kMostApart; ++apart)
-        for (std::size_t i = channel + 3 * apart; i < r.size(); i += 3) product[apart] += r[i] * r[i - 3 * apart];
+      innovations.emplace_back();
+      for (std::size_t i = channel; i < r.size(); i += 3) innovations.back().push_back(r[i]);
     }
-    if (product[0] <= 0.0) continue;
-    double wider = 1.0;
-    for (std::size_t apart = 1; apart < kMostApart; apart += 2) {
-      const double pair = (product[apart] + product[apart + 1]) / product[0];
-      if (pair <= 0.0) break;
-      wider += 2.0 * pair;
-    }
-    widest = std::max(widest, wider);
+    widest = std::max(widest, sum_widened_by_correlation(innovations));
   }
   return widest;
 }

@@ -171,7 +171,9 @@ void sway(std::vector<Recording>& recordings, double by_m) {
 TEST(Adequacy, LeavesToTheTruthWhatSwaysWithinItsError) {
   test::Case c = case_of("", 1.0, 4, 8);
   sway(c.recordings, 0.0008);
-  EXPECT_EQ(diagnose(c.recordings, {}, c.nominal)->verdict, Verdict::nothing_missing);
+  const Result<Diagnosis> small = diagnose(c.recordings, {}, c.nominal);
+  EXPECT_EQ(small->verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(small->something_sways);
   sway(c.recordings, 0.008);
   EXPECT_EQ(diagnose(c.recordings, {}, c.nominal)->verdict, Verdict::unknown_effect);
 }
