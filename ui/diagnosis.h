@@ -61,6 +61,12 @@ struct MysteryView {
   bool guessed_right = false, tool_right = false, tool_asked = false;
 };
 
+// An effect that was asked for, in words: what was said of it, and on what grounds.
+struct AskedRow {
+  std::string effect, answer, grounds;
+  bool named = false;
+};
+
 struct DiagnosisView {
   std::vector<DiagnosedRun> runs;
   std::string vehicle_name;  // empty: none was opened
@@ -80,6 +86,7 @@ struct DiagnosisView {
   std::vector<ProofBar> proof;
   std::string proof_title;
   std::vector<std::pair<std::string, std::string>> not_testable;  // what, and why with the drive that would show it
+  std::vector<AskedRow> asked;                                    // the likeliest first
   std::string next_drive;                                         // in words
   std::vector<Vec2> advised_way;                                  // of the next drive
   bool can_simulate_advice = false;

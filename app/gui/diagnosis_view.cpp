@@ -54,6 +54,29 @@ ui::FindingCard card_of(const Finding& f, bool on) {
   return card;
 }
 
+ui::AskedRow asked_row(const AskedEffect& a) {
+  constexpr double kCertain = 1e-12;
+  ui::AskedRow row;
+  row.effect = capital(effect_text(a.effect, a.component));
+  row.named = a.named;
+  row.answer = a.named                ? "named"
+               : a.p_value >= 1.0     ? "no sign of it"
+               : a.p_value < kCertain ? "beyond chance"
+                                      : number_text("chance %.2g", a.p_value);
+  row.grounds = "Gain in log-likelihood beside the calibration " + gain_text(a.log_likelihood_gain);
+  if (a.gain_beside_findings) row.grounds += ", beside what was found " + gain_text(*a.gain_beside_findings);
+  row.grounds += ".";
+  if (a.survives)
+    row.grounds += number_text(" Of what it does, calibration leaves %.2g %% to be seen", 100.0 * *a.survives) +
+                   (a.bends ? "; most of the rest would go into the " + parameter_words(a.bends->name) : "") + ".";
+  if (a.least_seen)
+    row.grounds +=
+        " " + size_text(a.least_seen->value, a.least_seen->unit) + " would have been seen nine times in ten.";
+  else if (!a.named)
+    row.grounds += " No size of it would show on these drives.";
+  return row;
+}
+
 void add_proof(ui::DiagnosisView& view, const Diagnosis& d) {
   const bool held_out = d.held_out.calibrated.has_value();
   const FitTable& fit = held_out ? d.held_out : d.train;
@@ -156,6 +179,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
   for (const NotTestable& n : d->not_testable)
     v.not_testable.emplace_back(capital(effect_words(n.effect)),
                                 capital(n.because) + ". " + capital(n.drive_this) + ".");
+  for (const AskedEffect& a : d->asked) v.asked.push_back(asked_row(a));
   if (!d->next_drive.empty()) v.next_drive = capital(d->next_drive) + ".";
   const auto* drive = std::get_if<DifferentialDrive>(&answer_->nominal.kind);
   if (drive && !d->next_legs.empty()) v.advised_way = advised_way_;

@@ -9,11 +9,15 @@ namespace odolab::ui {
 
 namespace {
 
-void two_columns(const std::string& name, const std::string& value, const Theme& theme) {
+void two_columns(const std::string& name, const std::string& value, ImU32 ink) {
   ImGui::TextDisabled("%s", name.c_str());
   ImGui::SameLine();
   if (ImGui::CalcTextSize(value.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
-  text_right(value, theme.ink);
+  text_right(value, ink);
+}
+
+void two_columns(const std::string& name, const std::string& value, const Theme& theme) {
+  two_columns(name, value, theme.ink);
 }
 
 // Turns towards the run in which a finding was located, and lights it there.
@@ -151,6 +155,17 @@ Actions advice_part(const DiagnosisView& view, DiagnosisState& state, const Them
   return actions;
 }
 
+void asked_part(const DiagnosisView& view, const Theme& theme) {
+  if (view.asked.empty()) return;
+  ImGui::Dummy({1, theme.px(4)});
+  if (!ImGui::TreeNodeEx("Every effect that was asked for", ImGuiTreeNodeFlags_NoTreePushOnOpen)) return;
+  for (const AskedRow& row : view.asked) {
+    two_columns(row.effect, row.answer, row.named ? theme.blue : theme.ink);
+    tooltip(row.grounds, theme);
+  }
+  note("How likely chance alone would say as much, all that was tried allowed for.", theme);
+}
+
 }  // namespace
 
 std::vector<Stretch> stretches_of(const DiagnosedRun& run, std::size_t finding) {
@@ -188,6 +203,7 @@ Actions diagnosis_findings_panel(const DiagnosisView& view, DiagnosisState& stat
       tooltip(why, theme);
     }
   }
+  asked_part(view, theme);
   if (!view.diagnosis->warnings.empty()) {
     heading("To be aware of", theme);
     for (const std::string& w : view.diagnosis->warnings) note(w, theme);

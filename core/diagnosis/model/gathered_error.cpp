@@ -10,14 +10,21 @@ namespace odolab {
 
 namespace {
 
-// Over one window: the truth's error at both ends, that of its heading at the start swinging the way about, and the
-// wheels' errors, which turn the rest of the way.
-void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, const Track& guess,
-               double from_s, double to_s) {
+// Over one window: the truth's error at both ends, that of its heading at the start swinging the way about, the wheels'
+// errors, which turn the rest of the way, and what is hidden behind a count of each wheel at both ends.
+void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, double count_m,
+               const Track& guess, double from_s, double to_s) {
   const auto from =
       std::lower_bound(guess.begin(), guess.end(), from_s, [](const TimedPose& p, double t) { return p.time_s < t; });
   const auto to = std::lower_bound(from, guess.end(), to_s, [](const TimedPose& p, double t) { return p.time_s < t; });
   if (from == guess.end() || from == to) return;
+  // Between two readings both count, each by its share.
+  const auto counted_m2 = [&](Track::const_iterator behind, double at_s) {
+    if (behind == guess.begin() || behind == guess.end()) return count_m * count_m / 12.0;
+    const double s = (at_s - (behind - 1)->time_s) / (behind->time_s - (behind - 1)->time_s);
+    return (s * s + (1.0 - s) * (1.0 - s)) * count_m * count_m / 12.0;
+  };
+  const double at_start_m2 = counted_m2(from, from_s), at_both_m2 = at_start_m2 + counted_m2(to, to_s);
   const Vec2 end = std::min(to, guess.end() - 1)->pose.position();
   double left_and_right_m = 0.0, swung_m3 = 0.0;  // swung: by how much a turn on the way moves the end, squared
   for (auto i = from; i + 1 < guess.end() && i < to; ++i) {
@@ -37,10 +44,11 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
   const double wandered2 = 2.0 * noise.wander_m_per_sqrt_s * noise.wander_m_per_sqrt_s * (to_s - from_s);
   const double turned2 = noise.heading_wander_rad_per_sqrt_s * noise.heading_wander_rad_per_sqrt_s * (to_s - from_s);
+  const double per_base2 = 2.0 / (wheelbase_m * wheelbase_m);
   const double turn2_per_m = (q2 + 2.0 * turning2) / (wheelbase_m * wheelbase_m);
-  sum.noise_position_m2 += 4.0 * p2 + h2 * dot(along, along) + (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m +
-                           wandered2 + turn2_per_m * swung_m3;
-  sum.noise_heading_rad2 += 2.0 * h2 + turned2 + turn2_per_m * left_and_right_m;
+  sum.noise_position_m2 += 4.0 * p2 + 0.5 * at_both_m2 + (h2 + per_base2 * at_start_m2) * dot(along, along) +
+                           (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m + wandered2 + turn2_per_m * swung_m3;
+  sum.noise_heading_rad2 += 2.0 * h2 + per_base2 * at_both_m2 + turned2 + turn2_per_m * left_and_right_m;
 }
 
 // Where it stands at an end it stood there longer than it was read: a pose that is taken there belongs to it, however
@@ -99,9 +107,11 @@ JointModel::GatheredError JointModel::gathered_error(int first_run) const {
       of[r].heading_rad2 = e->heading_rms_rad * e->heading_rms_rad;
       of[r].windows = e->windows;
       of[r].of_window = e->window_error;
+      const double count_m =
+          0.5 * (model.drive.wheel_radius_left_m + model.drive.wheel_radius_right_m) * count_rad(run, model.drive);
       for (const auto& [from_s, to_s] : e->window_s) {
         of[r].window_at_s.push_back(from_s);
-        add_noise(of[r], noise, model.drive.wheelbase_m, guess, from_s, to_s);
+        add_noise(of[r], noise, model.drive.wheelbase_m, count_m, guess, from_s, to_s);
       }
       of[r].noise_position_m2 /= e->windows;
       of[r].noise_heading_rad2 /= e->windows;

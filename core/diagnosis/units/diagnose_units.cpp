@@ -8,6 +8,7 @@
 #include "core/diagnosis/units/inside.h"
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -159,6 +160,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     if (inside && take_biases_from_inside(geometry, *inside)) d = merged(diagnoses, geometry, nominal, train);
   }
   if (erring) add_erring_joint(*erring, nominal, d);
+  mark_named(d);
   return d;
 }
 

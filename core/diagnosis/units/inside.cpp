@@ -9,6 +9,7 @@
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/merged.h"
+#include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -205,10 +206,12 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     d.findings.front().alternatives.insert(d.findings.front().alternatives.end(), instead.begin(), instead.end());
     d.verdict = Verdict::ambiguous;
   }
-  const auto is_common = [](const NotTestable& n) {
-    return std::find(common_effects().begin(), common_effects().end(), n.effect) != common_effects().end();
+  const auto is_common = [](const auto& of) {
+    return std::find(common_effects().begin(), common_effects().end(), of.effect) != common_effects().end();
   };
-  d.not_testable.erase(std::remove_if(d.not_testable.begin(), d.not_testable.end(), is_common), d.not_testable.end());
+  std::erase_if(d.not_testable, is_common);
+  std::erase_if(d.asked, is_common);
+  mark_named(d);
   for (const std::string& name : common_effects())
     d.not_testable.push_back({name, "without an outside truth what all units do alike does not show between them",
                               "the same with an outside truth that has headings"});

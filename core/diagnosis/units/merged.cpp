@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/merged_calibration.h"
 #include "core/diagnosis/units/merged_findings.h"
 #include "core/vehicle/key_words.h"
@@ -93,6 +94,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
         (d.*residuals).push_back(std::move(r));
       }
     d.left_out_in_turn = d.left_out_in_turn || one.left_out_in_turn;
+    d.something_sways = d.something_sways || one.something_sways;
     if (!one.next_drive.empty() && (d.next_drive.empty() || one.verdict == Verdict::ambiguous)) {
       d.next_drive = one.next_drive;
       d.next_legs = one.next_legs;
@@ -123,6 +125,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   d.train = joined(diagnoses, &Diagnosis::train);
   d.held_out = joined(diagnoses, &Diagnosis::held_out);
   d.not_testable = not_testable_in(diagnoses, units);
+  d.asked = merged_asked(diagnoses, geometry, units);
   if (std::holds_alternative<Tracked>(nominal.kind))
     d.warnings.insert(
         d.warnings.begin(),

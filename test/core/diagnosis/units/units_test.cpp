@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
@@ -151,6 +152,25 @@ TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
   ASSERT_TRUE(with && without);
   EXPECT_LT(track_error(*with, truth_track(unseen))->end_position_m,
             track_error(*without, truth_track(unseen))->end_position_m);
+}
+
+// An effect is asked for in every unit, a bias in every joint; each is said once, of where it is likeliest.
+TEST(DiagnoseUnits, SayOfEveryEffectThatWasAskedForWhatBecameOfIt) {
+  LinkedRunSettings s;
+  s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
+  const Diagnosis d = diagnosed(clapper_runs(crooked_clapper(), s, 51), Clapper{});
+  std::multiset<std::string> asked;
+  for (const AskedEffect& a : d.asked) {
+    asked.insert(a.effect);
+    const bool is_found =
+        std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) { return f.effect == a.effect; });
+    EXPECT_EQ(a.named, is_found) << a.effect;
+  }
+  for (const char* effect : {"encoder_missed_counts", "turn_scrub", "link_angle_bias", "link_length_bias"})
+    EXPECT_EQ(asked.count(effect), 1u) << effect;
+  ASSERT_FALSE(d.asked.empty());
+  EXPECT_EQ(d.asked.front().effect, "encoder_missed_counts");
+  EXPECT_EQ(d.asked.front().component, "truck_b.left_wheel");
 }
 
 TEST(DiagnoseUnits, TellABiasedLinkEncoderFromTheTrucks) {
