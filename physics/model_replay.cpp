@@ -60,7 +60,8 @@ bool is_the_same(const Vehicle& a, const Vehicle& b) {
 }
 
 bool is_of_the_truth(const ActiveEffect& active) {
-  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset";
+  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset" ||
+         active.effect == "truth_smoothing";
 }
 
 int form_of(const ActiveEffect& fitted) { return static_cast<int>(fitted.parameter("form")); }
@@ -84,7 +85,8 @@ Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects
 
 std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
                                                 const Vehicle& vehicle) {
-  if (is_of_the_truth(fitted)) return std::nullopt;  // in the calibrated vehicle already, they would act twice
+  // What is in the calibrated vehicle already would act twice; and no simulated truth has to be smoothed.
+  if (is_of_the_truth(fitted)) return std::nullopt;
   const EffectEntry* entry = effect_entry(fitted.effect);
   if (!entry) return std::nullopt;
   ActiveEffect active{fitted.effect, fitted.component, {}};
@@ -102,6 +104,9 @@ std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, cons
       for (auto& [name, value] : active.parameters)
         if (name == "per_s") value *= std::exp(-(recording.time_s.front() - fitted.parameter(kSessionStart)) / end_s);
   }
+  if (fitted.effect == "payload_radius_change" && !recording.time_s.empty())
+    for (auto& [name, value] : active.parameters)
+      if (name == "at_s") value = effects::put_on_s(value, recording.time_s.front());
   if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
     if (const auto tracked = truth_at(recording, fitted.parameter("at_s") + vehicle.truth.time_offset_s)) {
       const Vec2 place = wheel_at(*tracked * inverse(vehicle.truth.axle_T_tracked), fitted.component, vehicle);

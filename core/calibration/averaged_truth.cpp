@@ -53,13 +53,18 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
   for (std::size_t first = 0, end; first < n; first = end) {
     const double until_s = run.truth[first].time_s + (static_cast<double>(most) - 0.5) * interval_s;
     for (end = first + 1; end < n && end - first < most && run.truth[end].time_s < until_s && !is_cut(run, end);) ++end;
+    // Where all of them contradict the model they are one sample that does, for others to judge.
+    const auto of_set_aside =
+        std::count_if(run.set_aside.begin() + static_cast<std::ptrdiff_t>(first),
+                      run.set_aside.begin() + static_cast<std::ptrdiff_t>(end), [](char aside) { return aside != 0; });
+    const bool are_all = static_cast<std::size_t>(of_set_aside) == end - first;
     Pose axle = poses[first], sum;  // of what the truth has beyond the prediction
     std::vector<Pose> predicted;
     double times_s = 0.0, used = 0.0, headings = 0.0;
     for (std::size_t k = first; k < end; ++k) {
       if (k > first) axle = axle * summed.motions[k - 1].motion;
       predicted.push_back(axle * model.truth.axle_T_tracked);
-      if (run.set_aside[k]) continue;
+      if (run.set_aside[k] && !are_all) continue;
       const TruthSample& t = run.truth[k];
       sum.x_m += t.position.x_m - predicted.back().x_m;
       sum.y_m += t.position.y_m - predicted.back().y_m;
@@ -68,25 +73,21 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
       ++used;
     }
     std::size_t middle = first;
-    if (used > 0.0) {
-      const auto away_s = [&](std::size_t k) { return std::abs(run.truth[k].time_s - times_s / used); };
-      for (std::size_t k = first + 1; k < end; ++k)
-        if (away_s(k) < away_s(middle)) middle = k;
-    }
+    const auto away_s = [&](std::size_t k) { return std::abs(run.truth[k].time_s - times_s / used); };
+    for (std::size_t k = first + 1; k < end; ++k)
+      if (away_s(k) < away_s(middle)) middle = k;
     TruthSample mean = run.truth[middle];
-    if (used > 0.0) {
-      const Pose& at = predicted[middle - first];
-      mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};
-      mean.heading_rad.reset();
-      if (headings > 0.0) mean.heading_rad = at.heading_rad + sum.heading_rad / headings;
-    }
+    const Pose& at = predicted[middle - first];
+    mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};
+    mean.heading_rad.reset();
+    if (headings > 0.0) mean.heading_rad = at.heading_rad + sum.heading_rad / headings;
     out.truth.push_back(mean);
-    out.set_aside.push_back(used > 0.0 ? char{0} : run.set_aside[first]);
-    out.truth_variance.push_back(static_cast<double>(most) / std::max(1.0, used));
+    out.set_aside.push_back(0);
+    out.truth_variance.push_back(static_cast<double>(most) / used);
     out.cut.push_back(is_cut(run, first));
   }
-  const double readings_s = (run.wheels.back().time_s - run.wheels.front().time_s) /
-                            static_cast<double>(run.wheels.size() - 1);
+  const double readings_s =
+      (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1);
   out.samples_averaged = static_cast<double>(most);
   out.readings_averaged = std::clamp(out.samples_averaged * interval_s / readings_s, 1.0, out.samples_averaged);
   return out;

@@ -63,7 +63,7 @@ bool is_data_fault(const Finding& finding) {
 // What is measured otherwise than the vehicle's file says, and not driven otherwise.
 bool is_of_the_measurement(const Finding& finding) {
   return finding.effect == "truth_mounting_offset" || finding.effect == "truth_time_offset" ||
-         finding.effect == "clock_rate";
+         finding.effect == "truth_smoothing" || finding.effect == "clock_rate";
 }
 
 std::string figures_text(const FitFigures& f) {
@@ -190,7 +190,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
                 : "No physics is missing.";
       if (!measured.empty())
         sentence += (sentence.empty() ? "" : " ") +
-                    ("Clocks or markers are not as the vehicle's file says: " + list_of(measured, "and") + ".");
+                    ("It was measured otherwise than the vehicle's file says: " + list_of(measured, "and") + ".");
       if (!open.empty())
         sentence += (any ? " Not told apart by these recordings: "
                          : "Something is missing, and these recordings cannot tell what: ") +

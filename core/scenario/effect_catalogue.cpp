@@ -115,6 +115,7 @@ const std::vector<EffectEntry>& effect_catalogue() {
       {"encoder_data_fault", kWheels, with_when({{"backward_rad", 0.0, 1e4}})},
       {"truth_time_offset", kTruth, {{"offset_s", -10.0, 10.0, kRequired}}},
       {"truth_mounting_offset", kTruth, {{"x_m", -10.0, 10.0}, {"y_m", -10.0, 10.0}, {"heading_rad", -4.0, 4.0}}},
+      {"truth_smoothing", kTruth, {{"width_s", 0.0, 2.0, kRequired}}},
       {"actuator_lag", kVehicle, {{"time_constant_s", 0.0, 10.0, kRequired}}},
       {"actuator_delay", kVehicle, {{"delay_s", 0.0, 10.0, kRequired}}},
       {"link_angle_bias", {"truck_a", "truck_b", "trailer"}, {{"bias_rad", -1.0, 1.0, kRequired}}},

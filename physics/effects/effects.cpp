@@ -30,6 +30,7 @@ namespace odolab::planar {
   X(encoder_data_fault)       \
   X(truth_time_offset)        \
   X(truth_mounting_offset)    \
+  X(truth_smoothing)          \
   X(actuator_lag)             \
   X(actuator_delay)           \
   X(link_angle_bias)          \

@@ -146,6 +146,7 @@ const std::vector<Effect>& catalogue() {
                        effects::collision,
                        effects::turn_speed_loss,
                        effects::clock_rate,
+                       effects::truth_smoothing,
                        effects::actuator_lag})
       for (Effect& e : entry()) list.push_back(std::move(e));
     return list;

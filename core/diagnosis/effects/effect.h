@@ -117,7 +117,9 @@ struct Effect {
   bool and_later_recordings = false;     // the same, but it lasts through those after it
   bool happens_at_rest = false;          // mostly; its shape that is estimated is that time
   bool clock_rate = false;               // acts on the wheels' clock instead of the motion
+  bool of_the_truth = false;             // its own doing: the vehicle does as it is told without it
   bool of_each_recording = false;        // an amplitude, or a set of them, for each recording in turn
+  bool acts_on_motion() const { return !clock_rate && !of_the_truth; }
   // The amplitude that is the rate of a recording's clock.
   std::size_t clock_amplitude(int recording) const {
     return of_each_recording ? static_cast<std::size_t>(recording) : 0;
@@ -150,6 +152,8 @@ bool drifts_through_the_session(int form);
 double drift_time_constant_s(int form);
 // What a drift that begins at one per second comes to after a time: less than that time where it nears an end.
 double drifted_s(double since_s, double time_constant_s);
+// When a load was put on: at that time, or, of recordings whose stamps go on from another's, so long after each began.
+double put_on_s(double at_s, double recording_starts_s);
 std::vector<Effect> wheel_eccentricity();
 // The same where the runs start at other angles of the wheel: a phase of its own in each. Lives as long as the program.
 const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs);
@@ -173,6 +177,7 @@ std::vector<Effect> turn_speed_loss();
 std::vector<Effect> clock_rate();
 // The same where each recording's clock has a rate of its own. Lives as long as the program.
 const std::vector<Effect>& clock_rate_of_each_run(int runs);
+std::vector<Effect> truth_smoothing();
 std::vector<Effect> actuator_lag();
 }  // namespace effects
 

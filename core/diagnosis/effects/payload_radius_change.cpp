@@ -60,12 +60,24 @@ Effect from_when(std::function<double(const DriveView&, const std::vector<double
 }
 
 constexpr double kNever = 1e300;
+constexpr double kFromItsOwn_s = 100.0;  // a recording that starts by then counts from its own beginning
+
+double start_s(const DriveView& view) {
+  return view.steps.empty() ? 0.0 : view.steps.front().time_s - view.steps.front().since_start_s;
+}
+
+double origin_s(const DriveView& view) { return start_s(view) < kFromItsOwn_s ? 0.0 : start_s(view); }
 
 }  // namespace
 
+double put_on_s(double at_s, double recording_starts_s) {
+  const bool is_from_start = recording_starts_s >= kFromItsOwn_s && at_s >= 0.0 && at_s < recording_starts_s;
+  return is_from_start ? recording_starts_s + at_s : at_s;
+}
+
 std::vector<Effect> payload_radius_change() {
   Effect once = from_when([](const DriveView& view, const std::vector<double>& shape) {
-    return view.number == static_cast<int>(shape[0]) ? shape[1] : kNever;
+    return view.number == static_cast<int>(shape[0]) ? put_on_s(shape[1], start_s(view)) : kNever;
   });
   once.shapes = {{"recording", "1"}, {"at_s", "s"}};
   once.of_one_recording = true;
@@ -79,14 +91,18 @@ std::vector<Effect> payload_radius_change() {
     return shapes;
   };
 
-  Effect in_each = from_when([](const DriveView&, const std::vector<double>& shape) { return shape[0]; });
+  Effect in_each = from_when(
+      [](const DriveView& view, const std::vector<double>& shape) { return put_on_s(shape[0], start_s(view)); });
   in_each.shapes = {{"at_s", "s"}};
   in_each.regime = "from one time on in every recording";
   in_each.scan = [](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
     double from = 1e300, to = -1e300;
     for (const DriveView& v : views)
-      if (!v.steps.empty()) from = std::min(from, v.steps.front().time_s), to = std::max(to, v.steps.back().time_s);
+      if (!v.steps.empty()) {
+        from = std::min(from, v.steps.front().time_s - origin_s(v));
+        to = std::max(to, v.steps.back().time_s - origin_s(v));
+      }
     for (int k = 1; k < 24 && views.size() > 1; ++k) shapes.push_back({from + (to - from) * k / 24.0});
     return shapes;
   };

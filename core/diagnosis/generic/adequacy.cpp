@@ -241,22 +241,26 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   look_again(joint, out.generic, error);
   out.sway = sway_of(out.generic, error);
   double explained = 0.0;
-  for (const ScoredCandidate& e : evidence) explained += e.test.statistic;
+  std::vector<ScoredCandidate> of_vehicle;
+  for (const ScoredCandidate& e : evidence) {
+    explained += counting(*e.effect) * e.test.statistic;
+    if (e.effect->acts_on_motion()) of_vehicle.push_back(e);
+  }
   if (const Left left = what_is_left(joint, out.generic, error); left.group) {
     const CandidateTest& test = left.group->test;
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
     if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
-    else if (gain > kMostLeft * explained || is_in_pieces(evidence))
+    else if (gain > kMostLeft * explained || is_in_pieces(of_vehicle))
       out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained));
   }
-  const double fair = beyond_chance(evidence);
+  const double fair = beyond_chance(of_vehicle);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {
     return g.test.statistic > kMostLeft * explained ||
            g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
   });
   if (!out.unnamed && worth_asking && names_of_physics(joint) > 0) {
-    InPlaceOfNames instead = in_place_of_names(joint, evidence, error);
+    InPlaceOfNames instead = in_place_of_names(joint, of_vehicle, error);
     out.unnamed = std::move(instead.says_more);
     // One cause is simpler than several.
     if (!out.unnamed && names_of_physics(joint) > 1) out.unnamed = std::exchange(instead.as_much, std::nullopt);

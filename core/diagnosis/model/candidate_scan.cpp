@@ -17,8 +17,7 @@ std::vector<CandidateTest> CandidateScan::tests(const Effect& effect,
   std::vector<std::size_t> asked;
   std::vector<const std::vector<double>*> of;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (effect.of_one_recording && !joint_.is_well_inside(static_cast<int>(shapes[i][0]), shapes[i][1]))
-      continue;
+    if (effect.of_one_recording && !joint_.is_well_inside(static_cast<int>(shapes[i][0]), shapes[i][1])) continue;
     if (effect.clock_rate) {
       results[i] = joint_.test(joint_.columns_of(effect, shapes[i]), without_);
       continue;

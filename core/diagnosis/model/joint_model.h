@@ -18,7 +18,7 @@ struct AcceptedEffect {
   const Effect* effect = nullptr;
   std::vector<double> shape, value, stderr_value;
   bool is_held = false;  // found by the likelihood itself: fits leave it where it is
-  bool acts_on_motion() const { return !effect->clock_rate; }
+  bool acts_on_motion() const { return effect->acts_on_motion(); }
 };
 
 // The efficient score of a candidate: its signature with everything that is in the model projected off.
@@ -71,6 +71,8 @@ class JointModel {
     fit(2);
   }
   void gate();  // isolated contradictions only; longer ones are left to be explained
+  // Takes what was set aside near that time of that run among the evidence again.
+  void readmit(int run, double time_s);
   // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
   // from both ends: what happens nearer cannot be told from a sample that errs.
   bool is_well_inside(int run, double time_s) const;

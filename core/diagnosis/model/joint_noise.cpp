@@ -102,4 +102,20 @@ void JointModel::gate() {
     linearised_at_.reset();
   }
 }
+
+void JointModel::readmit(int run, double time_s) {
+  constexpr std::ptrdiff_t kFew = 5;  // one more than are set aside in a row
+  const auto r = static_cast<std::size_t>(run);
+  InnovationRun& of = runs_[r];
+  const auto behind = std::lower_bound(of.truth.begin(), of.truth.end(), time_s + clock_s[r],
+                                       [](const TruthSample& t, double s) { return t.time_s < s; }) -
+                      of.truth.begin();
+  const auto n = static_cast<std::ptrdiff_t>(of.truth.size());
+  for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, behind - kFew); i < std::min(n, behind + kFew); ++i) {
+    char& aside = of.set_aside[static_cast<std::size_t>(i)];
+    if (aside == masked_[r][static_cast<std::size_t>(i)]) continue;
+    aside = masked_[r][static_cast<std::size_t>(i)];
+    linearised_at_.reset();
+  }
+}
 }  // namespace odolab

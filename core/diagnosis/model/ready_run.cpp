@@ -36,8 +36,9 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     const InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
     const double longest_s = averaging_s(*runs[r]);
     runs[r]->set_aside = outlying(*runs[r], model);
-    InnovationRun less = with_fewer_readings(with_averaged_truth(*runs[r], model, longest_s),
-                                             std::min(kReadingsApart_s, longest_s));
+    InnovationRun less =
+        with_fewer_readings(with_averaged_truth(*runs[r], model, longest_s), std::min(kReadingsApart_s, longest_s));
+    if (less.truth.size() == runs[r]->truth.size()) std::fill(less.set_aside.begin(), less.set_aside.end(), char{0});
     if (less.truth.size() < runs[r]->truth.size() || less.wheels.size() < runs[r]->wheels.size())
       less.as_recorded = std::make_shared<const InnovationRun>(*std::move(runs[r]));
     runs[r] = std::move(less);

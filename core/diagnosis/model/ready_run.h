@@ -14,7 +14,7 @@ Result<InnovationRun> ready_run(const CheckedRecording& checked, const Vehicle& 
 InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t recording);
 
 // All of them, with as few samples as say the same: truth that comes often is averaged, without what contradicts the
-// calibration for a moment, and readings that come often are left out. `were_fitted`: by the calibration, in that
+// calibration for less than that, and readings that come often are left out. `were_fitted`: by the calibration, in that
 // order. An error for each that cannot be read.
 std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
                                                   const LeastSquaresCalibration& calibration, bool were_fitted);

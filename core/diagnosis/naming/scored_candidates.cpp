@@ -18,7 +18,7 @@ constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.7
 // Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often. Not of
 // places and moments, where floors are uneven a little in earnest.
 bool is_one_sided(const Effect& e) {
-  return !e.local && e.amplitudes.size() == 1 && (e.amplitudes[0].low == 0.0 || e.amplitudes[0].high == 0.0);
+  return !e.local && e.amplitudes.size() == 1 && (e.amplitudes[0].low >= 0.0 || e.amplitudes[0].high <= 0.0);
 }
 
 bool near_a_rest(const InnovationRun& run, double time_s) {

@@ -171,6 +171,7 @@ class Selection {
       if (!let_best_in()) break;
       align_held_clocks();
       find_places_again();
+      find_moment_among_what_was_set_aside();
       if (!goes_on(progress, share += 0.08)) return std::move(out_);
       exchange_names();
     }
@@ -199,14 +200,19 @@ class Selection {
   // Of the evidence an accepted effect's part.
   double share_of(std::size_t k, double at_least = 0.0) const {
     double others = 0.0, own = 0.0;
-    for (std::size_t j = 0; j < joint_.accepted.size(); ++j) (j == k ? own : others) += statistic_of(j);
+    for (std::size_t j = 0; j < joint_.accepted.size(); ++j)
+      if (j == k)
+        own = statistic_of(j);
+      else
+        others += counting(*joint_.accepted[j].effect) * statistic_of(j);
     own = std::max(own, at_least);
     return own + others > 0.0 ? own / (own + others) : 1.0;
   }
 
   Standing standing_of(const std::vector<ScoredCandidate>& scored) const {
     double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
-    for (std::size_t k = 0; k < joint_.accepted.size(); ++k) explained += statistic_of(k);
+    for (std::size_t k = 0; k < joint_.accepted.size(); ++k)
+      explained += counting(*joint_.accepted[k].effect) * statistic_of(k);
     const double distrust = joint_.distrust();
     Standing standing;
     for (const ScoredCandidate& c : scored) {
@@ -305,6 +311,18 @@ class Selection {
       joint_.fit(2);
       joint_.fit_noise_and_all();
     }
+  }
+
+  // What happens at one moment contradicts the samples behind it, of which the first few were set aside: it was found
+  // where these end.
+  void find_moment_among_what_was_set_aside() {
+    const AcceptedEffect& a = joint_.accepted.back();
+    if (!a.effect->local || !a.effect->of_one_recording) return;
+    joint_.readmit(static_cast<int>(a.shape[0]), a.shape[1]);
+    joint_.fit(2);
+    find_places_again();
+    joint_.gate();
+    joint_.fit(2);
   }
 
   // A name may have been the best only while another was missing.

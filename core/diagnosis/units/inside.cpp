@@ -57,9 +57,9 @@ void keep_names_of_wheels(Diagnosis& d, const VehicleUnit& unit, const JointRoun
 }
 
 const std::vector<std::string>& common_effects() {
-  static const std::vector<std::string> names = {"clock_rate",     "floor_slope_creep",     "truth_time_offset",
-                                                 "truth_frozen",   "truth_mounting_offset", "speed_dependent_radius",
-                                                 "turn_speed_loss"};
+  static const std::vector<std::string> names = {
+      "clock_rate",   "floor_slope_creep",     "truth_time_offset",      "truth_smoothing",
+      "truth_frozen", "truth_mounting_offset", "speed_dependent_radius", "turn_speed_loss"};
   return names;
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 // What all units see alike, whichever of them it was named by.
 bool is_common(const std::string& effect) {
-  return effect == "clock_rate" || effect == "floor_slope_creep" || effect == "slip_zone" || effect == "truth_frozen";
+  return effect == "clock_rate" || effect == "truth_smoothing" || effect == "floor_slope_creep" ||
+         effect == "slip_zone" || effect == "truth_frozen";
 }
 
 const FoundParameter* parameter_of(const Finding& f, const std::string& name) {

@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/fitted_model.h"
+#include "core/geometry/track.h"
+#include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -29,6 +34,43 @@ TEST(PayloadRadiusChange, IsKnownToTheRestThatItCameIn) {
     if (p.name != "at_s") continue;
     EXPECT_NEAR(p.value, 0.5 * (kFrom_s + kTo_s), 0.3);                     // any time of it is as likely
     EXPECT_NEAR(p.stderr_value, (kTo_s - kFrom_s) / std::sqrt(12.0), 0.3);  // that of an even distribution
+  }
+}
+
+// A gripper that takes up its load half a minute into every run, whose stamps go on from run to run.
+TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegin) {
+  constexpr double kLoaded_s = 20.0, kEpoch_s = 1.7e9, kApart_s = 600.0;
+  Random random(52);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.02);
+  g.duration_s = 45.0;
+  const auto driving = [&](int) { return varied_driving(random, g.duration_s); };
+  const auto loaded = [](int) {
+    return [](InjectedStep& s) {
+      if (s.time_s > kLoaded_s) s.left_m *= 0.994, s.right_m *= 0.997;
+    };
+  };
+  std::vector<Recording> recordings = three_runs(g, random, driving, loaded);
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    for (double& t : recordings[r].time_s) t += kEpoch_s + kApart_s * static_cast<double>(r);
+  const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "payload_radius_change");
+  EXPECT_TRUE(d.findings[0].where.recording.empty());
+  const std::map<std::string, double> truth = {{"left", -0.006}, {"right", -0.003}, {"at_s", kLoaded_s}};
+  for (const FoundParameter& p : d.findings[0].parameters)
+    EXPECT_NEAR(p.value, truth.at(p.name), 4.0 * p.stderr_value) << p.name;
+  // And so in the track that the model predicts, of each run.
+  const FittedModel model = model_of(d);
+  for (const Recording& r : recordings) {
+    const Vehicle vehicle = model.vehicle_in(r.name);
+    const Track with = predicted_track(r, vehicle, model.effects_in(r.name)).value(),
+                without = predicted_track(r, vehicle).value();
+    const double started_s = r.time_s.front();
+    const auto apart_m = [&](double at_s) {
+      return length(pose_at(with, started_s + at_s)->position() - pose_at(without, started_s + at_s)->position());
+    };
+    EXPECT_EQ(apart_m(kLoaded_s - 2.0), 0.0) << r.name;
+    EXPECT_GT(apart_m(40.0), 0.002) << r.name;
   }
 }
 

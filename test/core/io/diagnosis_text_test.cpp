@@ -71,7 +71,7 @@ TEST(VerdictSentence, TellsAMarkerFromPhysics) {
   mounting.component = "truth";
   d.findings = {mounting};
   EXPECT_EQ(verdict_sentence(d),
-            "No physics is missing. Clocks or markers are not as the vehicle's file says: truth mounting offset.");
+            "No physics is missing. It was measured otherwise than the vehicle's file says: truth mounting offset.");
   Finding toe;
   toe.effect = "wheel_toe";
   toe.component = "vehicle";

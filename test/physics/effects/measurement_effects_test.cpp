@@ -52,6 +52,16 @@ TEST(TruthMountingOffset, MeasuresAnotherPointOfTheVehicle) {
   EXPECT_NEAR(*last.heading_rad, expected.heading_rad, 1e-12);
 }
 
+// Straight on at 0.2 m/s it is behind by as far as the vehicle goes in the filter's time constant, once that has passed.
+TEST(TruthSmoothing, IsLateByTheTimeConstantOfItsFilter) {
+  const auto plain = truth_samples(recorded(table_drive(kStraight, {})));
+  const auto late = truth_samples(recorded(table_drive(kStraight, {{"truth_smoothing", "truth", {{"width_s", 0.1}}}})));
+  ASSERT_EQ(late.size(), plain.size());
+  EXPECT_NEAR(plain[800].position.x_m - late[800].position.x_m, 0.1 * 0.2, 1e-5);
+  EXPECT_EQ(late[800].time_s, plain[800].time_s);
+  EXPECT_EQ(late[0].position.x_m, plain[0].position.x_m);
+}
+
 TEST(TruthFrozen, RepeatsItselfForItsStretchesWithNewStamps) {
   const auto truth = truth_samples(recorded(table_drive(kStraight, {{"truth_frozen", "truth", {{"every_s", 3.0}, {"lasts_s", 0.5}}}})));
   int repeated = 0;

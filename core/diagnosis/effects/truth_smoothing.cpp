@@ -1,0 +1,58 @@
+// A truth that is smoothed, as trackers do that filter or average their poses. Of a kernel whose weights lie about its
+// mean time with variance s^2 the truth is, to second order, the pose at that mean time and s^2 / 2 of its second
+// derivative: it cuts corners, and starts and stops before the vehicle does. The mean time is the clock's offset. One of
+// first order with a time constant T has s = T, a mean over a window W has s = W / sqrt(12).
+#include <cmath>
+
+#include "core/diagnosis/effects/effect.h"
+
+namespace odolab::effects {
+
+namespace {
+// Of wheels that take hold a little late, and of a frame that gives, there is as much without any.
+constexpr double kLeastWidth_s = 0.02;
+
+// Forward, sideways and in heading, of the pose as it is smoothed against the pose, for a variance of 1 s2.
+BodyMotion ahead(const EffectStep& s, double wheelbase_m) {
+  return {0.25 * (s.left_mps2 + s.right_mps2), 0.5 * s.speed_mps * s.yaw_rate_radps,
+          0.5 * (s.right_mps2 - s.left_mps2) / wheelbase_m};
+}
+}  // namespace
+
+std::vector<Effect> truth_smoothing() {
+  Effect e;
+  e.name = "truth_smoothing";
+  e.component = "truth";
+  e.amplitudes = {{"variance_s2", "s2", 0.0025, kLeastWidth_s * kLeastWidth_s, 0.25}};
+  e.sentence = "the truth is smoothed: it cuts corners, and starts and stops before the vehicle does";
+  e.regime = "where speed and turn rate change, and in arcs";
+  e.looks_like = {"lateral_slip", "traction_slip", "drivetrain_backlash"};
+  e.told_apart_by = "sharp starts and stops, and arcs at two speeds";
+  e.of_the_truth = true;
+  e.motions = [](const DriveView& view, const std::vector<double>&) {
+    Motions m(view.steps.size());
+    BodyMotion was;
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const EffectStep& s = view.steps[i];
+      const BodyMotion is = i + 1 < view.steps.size() ? ahead(s, view.drive.wheelbase_m) : BodyMotion{};
+      const double forward_m = s.forward_m();
+      // As it seems from the smoothed pose, which is turned against the vehicle.
+      m[i] = {is.forward_m - was.forward_m - s.turn_rad * is.sideways_m,
+              is.sideways_m - was.sideways_m + s.turn_rad * is.forward_m - forward_m * is.turn_rad,
+              is.turn_rad - was.turn_rad};
+      was = is;
+    }
+    return std::vector<Motions>{m};
+  };
+  e.to_parameters = [](const std::vector<double>& value, const std::vector<double>& stderr_value) {
+    const double width_s = std::sqrt(std::max(value[0], 1e-8));
+    return std::vector<FoundParameter>{{"width_s", width_s, 0.5 * stderr_value[0] / width_s, "s"}};
+  };
+  e.from_parameters = [](const ActiveEffect& a) {
+    const double width_s = a.parameter("width_s");
+    return std::vector<double>{width_s * width_s};
+  };
+  return {e};
+}
+
+}  // namespace odolab::effects
