@@ -30,6 +30,7 @@ std::vector<Effect> truth_smoothing() {
   e.told_apart_by = "sharp starts and stops, and arcs at two speeds";
   e.of_the_truth = true;
   e.motions = [](const DriveView& view, const std::vector<double>&) {
+    if (view.from_commands) return std::vector<Motions>{Motions()};  // a base that lags behind them is the same
     Motions m(view.steps.size());
     BodyMotion was;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {

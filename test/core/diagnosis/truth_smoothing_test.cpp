@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/effects/effect.h"
 #include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
 
@@ -125,6 +126,16 @@ TEST(TruthSmoothing, HidesNothingThatTheVehicleDoes) {
 TEST(TruthSmoothing, IsNotNamedWhereTheTruthIsAsItIs) {
   const Diagnosis d = diagnose(smoothed_runs([](const std::vector<double>& in) { return in; }), {}, Vehicle{}).value();
   EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+}
+
+// A base that follows its commands with a lag goes as a smoothed truth says.
+TEST(TruthSmoothing, IsNotAskedForWhereThereAreCommandsAlone) {
+  DriveView view;
+  view.steps.resize(3);
+  view.from_commands = true;
+  EXPECT_TRUE(effects::truth_smoothing().front().motions(view, {}).front().empty());
+  view.from_commands = false;
+  EXPECT_FALSE(effects::truth_smoothing().front().motions(view, {}).front().empty());
 }
 
 // The track of a model with it is that of the smoothed truth: inside of the vehicle's in a bend, by half the square of
