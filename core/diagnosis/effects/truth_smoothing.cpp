@@ -9,8 +9,9 @@
 namespace odolab::effects {
 
 namespace {
-// Of wheels that take hold a little late, and of a frame that gives, there is as much without any.
-constexpr double kLeastWidth_s = 0.02;
+// Of wheels that take hold a little late there is up to two thirds of that without any: in the planar simulation 0.021 s in
+// one of 24, 0.007 in the mean.
+constexpr double kLeastWidth_s = 0.03;
 
 // Forward, sideways and in heading, of the pose as it is smoothed against the pose, for a variance of 1 s2.
 BodyMotion ahead(const EffectStep& s, double wheelbase_m) {
