@@ -149,6 +149,20 @@ TEST_F(DiagnosisPanels, TheTickOfARunAsksToHoldItOutAndTheSwitchOfAFindingToSwit
   EXPECT_EQ(state.brush, stretches_of(view.runs[0], 0));
 }
 
+TEST_F(DiagnosisPanels, EveryEffectThatWasAskedForIsListedOnceItIsUnfolded) {
+  view.asked = {{"Slip zone of the floor", "named", "Gain 96.", true},
+                {"Bump of the left wheel", "chance 0.4", "Gain 7.", false},
+                {"Wheel toe", "no sign of it", "Gain 0.", false}};
+  float height = 0.0f;
+  const auto right = [&] {
+    append(asked, diagnosis_findings_panel(view, state, screen.theme));
+    height = ImGui::GetCursorPosY();
+  };
+  screen.picture(right);
+  const float folded = height, lines = 3.0f * ImGui::GetTextLineHeight();
+  EXPECT_TRUE(click_until(right, [&] { return height > folded + lines; }, {316, 500}));
+}
+
 TEST_F(DiagnosisPanels, AWrongRunAndAProblemAreSaidAndNothingCanBeAsked) {
   view.runs[0].problem = "run.csv: no truth";
   view.problem = "bad.csv: found no time_s";
