@@ -11,6 +11,7 @@
 #include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
@@ -147,6 +148,11 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   return adequacy;
 }
 
+JointModel with_noise(JointModel model, const FittedNoise& noise) {
+  model.model.noise = noise;
+  return model;
+}
+
 // The verdict, its findings and the next drive in plain words.
 std::vector<std::string> sentences_of(const Diagnosis& d) {
   std::vector<std::string> sentences = {headline(d.verdict)};
@@ -274,8 +280,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     for (std::size_t r = 0; r < std::min(clocks.size(), d.truth_clock_s.size()); ++r)
       d.truth_clock_s[r].second = clocks[r];
   }
-  d.residuals_before = residuals_of(calibrated);
-  d.residuals_after = residuals_of(joint);
+  const FittedNoise between = noise_of_pictures(calibrated.model.noise, joint.model.noise);
+  d.residuals_before = residuals_of(with_noise(calibrated, between));
+  d.residuals_after = residuals_of(with_noise(joint, between));
 
   for (const Finding& f : d.findings)
     if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;

@@ -69,6 +69,15 @@ void add_passes(const WhereFound::Zone& zone, const Residuals* r, std::size_t fi
 
 }  // namespace
 
+FittedNoise noise_of_pictures(FittedNoise calibrated, const FittedNoise& with_findings) {
+  for (const auto size :
+       {&FittedNoise::wheel_m_per_sqrt_m, &FittedNoise::truth_position_m, &FittedNoise::truth_heading_rad,
+        &FittedNoise::along_m_per_sqrt_m, &FittedNoise::turning_m_per_sqrt_m, &FittedNoise::sideways_m_per_sqrt_m,
+        &FittedNoise::wander_m_per_sqrt_s, &FittedNoise::heading_wander_rad_per_sqrt_s})
+    calibrated.*size = std::sqrt(calibrated.*size * (with_findings.*size));
+  return calibrated;
+}
+
 ResidualSizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
 
 std::vector<double> times_noise(const Residuals& r, const ResidualSizes& noise) {

@@ -14,6 +14,11 @@ struct ResidualSizes {
   double along_m = 0.0, across_m = 0.0, heading_rad = 0.0;
 };
 
+// The noise under which both models are drawn, from that which calibration alone leaves and that which is left with the
+// findings: midway, in logarithms. One that has grown with what is missing lets go of the wheels at once and hides it;
+// the one that is left carries on for seconds what happened in one place.
+FittedNoise noise_of_pictures(FittedNoise calibrated, const FittedNoise& with_findings);
+
 // From the middle of the sizes, so that few outliers do not count.
 ResidualSizes sizes_of(const Residuals& residuals);
 

@@ -3,6 +3,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/restamped.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
@@ -101,9 +102,10 @@ Diagnosis with_held_out_residuals(const Diagnosis& diagnosis, const std::vector<
   Diagnosis all = diagnosis;
   if (has_units(nominal)) return all;
   const FittedModel calibrated = calibrated_model_of(diagnosis), found = model_of(diagnosis);
+  const FittedNoise noise = noise_of_pictures(diagnosis.calibration_alone.noise, diagnosis.calibration.noise);
   for (const Recording& recording : held_out) {
-    Result<Residuals> before = residuals_under(calibrated, diagnosis.calibration.noise, recording, nominal);
-    Result<Residuals> after = residuals_under(found, diagnosis.calibration.noise, recording, nominal);
+    Result<Residuals> before = residuals_under(calibrated, noise, recording, nominal);
+    Result<Residuals> after = residuals_under(found, noise, recording, nominal);
     if (!before || !after || before->time_s.empty()) continue;
     all.residuals_before.push_back(std::move(*before));
     all.residuals_after.push_back(std::move(*after));

@@ -38,7 +38,7 @@ std::string track_of(const Diagnosis& d, const Residuals& r, const ResidualSizes
   picture.title = title;
   picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
   for (const Finding& f : d.findings)
-    if (with_discs && f.where.zone)
+    if (with_discs && f.where.zone && (f.where.recording.empty() || f.where.recording == r.recording))
       picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, effect_words(f.effect)});
   return coloured_track_picture(picture);
 }
@@ -75,6 +75,12 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
   }
 }
 
+// Where an axis of time begins whose stamps count from some day in 1970: their digits say nothing.
+double origin_s(double first_s) {
+  constexpr double kMany_s = 1e5;
+  return first_s > kMany_s ? std::floor(first_s) : 0.0;
+}
+
 void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
   const std::vector<const Residuals*> drawn = drawn_first(d.residuals_before);
   if (drawn.empty()) return;
@@ -92,14 +98,22 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
         tracks,
         "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
         "would leave it the error of the prediction is, gathered over up to a second.");
+    const double from_s = origin_s(before->time_s.front());
+    const auto since = [&](std::vector<double> time_s) {
+      for (double& t : time_s) t -= from_s;
+      return time_s;
+    };
     LinePicture line;
+    if (from_s > 0.0) line.x_label = "time since " + number_text("%.0f", from_s) + " [s]";
     line.title = before->recording + ": error of the prediction, gathered over up to a second";
     line.y_label = "times the noise";
-    line.lines.push_back({"noise alone", {before->time_s.front(), before->time_s.back()}, {1.0, 1.0}, Look::truth});
-    line.lines.push_back({"calibrated only", before->time_s, times_noise(*before, noise), Look::estimate});
+    line.lines.push_back(
+        {"noise alone", since({before->time_s.front(), before->time_s.back()}), {1.0, 1.0}, Look::truth});
+    line.lines.push_back({"calibrated only", since(before->time_s), times_noise(*before, noise), Look::estimate});
     if (after && !d.findings.empty())
-      line.lines.push_back({"with what was found", after->time_s, times_noise(*after, noise), Look::second});
-    for (const LocatedStretch& s : located_stretches(d, before->recording)) line.marked.emplace_back(s.from_s, s.to_s);
+      line.lines.push_back({"with what was found", since(after->time_s), times_noise(*after, noise), Look::second});
+    for (const LocatedStretch& s : located_stretches(d, before->recording))
+      line.marked.emplace_back(s.from_s - from_s, s.to_s - from_s);
     line.marked_label = "located";
     line.height_px = 300.0;
     report.picture(line_picture(line));

@@ -1,6 +1,7 @@
 #include "ui/panels/diagnosis_time_panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "core/vehicle/key_words.h"
@@ -54,26 +55,33 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
                         ? "Too little truth along this run for a mismatch over time"
                     : run.held_out ? "Held out, and nothing to draw over time: judged by the bars on the right"
                                    : "This run was not part of the answer";
-  const double noise_x[2] = {run.mismatch ? run.mismatch->time_s.front() : 0.0,
-                             run.mismatch ? run.mismatch->time_s.back() : 0.0};
+  constexpr double kMany_s = 1e5;  // stamps that count from some day in 1970: their digits say nothing
+  const double first_s = run.mismatch ? run.mismatch->time_s.front() : 0.0;
+  const double from_s = first_s > kMany_s ? std::floor(first_s) : 0.0;
+  std::vector<double> since_s = run.mismatch ? run.mismatch->time_s : std::vector<double>{0.0};
+  for (double& t : since_s) t -= from_s;
+  const double noise_x[2] = {since_s.front(), since_s.back()};
   const double noise_y[2] = {1.0, 1.0};
   if (run.mismatch) {
     const MismatchOverTime& m = *run.mismatch;
     what.series.push_back({"noise", noise_x, noise_y, 2, theme.green, Stroke::dotted, Marker::none});
-    what.series.push_back({"calibrated only", m.time_s.data(), m.before.data(), m.time_s.size(), theme.orange,
-                           Stroke::line, Marker::none});
+    what.series.push_back(
+        {"calibrated only", since_s.data(), m.before.data(), since_s.size(), theme.orange, Stroke::line, Marker::none});
     if (!m.after.empty())
-      what.series.push_back({"with what was found", m.time_s.data(), m.after.data(), m.after.size(), theme.blue,
+      what.series.push_back({"with what was found", since_s.data(), m.after.data(), m.after.size(), theme.blue,
                              Stroke::line, Marker::none});
-    what.x_low = m.time_s.front();
-    what.x_high = m.time_s.back();
-    for (const LocatedStretch& s : run.located) what.bands.push_back({s.from_s, s.to_s, faded(theme.purple, 0.30f)});
-    for (const Stretch& s : state.brush) what.bands.push_back({s.first, s.second, faded(theme.sky, 0.35f)});
+    what.x_low = since_s.front();
+    what.x_high = since_s.back();
+    const auto band = [&](double low_s, double high_s, ImU32 colour) {
+      what.bands.push_back({low_s - from_s, high_s - from_s, colour});
+    };
+    for (const LocatedStretch& s : run.located) band(s.from_s, s.to_s, faded(theme.purple, 0.30f));
+    for (const Stretch& s : state.brush) band(s.first, s.second, faded(theme.sky, 0.35f));
   }
   const PlotResult result = plot("mismatch over time", size, what, state.time_view, theme);
   if (!run.mismatch) return;
   if (result.brushed) {
-    state.brush = {*result.brushed};
+    state.brush = {{result.brushed->first + from_s, result.brushed->second + from_s}};
     state.lit.reset();
   } else if (result.clicked_x) {
     state.brush.clear();

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/mismatch.h"
 #include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
 
@@ -96,6 +98,21 @@ TEST(TruthSmoothing, IsNamedWithTheTimeConstantOfAFilterThatIsLateByAsMuch) {
   EXPECT_NEAR(smoothing->parameters[0].value, 0.06, 0.05 * 0.06 + 3.0 * smoothing->parameters[0].stderr_value);
   const double keep = std::exp(-kPeriod_s / 0.06), late_s = kPeriod_s * keep / (1.0 - keep);  // in steps of a sample
   EXPECT_NEAR(late->parameters[0].value, late_s, 0.03 * late_s);
+}
+
+// In the picture, too, it is a mismatch that is gone with it: each under its own noise, that of the model without it had
+// looked the smaller.
+TEST(TruthSmoothing, IsDrawnAsAMismatchThatIsGoneWithIt) {
+  const Diagnosis d = diagnose(smoothed_runs(of_first_order(0.06)), {}, Vehicle{}).value();
+  const auto mean = [](const std::vector<double>& v) {
+    return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+  };
+  for (int run = 1; run <= 3; ++run) {
+    const MismatchOverTime m = mismatch_over_time(d, "run_" + std::to_string(run));
+    ASSERT_FALSE(m.after.empty());
+    EXPECT_GT(mean(m.before), 1.2 * mean(m.after)) << run;
+    EXPECT_GT(m.largest_before(0.0, 45.0), 1.5 * m.largest_after(0.0, 45.0)) << run;
+  }
 }
 
 // Evenly over a window of 0.2 s: a width of 0.2 s / sqrt(12), and late by half of it less half a sample.
