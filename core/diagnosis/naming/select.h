@@ -21,10 +21,9 @@ struct Selected {
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
                         const std::vector<const Effect*>& refuted = {});
 
-// How much of an effect's evidence other names and what has none are held against: what they must have a share of. The
-// form of a smoothed truth is known better than that of anything a vehicle does, and its evidence, of every sample, is
-// large.
-inline double counting(const Effect& effect) { return effect.of_the_truth ? 0.1 : 1.0; }
+// How much of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what it
+// does beyond its second moment looks like nothing that a vehicle does; what has no name is held against all of it.
+inline double counting(const Effect& effect) { return effect.of_the_truth ? 0.3 : 1.0; }
 
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
 constexpr double kDecisive = 200.0;
