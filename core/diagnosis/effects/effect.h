@@ -84,7 +84,7 @@ struct Effect {
   std::string name, component;
   struct Amplitude {
     std::string name, unit;
-    double medium = 0.0;            // a size that matters in practice: what "not testable" is judged by
+    double medium = 0.0;                          // a size that matters in practice: what "not testable" is judged by
     double low = -kUnbounded, high = kUnbounded;  // physical bounds
   };
   std::vector<Amplitude> amplitudes;  // the motion is linear in these

@@ -1,7 +1,7 @@
 // A truth that is smoothed, as trackers do that filter or average their poses. Of a kernel whose weights lie about its
 // mean time with variance s^2 the truth is, to second order, the pose at that mean time and s^2 / 2 of its second
-// derivative: it cuts corners, and starts and stops before the vehicle does. The mean time is the clock's offset. One of
-// first order with a time constant T has s = T, a mean over a window W has s = W / sqrt(12).
+// derivative: it cuts corners, and starts and stops before the vehicle does. The mean time is the clock's offset. One
+// of first order with a time constant T has s = T, a mean over a window W has s = W / sqrt(12).
 #include <cmath>
 
 #include "core/diagnosis/effects/effect.h"
@@ -9,8 +9,8 @@
 namespace odolab::effects {
 
 namespace {
-// Of wheels that take hold a little late there is up to two thirds of that without any: in the planar simulation 0.021 s in
-// one of 24, 0.007 in the mean.
+// Of wheels that take hold a little late there is up to two thirds of that without any: in the planar simulation 0.021
+// s in one of 24, 0.007 in the mean.
 constexpr double kLeastWidth_s = 0.03;
 
 // Forward, sideways and in heading, of the pose as it is smoothed against the pose, for a variance of 1 s2.

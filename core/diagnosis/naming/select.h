@@ -21,8 +21,8 @@ struct Selected {
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
                         const std::vector<const Effect*>& refuted = {});
 
-// How much of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what it
-// does beyond its second moment looks like nothing that a vehicle does; what has no name is held against all of it.
+// How much of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what
+// it does beyond its second moment looks like nothing that a vehicle does; what has no name is held against all of it.
 inline double counting(const Effect& effect) { return effect.of_the_truth ? 0.3 : 1.0; }
 
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.

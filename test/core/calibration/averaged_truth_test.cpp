@@ -125,7 +125,8 @@ TEST(AveragedTruth, CountsByItsVariance) {
   louder.noise.truth_heading_rad *= std::sqrt(2.0);
   const double expected = filtered(run, summed_up(run, louder), louder, options).log_determinant;
   run.truth_variance.assign(run.truth.size(), 2.0);
-  EXPECT_NEAR(filtered(run, summed_up(run, model), model, options).log_determinant, expected, 1e-9 * std::abs(expected));
+  EXPECT_NEAR(filtered(run, summed_up(run, model), model, options).log_determinant, expected,
+              1e-9 * std::abs(expected));
 }
 
 TEST(AveragedTruth, IsNotTakenAcrossWhereTheWayIsUnknown) {

@@ -37,9 +37,9 @@ TEST(JointModel, GainsByAnEffectThatCalibrationNearlyTakesUpWhatItsScorePromises
   }
 }
 
-// Wheels that only roll, under a truth of a hundredth of a millimetre: over a metre or a radian nothing errs but what is
-// hidden behind the counts of both wheels at both ends. (Without it the error was eleven times its noise, and a robot
-// whose counts were half a millimetre, with nothing missing, was off by twice the noise and so *unknown*.)
+// Wheels that only roll, under a truth of a hundredth of a millimetre: over a metre or a radian nothing errs but what
+// is hidden behind the counts of both wheels at both ends. (Without it the error was eleven times its noise, and a
+// robot whose counts were half a millimetre, with nothing missing, was off by twice the noise and so *unknown*.)
 TEST(JointModel, KnowsWhatCountsHideAsNoise) {
   Random random(48);
   Vehicle nominal;
@@ -59,7 +59,6 @@ TEST(JointModel, KnowsWhatCountsHideAsNoise) {
   joint.fit_noise_and_all();
   const JointModel::GatheredError e = joint.gathered_error();
   ASSERT_GT(e.windows, 30);
-  { const FittedNoise n = joint.noise_as_recorded(); printf("windows %d pos %g noise %g head %g noise %g | wheel %g along %g turning %g side %g p %g h %g count %g\n", e.windows, e.position_m2, e.noise_position_m2, e.heading_rad2, e.noise_heading_rad2, n.wheel_m_per_sqrt_m, n.along_m_per_sqrt_m, n.turning_m_per_sqrt_m, n.sideways_m_per_sqrt_m, n.truth_position_m, n.truth_heading_rad, 0.075*2*3.14159/300); }
   // Of 30 windows and more a mean square is known to a quarter; remainders are not quite even where it turns slowly.
   EXPECT_NEAR(e.heading_rad2 / e.noise_heading_rad2, 1.0, 0.4);
   EXPECT_NEAR(e.position_m2 / e.noise_position_m2, 1.0, 0.4);

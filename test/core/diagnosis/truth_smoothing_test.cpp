@@ -100,8 +100,8 @@ TEST(TruthSmoothing, IsNamedWithTheTimeConstantOfAFilterThatIsLateByAsMuch) {
   EXPECT_NEAR(late->parameters[0].value, late_s, 0.03 * late_s);
 }
 
-// In the picture, too, it is a mismatch that is gone with it: each under its own noise, that of the model without it had
-// looked the smaller.
+// In the picture, too, it is a mismatch that is gone with it: each under its own noise, that of the model without it
+// had looked the smaller.
 TEST(TruthSmoothing, IsDrawnAsAMismatchThatIsGoneWithIt) {
   const Diagnosis d = diagnose(smoothed_runs(of_first_order(0.06)), {}, Vehicle{}).value();
   const auto mean = [](const std::vector<double>& v) {

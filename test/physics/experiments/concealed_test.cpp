@@ -90,7 +90,8 @@ TEST(ConcealedReport, CountsAnAlarmOnNothingAsAClaimThatDoesNotHold) {
 }
 
 // On squares a radius that depends on speed is all but another radius: a share of missed counts above a speed between
-// the two that are driven fits what its form is off, and beside it, wherever that speed is, the radius could be anything.
+// the two that are driven fits what its form is off, and beside it, wherever that speed is, the radius could be
+// anything.
 TEST(ConcealedCase, ANameIsNotGivenUpForAWeakerOneThatMadeItsSizeUncertain) {
   Wish wish;
   wish.kind = Kind::one;
