@@ -38,8 +38,8 @@ TEST(JointModel, GainsByAnEffectThatCalibrationNearlyTakesUpWhatItsScorePromises
 }
 
 // Wheels that only roll, under a truth of a hundredth of a millimetre: over a metre or a radian nothing errs but what
-// is hidden behind the counts of both wheels at both ends. (Without it the error was eleven times its noise, and a
-// robot whose counts were half a millimetre, with nothing missing, was off by twice the noise and so *unknown*.)
+// is hidden behind the counts of both wheels at both ends. (Without it the errors were four and five times their noise,
+// and a robot whose counts were half a millimetre, with nothing missing, was off by twice the noise and so *unknown*.)
 TEST(JointModel, KnowsWhatCountsHideAsNoise) {
   Random random(48);
   Vehicle nominal;
