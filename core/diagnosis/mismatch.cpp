@@ -78,6 +78,11 @@ FittedNoise noise_of_pictures(FittedNoise calibrated, const FittedNoise& with_fi
   return calibrated;
 }
 
+double axis_origin_s(double first_s) {
+  constexpr double kMany_s = 1e5;
+  return first_s > kMany_s ? std::floor(first_s) : 0.0;
+}
+
 ResidualSizes sizes_of(const Residuals& r) { return {size_of(r.along_m), size_of(r.across_m), size_of(r.heading_rad)}; }
 
 std::vector<double> times_noise(const Residuals& r, const ResidualSizes& noise) {

@@ -19,6 +19,9 @@ struct ResidualSizes {
 // the one that is left carries on for seconds what happened in one place.
 FittedNoise noise_of_pictures(FittedNoise calibrated, const FittedNoise& with_findings);
 
+// Where an axis of time begins whose stamps count from some day in 1970: their digits say nothing. 0 for others.
+double axis_origin_s(double first_s);
+
 // From the middle of the sizes, so that few outliers do not count.
 ResidualSizes sizes_of(const Residuals& residuals);
 

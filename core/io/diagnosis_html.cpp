@@ -75,12 +75,6 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
   }
 }
 
-// Where an axis of time begins whose stamps count from some day in 1970: their digits say nothing.
-double origin_s(double first_s) {
-  constexpr double kMany_s = 1e5;
-  return first_s > kMany_s ? std::floor(first_s) : 0.0;
-}
-
 void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
   const std::vector<const Residuals*> drawn = drawn_first(d.residuals_before);
   if (drawn.empty()) return;
@@ -98,7 +92,7 @@ void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
         tracks,
         "The way driven, seen from above; the circle is its start. Colours say how many times larger than noise "
         "would leave it the error of the prediction is, gathered over up to a second.");
-    const double from_s = origin_s(before->time_s.front());
+    const double from_s = axis_origin_s(before->time_s.front());
     const auto since = [&](std::vector<double> time_s) {
       for (double& t : time_s) t -= from_s;
       return time_s;

@@ -1,7 +1,6 @@
 #include "ui/panels/diagnosis_time_panel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "core/vehicle/key_words.h"
@@ -55,9 +54,7 @@ void over_time(const DiagnosisView& view, const DiagnosedRun& run, DiagnosisStat
                         ? "Too little truth along this run for a mismatch over time"
                     : run.held_out ? "Held out, and nothing to draw over time: judged by the bars on the right"
                                    : "This run was not part of the answer";
-  constexpr double kMany_s = 1e5;  // stamps that count from some day in 1970: their digits say nothing
-  const double first_s = run.mismatch ? run.mismatch->time_s.front() : 0.0;
-  const double from_s = first_s > kMany_s ? std::floor(first_s) : 0.0;
+  const double from_s = run.mismatch ? axis_origin_s(run.mismatch->time_s.front()) : 0.0;
   std::vector<double> since_s = run.mismatch ? run.mismatch->time_s : std::vector<double>{0.0};
   for (double& t : since_s) t -= from_s;
   const double noise_x[2] = {since_s.front(), since_s.back()};
