@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/calibration/noise_slopes.h"
 
 namespace odolab {
 
@@ -70,11 +71,9 @@ void add_passes(const WhereFound::Zone& zone, const Residuals* r, std::size_t fi
 }  // namespace
 
 FittedNoise noise_of_pictures(FittedNoise calibrated, const FittedNoise& with_findings) {
-  for (const auto size :
-       {&FittedNoise::wheel_m_per_sqrt_m, &FittedNoise::truth_position_m, &FittedNoise::truth_heading_rad,
-        &FittedNoise::along_m_per_sqrt_m, &FittedNoise::turning_m_per_sqrt_m, &FittedNoise::sideways_m_per_sqrt_m,
-        &FittedNoise::wander_m_per_sqrt_s, &FittedNoise::heading_wander_rad_per_sqrt_s})
-    calibrated.*size = std::sqrt(calibrated.*size * (with_findings.*size));
+  FittedNoise other = with_findings;
+  for (int k = 0; k < noise_size::count; ++k)
+    size_of(calibrated, k) = std::sqrt(size_of(calibrated, k) * size_of(other, k));
   return calibrated;
 }
 
