@@ -59,11 +59,6 @@ bool is_the_same(const Vehicle& a, const Vehicle& b) {
   return numbers(*of_a, a.truth) == numbers(*of_b, b.truth);
 }
 
-bool is_of_the_truth(const ActiveEffect& active) {
-  return active.effect == "truth_mounting_offset" || active.effect == "truth_time_offset" ||
-         active.effect == "truth_smoothing";
-}
-
 int form_of(const ActiveEffect& fitted) { return static_cast<int>(fitted.parameter("form")); }
 
 // With wheels that have drifted since the session began: the simulation's own drift starts with the recording.
@@ -86,7 +81,7 @@ Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects
 std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
                                                 const Vehicle& vehicle) {
   // What is in the calibrated vehicle already would act twice; and no simulated truth has to be smoothed.
-  if (is_of_the_truth(fitted)) return std::nullopt;
+  if (is_of_the_truth(fitted.effect)) return std::nullopt;
   const EffectEntry* entry = effect_entry(fitted.effect);
   if (!entry) return std::nullopt;
   ActiveEffect active{fitted.effect, fitted.component, {}};
@@ -180,7 +175,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     });
   };
   for (const FittedEffect& effect : after.effects)
-    if (!is_of_the_truth(effect.active) && !switched_on(effect))
+    if (!is_of_the_truth(effect.active.effect) && !switched_on(effect))
       result.not_switched_on.push_back(effect.active.effect + " of " + effect.active.component +
                                        " could not be switched on in the simulator");
 

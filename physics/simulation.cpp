@@ -124,7 +124,7 @@ struct Simulation::Parts {
   void plan_duration() {
     if (const auto* speeds = std::get_if<WheelSpeedPath>(&scenario.path)) {
       for (const WheelSpeeds& phase : speeds->phases) duration_s += phase.duration_s;
-      duration_s += speeds->ramp_s;  // down to rest
+      duration_s += speeds->ramp_s + 2.0 * scenario.driving.stands_s;  // down to rest
     } else if (const auto* hand = std::get_if<HandPath>(&scenario.path)) {
       duration_s = hand->duration_s;
     } else if (std::holds_alternative<ReplayPath>(scenario.path)) {
@@ -140,7 +140,7 @@ struct Simulation::Parts {
         vehicle->begin_in_motion(rotation.speed_at(begin_s));
       }
     } else {
-      duration_s = duration_of(route, scenario.driving);
+      duration_s = duration_of(route, scenario.driving) + 2.0 * scenario.driving.stands_s;
       by_route = true;
     }
   }
@@ -149,7 +149,8 @@ struct Simulation::Parts {
   WheelPair tabled_speeds(double time_s) const {
     const auto& table = std::get<WheelSpeedPath>(scenario.path);
     WheelPair before;
-    double begin = 0.0;
+    double begin = scenario.driving.stands_s;
+    if (time_s < begin) return {};
     for (std::size_t i = 0; i <= table.phases.size(); ++i) {
       const bool ending = i == table.phases.size();
       const WheelPair speeds =
@@ -209,7 +210,18 @@ struct Simulation::Parts {
     vehicle->place_other_bodies(state.other_bodies);
     if (steps % encoder_steps == 0) sample_encoders();
     if (truth_steps > 0 && steps % truth_steps == 0) sample_truth();
-    if (by_route ? follower.finished() : state.time_s >= begin_s + duration_s - 1e-9) finish();
+    if (has_ended()) finish();
+  }
+
+  bool has_ended() {
+    if (by_route && !follower.finished()) return false;
+    if (by_route && !arrived_s) arrived_s = state.time_s;
+    return state.time_s >= (by_route ? *arrived_s + scenario.driving.stands_s : begin_s + duration_s) - 1e-9;
+  }
+
+  BaseCommand by_the_route() {
+    if (state.time_s < begin_s + scenario.driving.stands_s) return {};
+    return follower.update(scenario.driving.by_eye ? vehicle->pose() : vehicle->believed_driven_point());
   }
 
   void sample_encoders() {
@@ -222,9 +234,7 @@ struct Simulation::Parts {
     estimated.push_back({state.time_s, state.estimated_pose});
     exact.push_back({state.time_s, state.true_pose});
     command_before = command_next;
-    if (by_route)
-      command_next = given_now =
-          follower.update(scenario.driving.by_eye ? vehicle->pose() : vehicle->believed_driven_point());
+    if (by_route) command_next = given_now = by_the_route();
     if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
     if (scenario.sensors.record_commands) record_command();
   }
@@ -310,6 +320,7 @@ struct Simulation::Parts {
   std::int64_t steps = 0;
   double begin_s = 0.0, duration_s = 0.0;
   bool by_route = false;
+  std::optional<double> arrived_s;  // at the end of its route
   BaseCommand command_before, command_next;
   std::vector<double> rotation_now;  // of the motors that a recording turns
   BaseCommand hand, hand_now, given_now;

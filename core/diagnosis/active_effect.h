@@ -21,4 +21,14 @@ struct ActiveEffect {
   }
 };
 
+// How the truth is measured, where it is otherwise than the vehicle's file says: nothing that drives.
+inline bool is_of_the_truth(const std::string& effect) {
+  return effect == "truth_mounting_offset" || effect == "truth_time_offset" || effect == "truth_smoothing";
+}
+
+// What is wrong with the recorded numbers themselves.
+inline bool is_data_fault(const std::string& effect) {
+  return effect == "truth_frozen" || effect == "encoder_data_fault";
+}
+
 }  // namespace odolab

@@ -42,8 +42,7 @@ Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std
 }  // namespace
 
 bool can_be_switched_on(const Finding& f) {
-  return f.effect != "unknown" && f.effect != "truth_frozen" && f.effect != "encoder_data_fault" &&
-         f.effect != "truth_mounting_offset" && f.effect != "truth_time_offset" && f.effect != "truth_smoothing" &&
+  return f.effect != "unknown" && !is_data_fault(f.effect) && !is_of_the_truth(f.effect) &&
          f.effect.find("_bias") == std::string::npos;
 }
 

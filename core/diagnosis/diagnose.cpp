@@ -148,11 +148,6 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   return adequacy;
 }
 
-JointModel with_noise(JointModel model, const FittedNoise& noise) {
-  model.model.noise = noise;
-  return model;
-}
-
 // The verdict, its findings and the next drive in plain words.
 std::vector<std::string> sentences_of(const Diagnosis& d) {
   std::vector<std::string> sentences = {headline(d.verdict)};
@@ -281,8 +276,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
       d.truth_clock_s[r].second = clocks[r];
   }
   const FittedNoise between = noise_of_pictures(calibrated.model.noise, joint.model.noise);
-  d.residuals_before = residuals_of(with_noise(calibrated, between));
-  d.residuals_after = residuals_of(with_noise(joint, between));
+  d.residuals_before = residuals_of(calibrated.under(between));
+  d.residuals_after = residuals_of(joint.under(between));
 
   for (const Finding& f : d.findings)
     if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;

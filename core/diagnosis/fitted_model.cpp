@@ -42,8 +42,7 @@ Vehicle FittedModel::vehicle_in(const std::string& recording) const {
 FittedModel model_of(const Diagnosis& diagnosis) {
   FittedModel model{diagnosis.fitted_vehicle.value_or(diagnosis.calibration.vehicle), {}, diagnosis.truth_clock_s};
   for (const Finding& finding : diagnosis.findings) {
-    if (finding.effect == "unknown" || finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault")
-      continue;
+    if (finding.effect == "unknown" || is_data_fault(finding.effect)) continue;
     FittedEffect effect{finding.as_active(), {}, ""};
     // The fit has the crawl as a turned mounting; where it is the wheels', the mounting sits as it was drawn.
     if (finding.effect == "wheel_toe")

@@ -87,12 +87,6 @@ std::vector<JointModel> left_out_in_turn(const JointModel& all) {
   return models;
 }
 
-JointModel with_noise(JointModel m, const FittedNoise& noise, bool with_columns) {
-  m.model.noise = noise;
-  m.linearise(with_columns);
-  return m;
-}
-
 // The same term half a run later: as free as the finding, and without meaning.
 Effect out_of_step(const Effect& of, const std::vector<double>& shape) {
   Effect placebo = of;
@@ -134,7 +128,8 @@ Predictor::Predictor(const std::vector<CheckedRecording>& ready_held_out, const 
 
 Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit fit) const {
   const bool leaves_out_in_turn = runs_.empty() && model.runs().size() > 1 && fit == Fit::to_recordings;
-  const std::vector<JointModel> all = {with_noise(model, noise, leaves_out_in_turn)};
+  std::vector<JointModel> all = {model.under(noise)};
+  all[0].linearise(leaves_out_in_turn);
   Predicted p;
   p.fitted = side_of(all);
   if (!runs_.empty())

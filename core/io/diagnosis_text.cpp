@@ -55,15 +55,15 @@ std::string list_of(const std::vector<std::string>& words, const char* last_word
   return text;
 }
 
-bool is_data_fault(const Finding& finding) {
-  return finding.effect == "truth_frozen" || finding.effect == "encoder_data_fault" ||
+// A tracked point that sat elsewhere in one recording is a fault of that one.
+bool is_fault(const Finding& finding) {
+  return is_data_fault(finding.effect) ||
          (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
 }
 
 // What is measured otherwise than the vehicle's file says, and not driven otherwise.
 bool is_of_the_measurement(const Finding& finding) {
-  return finding.effect == "truth_mounting_offset" || finding.effect == "truth_time_offset" ||
-         finding.effect == "truth_smoothing" || finding.effect == "clock_rate";
+  return is_of_the_truth(finding.effect) || finding.effect == "clock_rate";
 }
 
 std::string figures_text(const FitFigures& f) {
@@ -166,7 +166,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       either.resize(3);
       either.push_back("others");
     }
-    std::vector<std::string>& list = is_data_fault(f)           ? faults
+    std::vector<std::string>& list = is_fault(f)                ? faults
                                      : either.size() > 1        ? open
                                      : is_of_the_measurement(f) ? measured
                                                                 : physics;
@@ -304,7 +304,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   constexpr std::size_t kMostFindings = 4;
   // A marker that is off shows a hundred times as strongly as what is looked for.
   std::vector<Finding> physics_first = diagnosis.findings;
-  const auto rank = [](const Finding& f) { return is_data_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
+  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
   std::stable_sort(physics_first.begin(), physics_first.end(),
                    [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
   for (std::size_t i = 0; i < physics_first.size() && i < kMostFindings; ++i) {

@@ -69,6 +69,7 @@ void driving_fields(S& driving, Toml& toml) {
   toml.field("turn_rate_radps", driving.turn_rate_radps);
   toml.field("acceleration_mps2", driving.acceleration_mps2);
   toml.field("turn_acceleration_radps2", driving.turn_acceleration_radps2);
+  toml.field("stands_s", driving.stands_s);
   toml.field("internal_correction", driving.internal_correction);
   toml.field("by_eye", driving.by_eye);
 }

@@ -97,6 +97,8 @@ std::vector<std::string> problems_in(const Scenario& s) {
   demand_positive("driving.turn_rate_radps", s.driving.turn_rate_radps, "rad/s");
   demand_positive("driving.acceleration_mps2", s.driving.acceleration_mps2, "m/s2");
   demand_positive("driving.turn_acceleration_radps2", s.driving.turn_acceleration_radps2, "rad/s2");
+  demand(s.driving.stands_s >= 0.0 && s.driving.stands_s <= 3600.0, "driving.stands_s", s.driving.stands_s,
+         "0 to 3600 s");
   demand(s.step_s >= 1e-5 && s.step_s <= 0.02, "step_s", s.step_s, "1e-5 to 0.02 s");
   demand(s.sensors.encoder_period_s >= s.step_s, "sensors.encoder_period_s", s.sensors.encoder_period_s,
          "no less than step_s");

@@ -53,6 +53,7 @@ struct Driving {
   double turn_rate_radps = 1.0;
   double acceleration_mps2 = 0.2;
   double turn_acceleration_radps2 = 1.0;
+  double stands_s = 0.0;  // before it sets off, and again at the end of its way; not by hand, nor when it replays
   // Vehicles that can correct their odometry from the inside (IPEC, CAST) steer by it; false: by plain dead reckoning.
   bool internal_correction = true;
   bool by_eye = false;  // a person with a joystick who sees where the vehicle really is; else by its own odometry

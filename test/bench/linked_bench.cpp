@@ -46,7 +46,7 @@ void ClapperOnItsRectangle(benchmark::State& state) {
   Scenario scenario;
   scenario.vehicle.kind = Clapper{};
   scenario.path = RectanglePath{};
-  scenario.driving = {0.45, 0.3, 0.2, 0.25, true};
+  scenario.driving = {0.45, 0.3, 0.2, 0.25, 0.0, true};
   scenario.sensors.encoder_period_s = scenario.sensors.truth_period_s = 0.040;
   if (state.range(0) > 0) {
     scenario.floor.roughness.largest_height_m = 0.001;
@@ -62,7 +62,7 @@ void ThreeCastorsOnASquare(benchmark::State& state) {
   Scenario scenario;
   scenario.vehicle.kind = three_castor_vehicle();
   scenario.path = SquarePath{1.5, false};
-  scenario.driving = {0.33, 0.75, 0.2, 1.0, true};
+  scenario.driving = {0.33, 0.75, 0.2, 1.0, 0.0, true};
   scenario.sensors.encoder_period_s = scenario.sensors.truth_period_s = 0.050;
   whole_runs(state, scenario);
 }

@@ -12,7 +12,7 @@ namespace odolab {
 namespace {
 
 Recording driven(Scenario scenario, std::uint64_t seed) {
-  scenario.driving = {0.4, 0.8, 0.4, 1.0, true};
+  scenario.driving = {0.4, 0.8, 0.4, 1.0, 0.0, true};
   scenario.step_s = 0.004;  // converged: see Clapper.* and LinkedTrucks.*
   scenario.sensors.encoder_period_s = 0.04;
   scenario.sensors.truth_period_s = 0.05;

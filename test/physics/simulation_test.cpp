@@ -193,6 +193,28 @@ TEST(Simulation, StraightThereAndBackReturnsInReverse) {
   EXPECT_NEAR(simulation.state().true_pose.heading_rad, 0.0, 2e-3);
 }
 
+TEST(Simulation, StandsBeforeItSetsOffAndAtTheEndOfItsWay) {
+  constexpr double kStands_s = 3.0;
+  WheelSpeedPath by_wheels;
+  by_wheels.phases.push_back({4.0, 2.0, 2.5});
+  for (const Path& path : {Path{StraightPath{1.0, true}}, Path{by_wheels}}) {
+    Scenario scenario = ideal_labmate(path);
+    Simulation at_once(scenario, 1);
+    run_to_end(at_once);
+    scenario.driving.stands_s = kStands_s;
+    Simulation stands(scenario, 1);
+    run_to_end(stands);
+    EXPECT_NEAR(stands.state().time_s, at_once.state().time_s + 2.0 * kStands_s, 1e-9);
+    const Track &way = at_once.true_track(), &late = stands.true_track();
+    const auto waits = static_cast<std::size_t>(std::lround(kStands_s / scenario.sensors.encoder_period_s));
+    ASSERT_GT(late.size(), way.size() + waits);
+    for (std::size_t i = 0; i < late.size(); ++i) {
+      const Pose& then = way[i < waits ? 0 : std::min(i - waits, way.size() - 1)].pose;
+      ASSERT_LT(length(late[i].pose.position() - then.position()), 1e-5) << "at " << late[i].time_s << " s";
+    }
+  }
+}
+
 TEST(Simulation, SmallTiltIsHeldByTheWheelsAndALargeOneIsNot) {
   Scenario scenario;
   scenario.path = HandPath{2.0};

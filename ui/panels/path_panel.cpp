@@ -149,10 +149,15 @@ Edited driving_fields(Scenario& s, const Theme& theme) {
       more(result, number_row("Acceleration",
                               {"##acceleration", kAcceleration, 0.005, 50.0, "How quickly it gains and loses speed."},
                               s.driving.acceleration_mps2, theme));
-  return more(result,
-              number_row("Turn accel.",
-                         {"##turnacc", kTurnAcceleration, 0.01, 200.0, "How quickly it gains and loses turn rate."},
-                         s.driving.turn_acceleration_radps2, theme));
+  result = more(result,
+                number_row("Turn accel.",
+                           {"##turnacc", kTurnAcceleration, 0.01, 200.0, "How quickly it gains and loses turn rate."},
+                           s.driving.turn_acceleration_radps2, theme));
+  return more(
+      result,
+      number_row("Stands",
+                 {"##stands", {"s", 1.0, 1, 0.1}, 0.0, 3600.0, "Before it sets off, and again at the end of its way."},
+                 s.driving.stands_s, theme));
 }
 
 }  // namespace

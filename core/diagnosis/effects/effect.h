@@ -43,6 +43,8 @@ struct DriveView {
 
   // The first step whose middle is not before that time; steps.size() where there is none.
   std::size_t step_at(double time_s) const;
+  // Of each step, whether a wheel turns there or within a tenth of a second: slow wheels do not count at each reading.
+  std::vector<char> turning() const;
   // Calls `visit(i)` for each step whose place is within so far of another, in order. Looks at few of the others.
   template <typename Visit>
   void steps_near(Vec2 place, double within_m, Visit&& visit) const {

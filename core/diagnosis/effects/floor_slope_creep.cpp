@@ -6,28 +6,6 @@
 
 namespace odolab::effects {
 
-namespace {
-
-// Of each step, whether a wheel turns there or close by: slow wheels do not count at each reading.
-std::vector<char> turning(const DriveView& view) {
-  constexpr double kClose_s = 0.1;
-  const auto n = view.steps.size();
-  std::vector<char> out(n, 0);
-  std::size_t from = 0, to = 0;  // of the steps close by
-  int turns = 0;
-  const auto counted = [&](std::size_t i) {
-    return view.steps[i].left_read_rad != 0.0 || view.steps[i].right_read_rad != 0.0 ? 1 : 0;
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    while (to < n && view.steps[to].time_s <= view.steps[i].time_s + kClose_s) turns += counted(to++);
-    while (view.steps[from].time_s < view.steps[i].time_s - kClose_s) turns -= counted(from++);
-    out[i] = turns > 0;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::vector<Effect> floor_slope_creep() {
   Effect e;
   e.name = "floor_slope_creep";
@@ -41,7 +19,7 @@ std::vector<Effect> floor_slope_creep() {
   e.told_apart_by = "the same straight out and back, or along four headings";
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     const bool at_rest_too = shape.back() < 0.5;
-    const std::vector<char> turns = at_rest_too ? std::vector<char>(view.steps.size(), 1) : turning(view);
+    const std::vector<char> turns = at_rest_too ? std::vector<char>(view.steps.size(), 1) : view.turning();
     Motions x, y;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];

@@ -1,8 +1,11 @@
 #include "core/diagnosis/generic/swaying_truth.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/base/chi_square.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/naming/select.h"
 
 namespace odolab {
 
@@ -29,13 +32,50 @@ std::optional<double> carries_to_either_side_m(const JointModel& joint, const Ef
   return furthest_m;
 }
 
+// A term where wheels turn; and beside it, with amplitudes of its own, where they rest.
+std::shared_ptr<const Effect> in_parts(const std::shared_ptr<const Effect>& term, bool rests_too) {
+  auto parts = std::make_shared<Effect>(*term);
+  if (rests_too) parts->amplitudes.resize(2 * term->amplitudes.size());
+  parts->motions = [=](const DriveView& view, const std::vector<double>& shape) {
+    std::vector<Motions> driving = term->motions(view, shape), resting = driving;
+    const std::vector<char> turning = view.turning();
+    for (std::size_t k = 0; k < driving.size(); ++k)
+      for (std::size_t i = driving[k].first(); i < driving[k].end(); ++i) (turning[i] ? resting : driving)[k][i] = {};
+    if (rests_too) driving.insert(driving.end(), resting.begin(), resting.end());
+    return driving;
+  };
+  return parts;
+}
+
+// The same, but for the rests, where these show that it acts only as the vehicle drives.
+std::optional<GenericTest> as_it_drives(const GenericTest& t, const AskedModel& asked) {
+  constexpr double kByChance = 0.05;
+  GenericTest driving = t, both = t;
+  ask(driving, asked, in_parts(t.as_effect, false), t.tests);
+  if (driving.test.statistic < t.test.statistic + 2.0 * kClearlyBeaten) return std::nullopt;
+  ask(both, asked, in_parts(t.as_effect, true), t.tests);
+  const int more = both.test.freedom - driving.test.freedom;
+  const double of_rests = (both.test.statistic - driving.test.statistic) / driving.test.inflation;
+  if (more > 0 && chi_square_tail(of_rests, more) < kByChance) return std::nullopt;
+  driving.variable += ", while it drives";
+  return driving;
+}
+
 }  // namespace
 
-void leave_to_swaying_truth(GenericTest& t, const JointModel& joint) {
+void leave_to_swaying_truth(GenericTest& t, const AskedModel& asked) {
+  const JointModel& joint = asked.joint;
+  const double noise_m = joint.noise_as_recorded().truth_position_m;
+  bool asked_of_rests = false;
   for (CandidateTest* of : {&t.test, &t.instead}) {
     if (of->value.empty() || t.p_value_of(*of) >= 1.0) continue;
     const std::optional<double> carries_m = carries_to_either_side_m(joint, *t.as_effect, of->value);
-    if (!carries_m || *carries_m > joint.noise_as_recorded().truth_position_m) continue;
+    if (!carries_m || *carries_m > noise_m) continue;
+    if (!std::exchange(asked_of_rests, true))
+      if (std::optional<GenericTest> driving = as_it_drives(t, asked)) {
+        t = std::move(*driving);
+        return;
+      }
     if (of == &t.test) t.sway = {*carries_m, t.p_value_of(*of)};
     of->statistic = 0.0;
   }

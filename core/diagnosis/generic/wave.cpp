@@ -28,8 +28,7 @@ Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, Along along) 
     u.of[0] = {channel == kPace ? s.forward_m() : 0.0, 0.0, s.turn_rad};
     return u;
   }
-  const bool moves = s.forward_m() != 0.0 || s.turn_rad != 0.0;
-  const double much = along == Along::floor ? std::abs(s.forward_m()) : moves ? s.duration_s : 0.0;
+  const double much = along == Along::floor ? std::abs(s.forward_m()) : s.duration_s;
   u.of[0] = {much * s.cos_heading, -much * s.sin_heading, 0.0};
   u.of[1] = {much * s.sin_heading, much * s.cos_heading, 0.0};
   return u;

@@ -115,7 +115,7 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     ask(t, asked, term, looked_at);
     leave_to_counting(t, asked.joint);
-    if (wave.in_time()) leave_to_swaying_truth(t, asked.joint);
+    if (wave.in_time()) leave_to_swaying_truth(t, asked);
     const std::size_t of_each = channel == kAcross ? 4 : 2;
     for (std::size_t k = 0; k < (wave.on_the_floor() ? 1 : runs); ++k)
       for (std::size_t axis = 0; axis < of_each / 2; ++axis) {

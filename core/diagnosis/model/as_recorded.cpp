@@ -28,6 +28,12 @@ FittedNoise JointModel::noise_as_recorded() const {
   return noise;
 }
 
+JointModel JointModel::under(const FittedNoise& noise) const {
+  JointModel other = *this;
+  other.model.noise = noise;
+  return other;
+}
+
 JointModel JointModel::as_recorded() const {
   JointModel all = *this;
   all.model.noise = noise_as_recorded();

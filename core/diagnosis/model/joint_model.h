@@ -158,6 +158,7 @@ class JointModel {
   InnovationRun recorded(int run) const;
   FittedNoise noise_as_recorded() const;
   JointModel as_recorded() const;  // all that was recorded, with what the model leaves of it; without columns
+  JointModel under(const FittedNoise& noise) const;  // to be linearised
 
  private:
   friend class CandidateScan;

@@ -57,6 +57,14 @@ RunPlan plan_of(const DrawnCase& c, const DrawnDrive& drive, int number) {
   return plan;
 }
 
+// Recordings are begun and ended by hand.
+void stand_at_both_ends(std::uint64_t seed, DrawnDrives& drives) {
+  constexpr std::uint64_t kStream = 13;
+  Random random(seed_of_stream(seed, kStream));
+  for (std::vector<DrawnDrive>* of : {&drives.given, &drives.held_out})
+    for (DrawnDrive& d : *of) d.driving.stands_s = random.uniform(2.0, 6.0);
+}
+
 // Place and moment where they are still open, on the way of a run that is driven without the effect.
 void place_in_runs(Random& random, DrawnCase& c, const DrawnDrives& drives) {
   for (DrawnEffect& e : c.effects) {
@@ -163,7 +171,8 @@ bool drawn_once(Random& random, DrawnCase& c, const Wish& wish, const Progress& 
   const std::vector<std::string> names = drawn_names(random, c.kind, wish);
   const bool a_place = std::any_of(names.begin(), names.end(), acts_at_a_place);
   c.robot = drawn_robot(random, a_place);
-  const DrawnDrives drives = drawn_drives(random, c.poor);
+  DrawnDrives drives = drawn_drives(random, c.poor);
+  stand_at_both_ends(c.seed, drives);
   c.effects.clear();
   for (const std::string& name : names)
     c.effects.push_back(drawn_effect(random, name, static_cast<int>(drives.given.size())));

@@ -178,6 +178,39 @@ TEST(Adequacy, LeavesToTheTruthWhatSwaysWithinItsError) {
   EXPECT_EQ(diagnose(c.recordings, {}, c.nominal)->verdict, Verdict::unknown_effect);
 }
 
+// To and fro along x by less than one sample errs: as the wheels turn or, of the truth, always.
+TEST(Adequacy, TellsGustsFromATruthThatSwaysByItsRests) {
+  constexpr double kBy_m = 0.0008, kPeriod_s = 7.0;
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0004, 0.01);
+  g.duration_s = 60.0;
+  const auto gusts = [](int) {
+    return [](test::InjectedStep& s) {
+      if (s.left_radps == 0.0 && s.right_radps == 0.0) return;
+      const double by_m = 2.0 * kPi / kPeriod_s * kBy_m * std::cos(2.0 * kPi * s.time_s / kPeriod_s) * s.dt_s;
+      s.left_m += by_m * std::cos(s.pose.heading_rad);
+      s.right_m += by_m * std::cos(s.pose.heading_rad);
+      s.sideways_m -= by_m * std::sin(s.pose.heading_rad);
+    };
+  };
+  Random random(41);
+  const Result<Diagnosis> carried = diagnose(test::three_runs(g, random, curves_and_rests, gusts), {}, Vehicle{});
+  ASSERT_TRUE(carried);
+  ASSERT_EQ(carried->verdict, Verdict::unknown_effect);
+  const std::string& regime = carried->findings.front().where.regime;
+  EXPECT_NE(regime.find("in waves of 7"), std::string::npos) << regime;  // 7.1 s: eight steps to each turn of a run
+  EXPECT_NE(regime.find(", while it drives"), std::string::npos) << regime;
+
+  std::vector<Recording> recordings =
+      test::three_runs(g, random, curves_and_rests, [](int) { return [](test::InjectedStep&) {}; });
+  for (Recording& r : recordings)
+    for (Channel& c : r.channels)
+      for (std::size_t i = 0; i < c.values.size(); ++i)
+        if (c.name == "truth_x_m") c.values[i] += kBy_m * std::sin(2.0 * kPi * r.time_s[i] / kPeriod_s);
+  const Result<Diagnosis> swaying = diagnose(recordings, {}, Vehicle{});
+  EXPECT_EQ(swaying->verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(swaying->something_sways);
+}
+
 TEST(Adequacy, CallsAClockThatWandersUnknownAndSaysItsPace) {
   test::Case c = case_of("", 1.0, 3, 5);
   // 60 ms to and fro in 16 s: a pace of 2.4 %

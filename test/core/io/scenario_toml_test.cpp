@@ -192,7 +192,7 @@ Scenario full_scenario() {
                         {Rectangle{{3, 4}, 0.5, 0.6, 0.7}, std::nullopt, 0.8},
                         {Polygon{{{0, 0}, {1, 0}, {0.1, 0.9}}}, 0.4, 0.0}};
   s.start = {0.1, -0.2, 0.3};
-  s.driving = {0.21, 1.1, 0.22, 1.2};
+  s.driving = {0.21, 1.1, 0.22, 1.2, 3.5};
   s.sensors = {0.025, 0.015, 0.002, 0.007, false, false, true};
   s.effects = {{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.01}, {"phase_rad", 1.0 / 3.0}}},
                {"truth_frozen", "truth", {}}};
@@ -227,6 +227,7 @@ TEST_P(ScenarioTomlPaths, RoundTripWritesTheSameFileAgain) {
   EXPECT_EQ(*back->floor.slip_zones[2].friction, 0.4);
   EXPECT_EQ(back->start.heading_rad, 0.3);
   EXPECT_EQ(back->driving.turn_acceleration_radps2, 1.2);
+  EXPECT_EQ(back->driving.stands_s, 3.5);
   EXPECT_EQ(back->sensors.truth_heading_noise_rad, 0.007);
   EXPECT_FALSE(back->sensors.truth_heading);
   EXPECT_FALSE(back->sensors.record_encoders);

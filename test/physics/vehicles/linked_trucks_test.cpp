@@ -21,7 +21,7 @@ Scenario clapper(Path path) {
   scenario.vehicle.name = "CLAPPER";
   scenario.vehicle.kind = trucks;
   scenario.path = std::move(path);
-  scenario.driving = {0.45, 0.3, 0.2, 0.25, false};
+  scenario.driving = {0.45, 0.3, 0.2, 0.25, 0.0, false};
   scenario.sensors.encoder_period_s = 0.040;
   scenario.sensors.truth_period_s = 0.040;
   return scenario;

@@ -15,7 +15,7 @@ Scenario three_castors(Path path) {
   vehicle.wheel_encoder_resolution_rad = vehicle.pivot_encoder_resolution_rad = 0.0;
   scenario.vehicle.kind = vehicle;
   scenario.path = std::move(path);
-  scenario.driving = {0.3, 0.75, 0.2, 1.0, true};
+  scenario.driving = {0.3, 0.75, 0.2, 1.0, 0.0, true};
   scenario.sensors.encoder_period_s = 0.050;
   return scenario;
 }
