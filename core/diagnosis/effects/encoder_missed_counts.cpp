@@ -45,6 +45,19 @@ std::vector<std::vector<double>> limits(const std::vector<DriveView>& views, Whe
   return shapes;
 }
 
+// Whether a drive keeps a speed so near the limit that the wheel's own noise carries it across. What holds a wheel up
+// makes it both turn slower and roll less: which readings lie above would be chosen by the noise that they hold.
+bool hovers_about(double limit_radps, const DriveView& view, double EffectStep::*speed_radps,
+                  double EffectStep::*way_m) {
+  constexpr double kNear = 0.01, kMost = 0.1;  // of the limit; of the way
+  double near_m = 0.0, all_m = 0.0;
+  for (const EffectStep& s : view.steps) {
+    all_m += std::abs(s.*way_m);
+    if (std::abs(std::abs(s.*speed_radps) - limit_radps) < kNear * limit_radps) near_m += std::abs(s.*way_m);
+  }
+  return near_m > kMost * all_m;
+}
+
 Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
@@ -61,6 +74,9 @@ Effect of_wheel(Wheel wheel) {
   e.looks_like = {"speed_dependent_radius", "turn_scrub"};
   e.told_apart_by = "straights and turns at three speeds, each held for a few metres";
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
+    if ((wheel != Wheel::right && hovers_about(shape[0], view, &EffectStep::left_radps, &EffectStep::left_m)) ||
+        (wheel != Wheel::left && hovers_about(shape[0], view, &EffectStep::right_radps, &EffectStep::right_m)))
+      return std::vector<Motions>{Motions(view.steps.size())};
     Motions m;
     for (const EffectStep& s : view.steps) {
       const double l = std::abs(s.left_radps) > shape[0] ? s.left_m : 0.0;
