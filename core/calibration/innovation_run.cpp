@@ -69,10 +69,13 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   if (even) run.warnings = even->said;
   const Recording& recording = even ? even->recording : as_logged;
   run.name = where;
-  for (const WheelSample& w : wheel_samples(recording, drive))
+  const std::vector<WheelSample> read = wheel_samples(recording, drive);
+  for (const WheelSample& w : read)
     if (run.wheels.empty() || w.time_s > run.wheels.back().time_s) run.wheels.push_back(w);
-  if (run.wheels.size() < 2)
+  if (read.empty())
     return Error{where, "no wheel rotation", "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks"};
+  if (run.wheels.size() < 2)
+    return Error{where, "wheel rotation at one time alone", "two readings or more, at times that go on"};
 
   const TimeStretches left_out = given_left_out ? *given_left_out : encoder_gaps(run.wheels);
   run.wheels = bridged(std::move(run.wheels), left_out, 2.0 * kPi / drive.counts_per_wheel_turn());

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <initializer_list>
 #include <string>
+#include <tuple>
 
 #include "core/base/parallel.h"
 #include "core/calibration/run_fit.h"
@@ -117,9 +118,42 @@ const Mend* mend_of(const Recording& recording, const Vehicle& nominal) {
   return best;
 }
 
-Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
-
 std::string name_of(const Recording& r) { return r.name.empty() ? "recording" : r.name; }
+
+// A wheel that never turns though the truth carries it away from where it stood: no pivot does that.
+std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nominal) {
+  constexpr double kCarried_m = 0.5;
+  const auto& drive = std::get<DifferentialDrive>(nominal.kind);
+  const std::vector<WheelSample> wheels = wheel_samples(recording, drive);
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  if (wheels.size() < 2 || truth.size() < 2) return std::nullopt;
+  const auto stands = [&](double WheelSample::*rad) {
+    return std::all_of(wheels.begin(), wheels.end(), [&](const WheelSample& w) { return w.*rad == wheels[0].*rad; });
+  };
+  const auto carried_m = [&](double to_the_left_m) {
+    const Pose tracked_T_axle = inverse(nominal.truth.axle_T_tracked);
+    double furthest_m = 0.0;
+    std::optional<Vec2> first;
+    for (const TruthSample& t : truth) {
+      if (!t.heading_rad) continue;
+      const Pose tracked{t.position.x_m, t.position.y_m, *t.heading_rad};
+      const Vec2 at = tracked * tracked_T_axle * Vec2{0.0, to_the_left_m};
+      if (!first) first = at;
+      furthest_m = std::max(furthest_m, length(at - *first));
+    }
+    return furthest_m;
+  };
+  const double half_m = 0.5 * drive.wheelbase_m;
+  for (const auto& [rad, to_the_left_m, name] :
+       {std::tuple{&WheelSample::left_rad, half_m, "left"}, std::tuple{&WheelSample::right_rad, -half_m, "right"}})
+    if (stands(rad) && carried_m(to_the_left_m) > kCarried_m)
+      return Error{name_of(recording),
+                   std::string("a ") + name + " wheel that never turns where the truth carries it away",
+                   "its rotation: the encoder is dead, or its column another one"};
+  return std::nullopt;
+}
+
+Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
 
 bool can_be_judged(const Recording& r, const Vehicle& nominal) {
   return std::holds_alternative<DifferentialDrive>(nominal.kind) && problems_in(r).empty();
@@ -129,6 +163,7 @@ bool can_be_judged(const Recording& r, const Vehicle& nominal) {
 
 std::optional<Error> fault_in(const Recording& recording, const Vehicle& nominal) {
   if (!can_be_judged(recording, nominal)) return std::nullopt;
+  if (std::optional<Error> dead = dead_encoder(recording, nominal)) return dead;
   const Mend* mend = mend_of(recording, nominal);
   if (!mend) return std::nullopt;
   return error_of(*mend, name_of(recording));
@@ -145,7 +180,9 @@ std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& record
   std::vector<std::optional<Error>> faults;
   for (std::size_t i = 0; i < mends.size(); ++i) {
     faults.emplace_back();
-    if (mends[i]) faults.back() = error_of(*mends[i], all_alike ? kEveryRecording : name_of(recordings[i]));
+    if (can_be_judged(recordings[i], nominal)) faults.back() = dead_encoder(recordings[i], nominal);
+    if (mends[i] && !faults.back())
+      faults.back() = error_of(*mends[i], all_alike ? kEveryRecording : name_of(recordings[i]));
   }
   return faults;
 }

@@ -53,8 +53,12 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
     asked.component = best->effect->component;
     asked.log_likelihood_gain = 0.5 * best->test.judged();
     asked.p_value = best->p_value;
-    for (const AcceptedEffect& a : joint.accepted)
-      if (a.effect->name == name) asked.named = true, asked.component = a.effect->component;
+    for (std::size_t k = joint.accepted.size(); k-- > 0;) {
+      if (joint.accepted[k].effect->name != name) continue;
+      asked.named = true, asked.component = joint.accepted[k].effect->component;
+      asked.log_likelihood_gain = 0.5 * selected.evidence[k].test.statistic;
+      asked.p_value = selected.evidence[k].p_value;
+    }
     if (const ScoredCandidate* beside = likeliest(selected.beside_all, name); beside && !asked.named)
       asked.gain_beside_findings = 0.5 * beside->test.judged();
     for (const Visible& v : least)

@@ -94,14 +94,32 @@ void append_wrapped(std::vector<std::string>& lines, const std::string& text, st
 
 std::string p_value_text(double p) { return p < 1e-15 ? "p < 1e-15" : number_text("p = %.1g", p); }
 
+// Of several that are alike, one for each recording: "rate_3".
+bool is_numbered(const std::string& parameter) {
+  const std::size_t last = parameter.find_last_not_of("0123456789");
+  return last != std::string::npos && last + 1 < parameter.size() && parameter[last] == '_';
+}
+
 std::string finding_line(const Finding& f) {
   std::string line = effect_text(f.effect, f.component);
   if (!f.sentence.empty() && f.effect != "unknown") line += ": " + f.sentence;
   std::string parameters;
-  for (const FoundParameter& p : f.parameters)
-    if (p.name != kSessionStart)  // given, not found
-      parameters += (parameters.empty() ? "; " : ", ") + parameter_words(p.name) + " " +
-                    quantity_text(p.value, p.stderr_value, p.unit);
+  std::vector<const FoundParameter*> of_recordings;  // one of each: rate_1, rate_2, ...
+  for (const FoundParameter& p : f.parameters) {
+    if (p.name == kSessionStart) continue;  // given, not found
+    if (is_numbered(p.name)) {
+      of_recordings.push_back(&p);
+      continue;
+    }
+    parameters += (parameters.empty() ? "; " : ", ") + parameter_words(p.name) + " " +
+                  quantity_text(p.value, p.stderr_value, p.unit);
+  }
+  if (!of_recordings.empty()) {
+    const auto [low, high] = std::minmax_element(of_recordings.begin(), of_recordings.end(),
+                                                 [](const auto* a, const auto* b) { return a->value < b->value; });
+    parameters += ", from recording to recording " + size_text((*low)->value, (*low)->unit) + " to " +
+                  size_text((*high)->value, (*high)->unit);
+  }
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
@@ -298,32 +316,23 @@ std::vector<std::string> merged_warnings(const std::vector<std::string>& warning
   return merged;
 }
 
-std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines, std::size_t columns) {
-  std::vector<std::string> lines;
-  append_wrapped(lines, verdict_sentence(diagnosis), columns, "");
-  constexpr std::size_t kMostFindings = 4;
-  // A marker that is off shows a hundred times as strongly as what is looked for.
-  std::vector<Finding> physics_first = diagnosis.findings;
-  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
-  std::stable_sort(physics_first.begin(), physics_first.end(),
-                   [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
-  for (std::size_t i = 0; i < physics_first.size() && i < kMostFindings; ++i) {
-    const Finding& f = physics_first[i];
-    append_wrapped(lines, std::to_string(i + 1) + ". " + finding_line(f), columns, "   ");
-    if (f.alternatives.empty()) continue;
-    const Alternative& a = f.alternatives.front();
-    std::string other =
-        (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) +
-        effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
-    if (f.alternatives.size() > 1)
-      other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
-    if (!a.told_apart_by.empty()) other += "; told apart by " + without_units(a.told_apart_by);
-    append_wrapped(lines, other, columns, "   ");
-  }
-  if (diagnosis.findings.size() > kMostFindings)
-    lines.push_back(
-        more_of(diagnosis.findings.size() - kMostFindings, "   and one finding more", "   and %.0f findings more"));
+namespace {
 
+std::vector<std::string> finding_lines(std::size_t number, const Finding& f, std::size_t columns) {
+  std::vector<std::string> lines;
+  append_wrapped(lines, std::to_string(number) + ". " + finding_line(f), columns, "   ");
+  if (f.alternatives.empty()) return lines;
+  const Alternative& a = f.alternatives.front();
+  std::string other =
+      (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) +
+      effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
+  if (f.alternatives.size() > 1) other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
+  if (!a.told_apart_by.empty()) other += "; told apart by " + without_units(a.told_apart_by);
+  append_wrapped(lines, other, columns, "   ");
+  return lines;
+}
+
+std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::size_t columns) {
   std::vector<std::string> end;
   std::string calibration;
   for (const ParameterEstimate& p : diagnosis.calibration.parameters)
@@ -353,7 +362,32 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
     append_wrapped(end, "could not show here: " + list_of(names, "and"), columns, "   ");
   }
   if (!diagnosis.next_drive.empty()) append_wrapped(end, "drive next: " + diagnosis.next_drive, columns, "   ");
+  return end;
+}
 
+}  // namespace
+
+std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t most_lines, std::size_t columns) {
+  std::vector<std::string> lines;
+  append_wrapped(lines, verdict_sentence(diagnosis), columns, "");
+  const std::vector<std::string> end = calibration_and_proof(diagnosis, columns);
+
+  constexpr std::size_t kMostFindings = 4;
+  // A marker that is off shows a hundred times as strongly as what is looked for.
+  std::vector<Finding> physics_first = diagnosis.findings;
+  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
+  std::stable_sort(physics_first.begin(), physics_first.end(),
+                   [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
+  // Each as a whole or not at all; the last line is kept for how many more there are.
+  std::size_t said = 0;
+  for (; said < std::min(physics_first.size(), kMostFindings); ++said) {
+    const std::vector<std::string> one = finding_lines(said + 1, physics_first[said], columns);
+    if (said > 0 && lines.size() + one.size() + 1 + end.size() > most_lines) break;
+    lines.insert(lines.end(), one.begin(), one.end());
+  }
+  if (said < physics_first.size())
+    lines.push_back(more_of(physics_first.size() - said, "   and one finding more", "   and %.0f findings more") +
+                    ": --json and --report have all");
   if (lines.size() + end.size() > most_lines) lines.resize(most_lines > end.size() ? most_lines - end.size() : 1);
   lines.insert(lines.end(), end.begin(), end.end());
   if (lines.size() > most_lines) lines.resize(most_lines);

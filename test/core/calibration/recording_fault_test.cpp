@@ -73,6 +73,18 @@ TEST(RecordingFault, NamesTheOneRunWhoseColumnsAreNotWhatTheyAreCalled) {
       "wheel_rad that look like degrees");
 }
 
+TEST(RecordingFault, NamesAnEncoderThatIsDeadAndNotAPivotAboutItsWheel) {
+  const test::Case c = a_case("", 0.0, 5);
+  expect_named(
+      c, [](Recording& r) { scale(r, "left_wheel_rad", 0.0); }, "left wheel that never turns");
+  Random random(3);
+  const auto about_the_left_wheel = [](int) { return [](double) { return test::WheelSpeedsAt{0.0, 2.0}; }; };
+  const auto nothing = [](int) { return [](test::InjectedStep&) {}; };
+  const std::vector<Recording> pivots = test::three_runs(test::under_motion_capture({0.075, 0.075, 0.34}, 0.0004, 0.01),
+                                                         random, about_the_left_wheel, nothing);
+  for (const std::optional<Error>& fault : faults_in(pivots, Vehicle{})) EXPECT_FALSE(fault);
+}
+
 TEST(RecordingFault, SeesMillimetresWithoutHeadings) {
   test::Case c = a_case("", 0.0, 6);
   for (Recording& r : c.recordings) column(r, "truth_heading_rad").assign(r.time_s.size(), std::nan(""));

@@ -116,6 +116,25 @@ std::size_t count(const std::string& text, const std::string& what) {
   return n;
 }
 
+TEST(SummaryLines, HoldEachFindingWholeAndSayHowManyMoreThereAre) {
+  Diagnosis d = test::diagnosis_by_hand();
+  Finding clocks;
+  clocks.effect = "clock_rate";
+  clocks.component = "truth";
+  clocks.sentence = "the vehicle's clock and the truth's run at different rates, in each recording at one of its own";
+  clocks.parameters = {{"rate", -1e-3, 1e-5, "1"}};
+  for (int r = 1; r <= 9; ++r) clocks.parameters.push_back({"rate_" + std::to_string(r), -1e-4 * r, 0.0, "1"});
+  clocks.where.regime = "grows with the time since the start";
+  while (d.findings.size() < 6) d.findings.push_back(clocks);
+  std::string all;
+  for (const std::string& line : summary_lines(d)) all += line.substr(line.find_first_not_of(' ')) + " ";
+  const auto said = count(all, "from recording to recording");
+  EXPECT_GT(said, 0u);
+  EXPECT_EQ(count(all, "grows with the time since"), said) << all;
+  EXPECT_NE(all.find(std::to_string(6 - 2 - said) + " findings more"), std::string::npos) << all;
+  EXPECT_NE(all.find("-0.09"), std::string::npos) << all;
+}
+
 TEST(DiagnosisReport, IsOnePageWithEveryPart) {
   const std::string html = diagnosis_report(test::diagnosis_by_hand()).text();
   EXPECT_EQ(count(html, "<h1>What the model lacks"), 1u);
