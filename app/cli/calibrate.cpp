@@ -82,13 +82,6 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
   for (const std::string& sentence : calibration.cannot_tell) std::printf("cannot tell: %s\n", sentence.c_str());
 }
 
-// No vehicle file is wrong by a factor of five.
-bool is_beyond_belief(const ParameterEstimate& p) {
-  constexpr double kMost = 5.0;
-  const bool is_a_length = p.name.find("radius") != std::string::npos || p.name.find("wheelbase") != std::string::npos;
-  return is_a_length && p.nominal > 0.0 && !(p.value > p.nominal / kMost && p.value < kMost * p.nominal);
-}
-
 bool has_truth(const Recording& recording) { return truth_samples(recording).size() > 1; }
 
 int execute(const CalibrateOptions& options) {
@@ -126,13 +119,7 @@ int execute(const CalibrateOptions& options) {
   if (!calibration) return bad_input(calibration.error());
   bool anything = false;
   for (const CalibratedPart& part : calibration->parts)
-    for (const ParameterEstimate& p : part.calibration.parameters) {
-      anything = anything || p.determined;
-      if (p.determined && is_beyond_belief(p))
-        return bad_input(
-            {part.name.empty() ? p.name : part.name + ": " + p.name, text_of("%.3g m", p.value),
-             text_of("about the vehicle file's %.3g m: the truth does not follow these wheels", p.nominal)});
-    }
+    for (const ParameterEstimate& p : part.calibration.parameters) anything = anything || p.determined;
   if (!options.out.empty() && anything)
     if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written)
       return bad_input(written.error());

@@ -71,6 +71,12 @@ bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
                            (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
 }
 
+// No vehicle's file is wrong by a factor of five.
+bool is_beyond_belief(double ratio) {
+  constexpr double kMost = 5.0;
+  return !(ratio > 1.0 / kMost && ratio < kMost);
+}
+
 // For those who know nothing of clocks: the truth's stamps as they are by the vehicle's file.
 std::vector<InnovationRun> by_the_wheels_clock(std::vector<InnovationRun> runs, double truth_late_s) {
   for (InnovationRun& run : runs)
@@ -259,6 +265,10 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     p.nominal = c == column::truth_clock ? nominal.truth.time_offset_s : LikelihoodFit::value(start, c);
     p.value = c == column::truth_clock ? clock_s : LikelihoodFit::value(fit.now(), c);
     p.determined = c == column::truth_clock ? weights > 0.0 : determined[c] != 0;
+    if (c <= column::wheelbase && p.determined && is_beyond_belief(p.value / p.nominal))
+      return Error{recordings.size() == 1 ? recordings[0].name : "the recordings",
+                   p.name + text(" of %.3g m where the vehicle's file has %.3g m", p.value, p.nominal),
+                   "wheels and truth of one robot, in the units that the columns are named after"};
     p.stderr_value = fit.prior(c);
     if (p.determined)
       p.stderr_value *= std::sqrt(reported_covariance(c, c));

@@ -113,7 +113,13 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
   out.report.table({"[mm]", "Emax,syst", "cw", "ccw", "spread", "SEM"}, rows);
   const double before = stages.front().measure.largest_systematic_error_m,
                after = stages.back().measure.largest_systematic_error_m;
-  if (after < before) {
+  const double by_chance =
+      2.0 * std::hypot(stages.front().measure.standard_error_m, stages.back().measure.standard_error_m);
+  if (std::abs(after - before) < by_chance) {
+    out.sentences.push_back(
+        "From the first to the last, that is no more than the spread of the runs makes: these squares show neither an "
+        "error of the wheelbase or the wheels' ratio, nor that it was put right.");
+  } else if (after < before) {
     out.sentences.push_back(text_of("That is %.1f times better.", before / after));
   } else {
     out.sentences.push_back(

@@ -441,5 +441,18 @@ TEST(LeastSquares, SaysTheSameOfStampsThatCountFromNineteenSeventy) {
         << name;
 }
 
+TEST(LeastSquares, RefusesATruthThatHasNothingToDoWithTheWheels) {
+  GeneratorSettings g = off_the_drawing();
+  Random random(12);
+  Recording r = test::generated(g, test::varied_driving(random, g.duration_s), random);
+  for (Channel& c : r.channels)
+    if (c.name == "truth_x_m" || c.name == "truth_y_m")
+      for (double& v : c.values)
+        if (!std::isnan(v)) v = random.uniform(0.0, 1.0);
+  const Result<LeastSquaresCalibration> calibration = calibrate_least_squares({r}, Vehicle{});
+  ASSERT_FALSE(calibration);
+  EXPECT_NE(calibration.error().expected.find("of one robot"), std::string::npos) << calibration.error().message();
+}
+
 }  // namespace
 }  // namespace odolab
