@@ -61,20 +61,39 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen
   return f;
 }
 
+// Clocks that run apart beyond doubt are known, whatever else has no name: nothing that a vehicle does is like them.
+bool is_beyond_doubt(const ScoredCandidate& evidence) {
+  return evidence.effect->clock_rate && evidence.test.statistic > kDecisive;
+}
+
+// The model with what is beyond doubt; unset where nothing is.
+std::optional<JointModel> beyond_doubt(const JointModel& joint, const std::vector<ScoredCandidate>& evidence) {
+  JointModel known = joint;
+  known.accepted.clear();
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+    if (is_beyond_doubt(evidence[k])) known.accepted.push_back(joint.accepted[k]);
+  if (known.accepted.empty()) return std::nullopt;
+  known.fit(2);
+  return known;
+}
+
 // Names that did not suffice are said as what it resembles, not as what it is.
-Finding unknown_of(const Unnamed& more, double explained, const JointModel& joint,
-                   const std::vector<ScoredCandidate>& evidence) {
+Finding unknown_of(const Unnamed& more, const JointModel& joint, const std::vector<ScoredCandidate>& evidence) {
   Finding unknown;
   unknown.effect = "unknown";
   unknown.component = "vehicle";
   unknown.where = more.where;
-  unknown.log_likelihood_gain = 0.5 * (explained + more.gain);
+  unknown.log_likelihood_gain = 0.5 * more.gain;
   unknown.p_value = more.p_value;
   unknown.share_of_mismatch = more.share;
   unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
-  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
-    unknown.alternatives.push_back({joint.accepted[k].effect->name, joint.accepted[k].effect->component,
-                                    0.5 * evidence[k].test.statistic, joint.accepted[k].effect->told_apart_by});
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const Effect& e = *joint.accepted[k].effect;
+    const double statistic = evidence[k].test.statistic;
+    if (is_beyond_doubt(evidence[k])) continue;
+    unknown.log_likelihood_gain += 0.5 * statistic;
+    unknown.alternatives.push_back({e.name, e.component, 0.5 * statistic, e.told_apart_by});
+  }
   return unknown;
 }
 
@@ -233,11 +252,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
-    const Finding unknown = unknown_of(*more, explained, joint, selected.evidence);
-    found.erase(std::remove_if(
-                    found.begin(), found.end(),
-                    [](const Finding& f) { return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay"; }),
-                found.end());
+    const Finding unknown = unknown_of(*more, joint, selected.evidence);
+    std::erase_if(found, [&](const Finding& f) {
+      const bool is_known_clock = f.effect == "clock_rate" && 2.0 * f.log_likelihood_gain > kDecisive;
+      return f.effect.rfind("truth_", 0) != 0 && f.effect != "actuator_delay" && !is_known_clock;
+    });
     found.insert(found.begin(), unknown);
     d.verdict = Verdict::unknown_effect;
   } else if (!found.empty()) {
@@ -267,7 +286,13 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     d.warnings.push_back(
         "what was found rests on one recording alone: hold out another of the same vehicle, and it is borne out or "
         "taken away");
-  prove(d, predictor, joint, calibrated, by_joint, by_calibrated, adequacy.generic.front().as_effect, train);
+  const std::optional<JointModel> known = adequacy.unnamed ? beyond_doubt(joint, selected.evidence) : joint;
+  const JointModel& said = known ? *known : calibrated;
+  const Predicted by_said = !adequacy.unnamed ? by_joint
+                            : known           ? predictor.of(*known, joint.model.noise)
+                                              : by_calibrated;
+  prove(d, predictor, {joint.model.noise, said, calibrated, by_said, by_calibrated}, adequacy.generic.front().as_effect,
+        train);
   if (found.empty()) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;
@@ -275,9 +300,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     for (std::size_t r = 0; r < std::min(clocks.size(), d.truth_clock_s.size()); ++r)
       d.truth_clock_s[r].second = clocks[r];
   }
-  const FittedNoise between = noise_of_pictures(calibrated.model.noise, joint.model.noise);
+  const FittedNoise between = noise_of_pictures(calibrated.model.noise, said.model.noise);
   d.residuals_before = residuals_of(calibrated.under(between));
-  d.residuals_after = residuals_of(joint.under(between));
+  d.residuals_after = residuals_of(said.under(between));
 
   for (const Finding& f : d.findings)
     if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;

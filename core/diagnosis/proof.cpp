@@ -152,14 +152,9 @@ std::optional<JointModel> Predictor::fitted_to_all(const JointModel& model) cons
   return all;
 }
 
-void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
-           const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
-           const std::vector<Recording>& train) {
-  const FittedNoise noise = joint.model.noise;
-  const bool unnamed =
-      std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "unknown"; });
-  const JointModel& after = unnamed ? calibrated : joint;
-  const Predicted& by_after = unnamed ? by_calibrated : by_joint;
+void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
+           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train) {
+  const auto& [noise, after, calibrated, by_after, by_calibrated] = compared;
   d.fitted_vehicle = vehicle_of(after, predictor.nominal());
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
   const auto by_term = [&](const Effect& term) {

@@ -50,10 +50,16 @@ class Predictor {
   Vehicle nominal_;
 };
 
+// What is held against each other, all under one noise: the model that is said, with its findings, and the calibration.
+struct Compared {
+  const FittedNoise& noise;
+  const JointModel &said, &calibrated;
+  const Predicted &by_said, &by_calibrated;
+};
+
 // Fills in `train`, `held_out` and the vehicle as fitted. `spline`: let in beside calibration, whatever its evidence.
-void prove(Diagnosis& d, const Predictor& predictor, const JointModel& joint, const JointModel& calibrated,
-           const Predicted& by_joint, const Predicted& by_calibrated, const std::shared_ptr<const Effect>& spline,
-           const std::vector<Recording>& train);
+void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
+           const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train);
 
 // By what share of its squared error dead reckoning of what was not fitted is worse by one model than by another,
 // beyond chance. Zero where innovations are white and make the one likelier: windows of a metre hold few of the moments

@@ -243,7 +243,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   double explained = 0.0;
   std::vector<ScoredCandidate> of_vehicle;
   for (const ScoredCandidate& e : evidence) {
-    explained += e.test.statistic;
+    explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
     if (e.effect->acts_on_motion()) of_vehicle.push_back(e);
   }
   if (const Left left = what_is_left(joint, out.generic, error); left.group) {

@@ -204,7 +204,7 @@ class Selection {
       if (j == k)
         own = statistic_of(j);
       else
-        others += counting(*joint_.accepted[j].effect) * statistic_of(j);
+        others += counted(*joint_.accepted[j].effect, statistic_of(j));
     own = std::max(own, at_least);
     return own + others > 0.0 ? own / (own + others) : 1.0;
   }
@@ -212,7 +212,7 @@ class Selection {
   Standing standing_of(const std::vector<ScoredCandidate>& scored) const {
     double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
     for (std::size_t k = 0; k < joint_.accepted.size(); ++k)
-      explained += counting(*joint_.accepted[k].effect) * statistic_of(k);
+      explained += counted(*joint_.accepted[k].effect, statistic_of(k));
     const double distrust = joint_.distrust();
     Standing standing;
     for (const ScoredCandidate& c : scored) {

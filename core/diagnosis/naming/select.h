@@ -2,6 +2,7 @@
 // kept beside each.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -21,14 +22,24 @@ struct Selected {
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
                         const std::vector<const Effect*>& refuted = {});
 
-// How much of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what
-// it does beyond its second moment looks like nothing that a vehicle does; what has no name is held against all of it.
-inline double counting(const Effect& effect) { return effect.of_the_truth ? 0.3 : 1.0; }
-
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
 constexpr double kDecisive = 200.0;
 
 // A log-likelihood ratio below which two names are not told apart.
 constexpr double kClearlyBeaten = 5.0;
+
+// What of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what it
+// does beyond its second moment looks like nothing that a vehicle does. A clock's rate is the same all along, and
+// nothing that a vehicle does follows the moments alone: however far it is off, it leaves no larger trace.
+inline double counted(const Effect& effect, double statistic) {
+  constexpr double kOfTheTruth = 0.3;
+  if (effect.clock_rate) return std::min(statistic, kDecisive);
+  return effect.of_the_truth ? kOfTheTruth * statistic : statistic;
+}
+
+// The same for what has no name: kernels differ, so that it is held against all that a smoothed truth says.
+inline double counted_for_the_unnamed(const Effect& effect, double statistic) {
+  return effect.clock_rate ? counted(effect, statistic) : statistic;
+}
 
 }  // namespace odolab
