@@ -2,6 +2,7 @@
 // mean time with variance s^2 the truth is, to second order, the pose at that mean time and s^2 / 2 of its second
 // derivative: it cuts corners, and starts and stops before the vehicle does. The mean time is the clock's offset. One
 // of first order with a time constant T has s = T, a mean over a window W has s = W / sqrt(12).
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/effects/effect.h"
@@ -17,6 +18,30 @@ constexpr double kLeastWidth_s = 0.03;
 BodyMotion ahead(const EffectStep& s, double wheelbase_m) {
   return {0.25 * (s.left_mps2 + s.right_mps2), 0.5 * s.speed_mps * s.yaw_rate_radps,
           0.5 * (s.right_mps2 - s.left_mps2) / wheelbase_m};
+}
+// Less than this share of a count: the steps in which a coarse encoder shows a smooth start do as much.
+constexpr double kCounts = 0.5;
+
+double largest_radius_m(const std::vector<DriveView>& views) {
+  double radius_m = 0.0;
+  for (const DriveView& v : views)
+    radius_m = std::max({radius_m, v.drive.wheel_radius_left_m, v.drive.wheel_radius_right_m});
+  return radius_m;
+}
+
+// How far a rim is moved in the tenth of the time in which it is moved furthest.
+double moves_m(double variance_s2, const std::vector<DriveView>& views) {
+  std::vector<double> moved;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      const BodyMotion m = ahead(s, v.drive.wheelbase_m);
+      moved.push_back(variance_s2 * std::max(std::hypot(m.forward_m, m.sideways_m),
+                                             0.5 * v.drive.wheelbase_m * std::abs(m.turn_rad)));
+    }
+  if (moved.empty()) return 0.0;
+  const auto tenth = moved.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(moved.size()));
+  std::nth_element(moved.begin(), tenth, moved.end());
+  return *tenth;
 }
 }  // namespace
 
@@ -45,6 +70,10 @@ std::vector<Effect> truth_smoothing() {
       was = is;
     }
     return std::vector<Motions>{m};
+  };
+  e.beyond_counts = [](const std::vector<double>& value, const std::vector<double>&, double count_rad,
+                       const std::vector<DriveView>& views) {
+    return moves_m(value[0], views) > kCounts * count_rad * largest_radius_m(views);
   };
   e.to_parameters = [](const std::vector<double>& value, const std::vector<double>& stderr_value) {
     const double width_s = std::sqrt(std::max(value[0], 1e-8));
