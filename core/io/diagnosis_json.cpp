@@ -6,12 +6,16 @@ namespace odolab {
 
 namespace {
 
+bool is_length_of_vehicle(const ParameterEstimate& p) {
+  return p.unit == "m" && p.name.rfind("truth_mounting.", 0) != 0;
+}
+
 // Where only ratios of lengths show, each is as uncertain as the vehicle's file was taken to be.
 Json calibration_json(const LeastSquaresCalibration& calibration) {
   constexpr double kVehiclesFile = 0.1;
   Json json = Json::object();
   for (const ParameterEstimate& p : calibration.parameters) {
-    const bool is_a_ratio = calibration.scale_is_open && p.determined && p.name.find('.') == std::string::npos;
+    const bool is_a_ratio = calibration.scale_is_open && p.determined && is_length_of_vehicle(p);
     Json& entry = json[p.name];
     entry["value"] = p.value;
     entry["stderr"] =

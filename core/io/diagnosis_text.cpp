@@ -334,12 +334,20 @@ std::vector<std::string> finding_lines(std::size_t number, const Finding& f, std
 
 std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::size_t columns) {
   std::vector<std::string> end;
-  std::string calibration;
+  std::vector<const ParameterEstimate*> lengths;
   for (const ParameterEstimate& p : diagnosis.calibration.parameters)
-    if (p.determined && p.name.find('.') == std::string::npos)
-      calibration += (calibration.empty() ? "" : ", ") + parameter_words(p.name) + " " +
-                     quantity_text(p.value, p.stderr_value, p.unit);
-  if (diagnosis.calibration.scale_is_open)
+    if (p.determined && p.name.rfind("truth_mounting.", 0) != 0 &&
+        (p.unit == "m" || p.name.find('.') == std::string::npos))
+      lengths.push_back(&p);
+  constexpr std::size_t kMostLengths = 8;
+  std::string calibration;
+  if (lengths.size() > kMostLengths)
+    calibration = std::to_string(lengths.size()) + " lengths of its parts, which --json and --html list";
+  else
+    for (const ParameterEstimate* p : lengths)
+      calibration += (calibration.empty() ? "" : ", ") + parameter_words(p->name) + " " +
+                     quantity_text(p->value, p->stderr_value, p->unit);
+  if (!calibration.empty() && diagnosis.calibration.scale_is_open)
     calibration +=
         "; only their ratios show here: the mean radius is the vehicle file's, and nothing says how true it is";
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
@@ -387,7 +395,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   }
   if (said < physics_first.size())
     lines.push_back(more_of(physics_first.size() - said, "   and one finding more", "   and %.0f findings more") +
-                    ": --json and --report have all");
+                    ": --json and --html have all");
   if (lines.size() + end.size() > most_lines) lines.resize(most_lines > end.size() ? most_lines - end.size() : 1);
   lines.insert(lines.end(), end.begin(), end.end());
   if (lines.size() > most_lines) lines.resize(most_lines);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/effects/effect_motions.h"
 
 namespace odolab {
 
@@ -54,6 +55,19 @@ void leave_to_readings(GenericTest& t, const JointModel& joint) {
   t.p_value = t.p_value_of(t.test);
 }
 
+// Whole counts do as much.
+void leave_to_counts(GenericTest& t, const JointModel& joint) {
+  double count = 0.0;
+  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
+  for (CandidateTest* of : {&t.test, &t.instead}) {
+    if (of->value.empty()) continue;
+    const double displaced_m =
+        displaces_m(joint.views(), [&](const DriveView& view) { return motion_of(*t.as_effect, view, {}, of->value); });
+    if (!is_more_than_counts(displaced_m, count, joint.views())) of->statistic = 0.0;
+  }
+  t.p_value = t.p_value_of(t.test);
+}
+
 struct Lagging {
   const char *variable, *channel;
   std::size_t amplitudes;
@@ -79,6 +93,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
     term->amplitudes.resize(of.amplitudes);
     term->motions = of.motions;
     ask(t, asked, term, looked_at);
+    leave_to_counts(t, asked.joint);
     if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
   });
   return tests;

@@ -177,6 +177,9 @@ Result<std::optional<Blame>> unit_to_blame(const Judge& judge, const Sets& sets,
 Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                   const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
   const std::vector<VehicleUnit> units = units_of(nominal);
+  if (const auto* platform = std::get_if<MultiCastor>(&nominal.kind); platform && platform->castors.size() < 3)
+    return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
+                 "such a truth, or three castors and more, of which the others judge one"};
   Sets sets;
   for (const Recording& r : train) sets.train.push_back({&r, unit_samples(r, nominal)});
   for (const Recording& r : held_out) sets.held_out.push_back({&r, unit_samples(r, nominal)});
@@ -202,6 +205,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   if (!judged) return judged.error();
 
   Diagnosis d = merged(judged->units, judged->geometry, nominal, train, false);
+  for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;
   if (!instead.empty() && !d.findings.empty()) {
     d.findings.front().alternatives.insert(d.findings.front().alternatives.end(), instead.begin(), instead.end());
     d.verdict = Verdict::ambiguous;

@@ -32,7 +32,7 @@ Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& s
     CastOptions options;
     options.left_out = without < known.drives.size() ? static_cast<int>(without) + 1 : 0;
     if (const std::string problem = problem_in(options, *platform); !problem.empty())
-      return Error{known.vehicle.name, problem, "three castors or more, of which the others judge one"};
+      return Error{known.vehicle.name + ": " + problem, "", ""};
     return castor_track(readings, *platform, Pose{}, options);
   }
   const std::size_t by = without == 0 ? 1 : 0;

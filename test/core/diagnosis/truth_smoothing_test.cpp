@@ -146,6 +146,24 @@ TEST(TruthSmoothing, IsNotNamedWhereTheTruthIsAsItIs) {
 }
 
 // A base that follows its commands with a lag goes as a smoothed truth says.
+// Thirty counts a turn, 16 mm each: a wheel that sets off evenly is read as in a jump. Of an eighteenth program's 35
+// recordings in which nothing was missing, seven had had a smoothed truth for it.
+TEST(TruthSmoothing, IsNotNamedWhereWholeCountsDoAsMuch) {
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, kPeriod_s);
+  g.drive.encoder_counts_per_revolution = 30.0;
+  g.duration_s = 45.0;
+  Vehicle nominal;
+  std::get<DifferentialDrive>(nominal.kind).encoder_counts_per_revolution = 30.0;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    Random random(seed);
+    const auto nothing = [](int) { return [](InjectedStep&) {}; };
+    const std::vector<Recording> runs = three_runs(
+        g, random, [&](int) { return varied_driving(random, g.duration_s); }, nothing);
+    const Diagnosis d = diagnose(runs, {}, nominal).value();
+    EXPECT_EQ(finding(d, "truth_smoothing"), nullptr) << said(d);
+  }
+}
+
 TEST(TruthSmoothing, IsNotAskedForWhereThereAreCommandsAlone) {
   DriveView view;
   view.steps.resize(3);
