@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/inside.h"
+#include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -117,6 +118,12 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
                  "one: the towing vehicle's own wheels are no measure of its way"};
 
   GeometryFit geometry = fitted_geometry(runs, nominal);
+  std::vector<ClockRate> clocks;
+  if (!carries_truth(units)) clocks = put_clocks_right(runs, nominal, geometry);
+  if (!clocks.empty() && !runs_held_out.empty()) {
+    GeometryFit of_held_out = geometry;
+    put_clocks_right(runs_held_out, nominal, of_held_out);
+  }
   set_most_pivots_right(geometry);
   std::vector<double> clock_held_out_s;
   for (const JoinedRun& run : runs_held_out)
@@ -160,6 +167,11 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     if (inside && take_biases_from_inside(geometry, *inside)) d = merged(diagnoses, geometry, nominal, train);
   }
   if (erring) add_erring_joint(*erring, nominal, d);
+  if (!clocks.empty()) {
+    std::erase_if(d.findings, [](const Finding& f) { return f.effect == "clock_rate"; });
+    d.findings.push_back(finding_of(clocks));
+    if (d.verdict == Verdict::nothing_missing || d.verdict == Verdict::cannot_say) d.verdict = Verdict::found;
+  }
   mark_named(d);
   return d;
 }

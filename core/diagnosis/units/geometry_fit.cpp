@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr double kStretch_m = 0.5, kStretch_rad = 1.0;  // Eq. 1: so short that the wheels hardly err, beside the truth
 constexpr std::size_t kFewest = 4;                      // samples of a stretch
 constexpr double kShortestStep_s = 0.03;                // truth samples closer together are thinned out
-constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2;
+constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kHeld = 1e-7;
 constexpr double kDeterminedShare = 0.2;
 constexpr double kHuber = 3.0;
 constexpr int kIterations = 8;
@@ -36,7 +36,7 @@ struct Stretch {
 struct Unknowns {
   std::vector<JointParameter> joints;
   int units = 0, runs = 0;
-  bool clock_is_held = false;
+  bool clock_is_held = false, wheels_are_held = false;
 
   int joint_count() const { return static_cast<int>(joints.size()); }
   int wheel(int unit, int k) const { return joint_count() + 3 * unit + k; }
@@ -44,7 +44,8 @@ struct Unknowns {
   int count() const { return joint_count() + 3 * units + runs; }
   double prior(int k) const {
     if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
-    return k < clock(0) ? kWheelPrior : clock_is_held ? 1e-7 : kClockPrior_s;
+    if (k < clock(0)) return wheels_are_held ? kHeld : kWheelPrior;
+    return clock_is_held ? kHeld : kClockPrior_s;
   }
 };
 
@@ -339,6 +340,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
   for (JointParameter& p : joint_parameters(nominal))
     if (std::find(held.begin(), held.end(), p.name) == held.end()) unknowns.joints.push_back(std::move(p));
   unknowns.clock_is_held = std::find(held.begin(), held.end(), kClockHeld) != held.end();
+  unknowns.wheels_are_held = std::find(held.begin(), held.end(), kWheelsHeld) != held.end();
   unknowns.units = static_cast<int>(units_of(nominal).size());
   unknowns.runs = static_cast<int>(runs.size());
   std::vector<Passage> passages;

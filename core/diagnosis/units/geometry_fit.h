@@ -30,8 +30,8 @@ struct GeometryFit {
   std::vector<double> clock_stderr_s;
 };
 
-// In the list of what is held: the clocks of all runs.
-inline constexpr const char* kClockHeld = "clock";
+// In the list of what is held: the clocks of all runs, and all wheels.
+inline constexpr const char *kClockHeld = "clock", *kWheelsHeld = "wheels";
 
 // Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
 // own, robust against what slips here and there. `held`: joints that keep their nominal value.

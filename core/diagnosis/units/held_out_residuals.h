@@ -13,9 +13,9 @@ namespace odolab {
 std::string recording_of_unit(const std::string& recording, const std::string& unit);
 
 // As with_held_out_residuals (core/diagnosis/predicted_mismatch.h) for the kinds of has_units: those of every unit, the
-// first, whose mismatch stands for the vehicle's in pictures, before the others. The noise is that which the same unit has
-// beside the effects in `fitted`, the recordings that the diagnosis was fitted on. What has no truth with headings is
-// left out.
+// first, whose mismatch stands for the vehicle's in pictures, before the others. The noise is that which the same unit
+// has beside the effects in `fitted`, the recordings that the diagnosis was fitted on. What has no truth with headings
+// is left out.
 Diagnosis with_held_out_residuals_of_units(const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
                                            const std::vector<Recording>& held_out, const Vehicle& nominal);
 

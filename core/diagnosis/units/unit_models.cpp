@@ -1,6 +1,7 @@
 #include "core/diagnosis/units/unit_models.h"
 
 #include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
@@ -17,6 +18,7 @@ std::vector<ActiveEffect> effects_of_unit(const std::vector<ActiveEffect>& effec
                                           const std::vector<VehicleUnit>& all) {
   std::vector<ActiveEffect> own;
   for (ActiveEffect active : effects) {
+    if (active.effect == "clock_rate" && !carries_truth(all)) continue;  // it is in the recordings
     if (is_of_a_joint(active.effect) || (active.component == "truth" && !unit.carries_truth)) continue;
     const std::optional<std::string> component = component_in_unit(unit.name, active.component, all);
     if (!component) continue;
@@ -42,7 +44,10 @@ std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordin
   for (const Recording& recording : recordings) {
     const Vehicle vehicle = model.vehicle_in(recording.name);
     const std::vector<UnitSample> samples = unit_samples(recording, vehicle);
-    const Track tracked = tracked_poses(recording);
+    Track tracked = tracked_poses(recording);
+    if (!carries_truth(units_of(vehicle)))
+      for (const ActiveEffect& a : model.effects_in(recording.name))
+        if (a.effect == "clock_rate") put_right(tracked, a.parameter("rate"));
     if (samples.size() < 2 || tracked.size() < 2) continue;
     own.push_back(
         recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0, !units_of(vehicle)[unit].carries_truth));

@@ -109,6 +109,10 @@ std::optional<Error> undiagnosed_kind(const Vehicle& vehicle) {
 
 std::vector<VehicleUnit> units_of(const Vehicle& vehicle) { return std::visit(UnitsOf{}, vehicle.kind); }
 
+bool carries_truth(const std::vector<VehicleUnit>& units) {
+  return std::any_of(units.begin(), units.end(), [](const VehicleUnit& u) { return u.carries_truth; });
+}
+
 Vehicle with_drive(Vehicle vehicle, std::size_t unit, const DifferentialDrive& drive) {
   if (auto* one = std::get_if<DifferentialDrive>(&vehicle.kind)) *one = drive;
   if (auto* tracks = std::get_if<Tracked>(&vehicle.kind)) {

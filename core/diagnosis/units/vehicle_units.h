@@ -27,6 +27,7 @@ std::optional<Error> undiagnosed_kind(const Vehicle& vehicle);
 
 // In the order of the recording's columns.
 std::vector<VehicleUnit> units_of(const Vehicle& vehicle);
+bool carries_truth(const std::vector<VehicleUnit>& units);  // one of them; else the joints say where each is
 // The vehicle with another drive in the place of a unit's.
 Vehicle with_drive(Vehicle vehicle, std::size_t unit, const DifferentialDrive& drive);
 

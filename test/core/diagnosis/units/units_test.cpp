@@ -15,6 +15,7 @@
 #include "core/diagnosis/units/unit_recordings.h"
 #include "core/odometry/prediction.h"
 #include "test/support/linked_runs.h"
+#include "test/support/other_clock.h"
 
 namespace odolab::test {
 namespace {
@@ -280,6 +281,24 @@ TEST(DiagnoseUnits, TakeWheelsOfCastorsThatAreTwoPercentOffFromTheInsideForNoBia
   const Diagnosis d = diagnosed(runs, three_castor_vehicle());
   EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
   EXPECT_TRUE(d.calibration.scale_is_open);  // lengths that are all a percent too small turn the same way
+}
+
+// Each castor by itself had shown a tenth of it, since its pivot reads on the one clock and the truth on the other.
+TEST(DiagnoseUnits, MeasureClocksThatRunApartThoughNoCastorCarriesTheTruth) {
+  constexpr double kRate = 8e-4;
+  LinkedRunSettings settings;
+  settings.duration_s = 60.0;
+  std::vector<Recording> runs;
+  for (const std::uint64_t seed : {331u, 332u})
+    runs.push_back(with_truths_clock(castor_run(three_castor_vehicle(), settings, seed), 0.0, kRate));
+  const Diagnosis d = diagnosed(runs, three_castor_vehicle());
+  ASSERT_FALSE(d.findings.empty());
+  const auto clock = std::find_if(d.findings.begin(), d.findings.end(),
+                                  [](const Finding& f) { return f.effect == "clock_rate"; });
+  ASSERT_NE(clock, d.findings.end()) << said(d);
+  EXPECT_EQ(clock->component, "vehicle");
+  EXPECT_NEAR(clock->parameters[0].value, kRate, 3.0 * clock->parameters[0].stderr_value);
+  EXPECT_LT(clock->parameters[0].stderr_value, 0.1 * kRate);
 }
 
 TEST(DiagnoseUnits, TellFromTheInsideWhichTruckErrs) {
