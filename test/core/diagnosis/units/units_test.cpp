@@ -293,8 +293,8 @@ TEST(DiagnoseUnits, MeasureClocksThatRunApartThoughNoCastorCarriesTheTruth) {
     runs.push_back(with_truths_clock(castor_run(three_castor_vehicle(), settings, seed), 0.0, kRate));
   const Diagnosis d = diagnosed(runs, three_castor_vehicle());
   ASSERT_FALSE(d.findings.empty());
-  const auto clock = std::find_if(d.findings.begin(), d.findings.end(),
-                                  [](const Finding& f) { return f.effect == "clock_rate"; });
+  const auto clock =
+      std::find_if(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "clock_rate"; });
   ASSERT_NE(clock, d.findings.end()) << said(d);
   EXPECT_EQ(clock->component, "vehicle");
   EXPECT_NEAR(clock->parameters[0].value, kRate, 3.0 * clock->parameters[0].stderr_value);
