@@ -154,7 +154,9 @@ std::optional<JointModel> Predictor::fitted_to_all(const JointModel& model) cons
 
 void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
            const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train) {
-  const auto& [noise, after, calibrated, by_after, by_calibrated] = compared;
+  const FittedNoise& noise = compared.noise;
+  const JointModel &after = compared.said, &calibrated = compared.calibrated;
+  const Predicted &by_after = compared.by_said, &by_calibrated = compared.by_calibrated;
   d.fitted_vehicle = vehicle_of(after, predictor.nominal());
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
   const auto by_term = [&](const Effect& term) {
