@@ -45,7 +45,7 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
   const Result<ModelReplay> replayed =
-      replay_model(all, calibrated_model_of(*diagnosis), model_of(*diagnosis), noise_floor,
+      replay_model(all, nominal, calibrated_model_of(*diagnosis), model_of(*diagnosis), noise_floor,
                    [&](double share) { return goes_on(progress, kOfDiagnosis + (1.0 - kOfDiagnosis) * share); });
   if (!replayed) return replayed.error();
   diagnosis->simulation = replayed->fit;

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/obeyed_commands.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/replay.h"
@@ -134,9 +135,9 @@ std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackEr
 }
 
 // Each unit of a linked or castor vehicle driven alone by its own wheels: the joints say where it should come to.
-static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings, const FittedModel& before,
-                                        const FittedModel& after, const std::optional<FitFigures>& noise_floor,
-                                        const Progress& progress) {
+static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings, const Vehicle& file,
+                                        const FittedModel& before, const FittedModel& after,
+                                        const std::optional<FitFigures>& noise_floor, const Progress& progress) {
   ModelReplay result;
   const std::size_t units = units_of(after.vehicle).size();
   const auto add = [&](std::optional<FitFigures>& sum, const std::optional<FitFigures>& one) {
@@ -153,7 +154,7 @@ static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings
     const Progress part = [&](double share) {
       return goes_on(progress, (static_cast<double>(u) + share) / static_cast<double>(units));
     };
-    Result<ModelReplay> one = replay_model(recordings_of_unit(recordings, after, u), model_of_unit(before, u),
+    Result<ModelReplay> one = replay_model(recordings_of_unit(recordings, after, u), file, model_of_unit(before, u),
                                            model_of_unit(after, u), noise_floor, part);
     if (!one) return one.error();
     add(result.fit.calibrated, one->fit.calibrated);
@@ -163,10 +164,10 @@ static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings
   return result;
 }
 
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
-                                 const FittedModel& after, const std::optional<FitFigures>& noise_floor,
-                                 const Progress& progress) {
-  if (has_units(after.vehicle)) return replay_units(recordings, before, after, noise_floor, progress);
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const Vehicle& file,
+                                 const FittedModel& before, const FittedModel& after,
+                                 const std::optional<FitFigures>& noise_floor, const Progress& progress) {
+  if (has_units(after.vehicle)) return replay_units(recordings, file, before, after, noise_floor, progress);
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
@@ -197,7 +198,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const FittedModel& model = static_cast<std::size_t>(job) < count ? before : after;
     const Recording& recording = recordings[i];
     const Result<Replay> replayed =
-        replay_with(model, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
+        replay_with(model, file, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
       errors[static_cast<std::size_t>(job)] = replayed->truth_has_headings ? replayed->simulated_error : std::nullopt;
     else
@@ -217,15 +218,15 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   return result;
 }
 
-Result<Replay> replay_with(const FittedModel& model, const std::shared_ptr<const Recording>& recording,
-                           const Progress& progress) {
+Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,
+                           const std::shared_ptr<const Recording>& recording, const Progress& progress) {
   const std::vector<ActiveEffect> effects = model.effects_in(recording->name);
   const Vehicle vehicle = as_it_sets_off(model.vehicle_in(recording->name), effects, *recording);
   Scenario scenario = replay_scenario(vehicle, *recording);
   scenario.step_s = kStep_s;
   for (const ActiveEffect& fitted : effects)
     if (const auto active = effect_for_scenario(fitted, *recording, vehicle)) scenario.effects.push_back(*active);
-  return replay(scenario, recording, progress);
+  return replay(scenario, std::make_shared<const Recording>(with_obeyed_commands(*recording, file, vehicle)), progress);
 }
 
 }  // namespace odolab

@@ -24,13 +24,14 @@ struct ModelReplay {
 
 // Drives the planar vehicle by each recording's own wheels or commands. The normalised chi2 of a replay is its squared
 // error, mean over the two coordinates and the heading, over that which `noise_floor` leaves; not a number without one.
-Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const FittedModel& before,
-                                 const FittedModel& after, const std::optional<FitFigures>& noise_floor,
-                                 const Progress& progress = {});
+// `file`: the vehicle that the models were fitted on, by which a base without encoders obeys its commands.
+Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const Vehicle& file,
+                                 const FittedModel& before, const FittedModel& after,
+                                 const std::optional<FitFigures>& noise_floor, const Progress& progress = {});
 
 // One recording driven by its own inputs with what of the model acts in it; of a linked vehicle the whole of it.
-Result<Replay> replay_with(const FittedModel& model, const std::shared_ptr<const Recording>& recording,
-                           const Progress& progress = {});
+Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,
+                           const std::shared_ptr<const Recording>& recording, const Progress& progress = {});
 
 // The effect as a scenario switches it on: with those of its parameters that a scenario knows, a bump that was found in
 // time laid on the floor. None where the planar world does not have it. Mounting and clock of the truth are the

@@ -2,6 +2,7 @@
 #include "app/cli/file_examples.h"
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/obeyed_commands.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/model_toml.h"
 #include "core/io/track_csv.h"
@@ -28,7 +29,7 @@ int execute(const PredictOptions& options) {
       return bad_input({options.model + ": " + same.error().where, same.error().found, same.error().expected});
     model = std::move(*read);
   }
-  const Recording& recording = loaded->recording;
+  const Recording recording = with_obeyed_commands(loaded->recording, *vehicle, model.vehicle);
   const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());

@@ -140,8 +140,9 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
         const auto r = static_cast<std::size_t>(job);
         Recording recording = named(answer.runs[r]);
         if (r < answer.fitted_on) recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
-        const Result<Replay> replayed = replay_with(*model, std::make_shared<const Recording>(std::move(recording)),
-                                                    [&](double) { return !stopped; });
+        const Result<Replay> replayed =
+            replay_with(*model, answer.nominal, std::make_shared<const Recording>(std::move(recording)),
+                        [&](double) { return !stopped; });
         if (!replayed) {
           problems[r] = replayed.error().message();
           return;

@@ -17,6 +17,12 @@ bool of_wheels(const std::string& name) {
 }
 bool of_truth(const std::string& name) { return name.rfind("truth_", 0) == 0; }
 
+// Every computer's stamps tremble a little.
+bool is_worth_a_word(const EvenStamps& even) {
+  constexpr double kOfThePeriod = 0.02;
+  return even.trembling_s > kOfThePeriod * even.period_s;
+}
+
 std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
   char text[160];
   std::snprintf(text, sizeof text, ": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
@@ -106,7 +112,7 @@ std::optional<EvenedRecording> evened(const Recording& recording, const Differen
     }
     if (static_cast<std::ptrdiff_t>(time_s.size()) == std::count(read->begin(), read->end(), 1))
       if (const auto even = even_stamps(time_s, {left, right})) {
-        out.said.push_back(sentence(recording.name, "encoder", *even));
+        if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "encoder", *even));
         parts.push_back({of_wheels, row_times(*read, *even)});
       }
   }
@@ -118,7 +124,7 @@ std::optional<EvenedRecording> evened(const Recording& recording, const Differen
       y.push_back(t.position.y_m);
     }
     if (const auto even = even_stamps(time_s, {x, y}, true)) {
-      out.said.push_back(sentence(recording.name, "truth", *even));
+      if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "truth", *even));
       parts.push_back({of_truth, row_times(*seen, *even)});
     }
   }

@@ -101,7 +101,7 @@ struct InnovationRun {
   double readings_averaged = 1.0;      // so many roundings of the encoders are in one mean
   std::vector<double> truth_variance;  // of each truth sample, in those of a usual one; empty: all are alike
   std::shared_ptr<const InnovationRun> as_recorded;  // what was made less of; null where it is all there
-  int frozen = 0;         // truth samples left out since they repeat themselves while the wheels turn
+  int frozen = 0;  // truth samples left out since they repeat themselves while the wheels turn
 };
 
 // Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock. `left_out`: from one
@@ -169,9 +169,16 @@ struct FilterStep {
   Pose pose;                  // corrected
 };
 
+// The squared size of an innovation from which on a sample is set aside: 1.4e-6 of normal ones of three numbers are
+// larger.
+constexpr double kGate = 30.0;
+constexpr int kContradiction =
+    20;  // so many such samples in a row are none that err: the filter starts anew behind them
+
 struct FilterOptions {
-  bool derivatives = true;   // also information and score
-  double gate = 0.0;         // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
+  bool derivatives = true;  // also information and score
+  double gate = 0.0;        // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
+  int contradiction = kContradiction;
   int first = 0, last = -1;  // truth samples to use; -1: to the end
   int batch = 0;             // above 0: scores are also summed over batches of so many truth samples
   std::function<void(const Innovation&)> on_innovation;
@@ -192,12 +199,6 @@ struct InnovationSums {
 };
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options = {});
-
-// The squared size of an innovation from which on a sample is set aside: 1.4e-6 of normal ones of three numbers are
-// larger.
-constexpr double kGate = 30.0;
-constexpr int kContradiction =
-    20;  // so many such samples in a row are none that err: the filter starts anew behind them
 
 // First and last sample of where so many contradict the model in a row.
 std::vector<std::pair<int, int>> contradictions(const InnovationRun& run, const SummedRun& summed,

@@ -42,13 +42,19 @@ void NoiseFit::add_wander(bool of_headings) {
 
 void NoiseFit::add_body() {
   free.insert(free.end(), {noise_size::along, noise_size::turning, noise_size::sideways});
-  usual_sideways = 0.1;
+  usual_of_body = 0.1;
   least_sideways = 0.02;
 }
 
 namespace {
+
 constexpr double kShare = 0.3;  // of the wheels' noise, to start from
+
+bool is_of_the_body(int size) {
+  return size == noise_size::along || size == noise_size::turning || size == noise_size::sideways;
 }
+
+}  // namespace
 
 FittedNoise with_body(FittedNoise noise) {
   if (noise.along_m_per_sqrt_m <= 0.0)
@@ -85,17 +91,23 @@ FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&
     NoiseSlopes sums = likelihood(noise);
     // Priors.
     std::array<double, noise_size::count> slope = sums.slope;
-    std::array<double, noise_size::count> own{};
     for (int size : fit.free) {
-      double at_rest = size_of(usual, size);
-      if (size == noise_size::sideways && fit.usual_sideways > 0.0)
-        at_rest = fit.usual_sideways * noise.wheel_m_per_sqrt_m;
+      const bool goes_with_wheels = is_of_the_body(size) && fit.usual_of_body > 0.0;
       FittedNoise copy = noise;
+      const double at_rest = goes_with_wheels ? fit.usual_of_body * noise.wheel_m_per_sqrt_m : size_of(usual, size);
       const double off = std::log(size_of(copy, size) / at_rest) / fit.within;
-      const std::size_t k = static_cast<std::size_t>(size);
       sums.value += off * off;
-      slope[k] += 2.0 * off / fit.within;
-      own[k] = 2.0 / (fit.within * fit.within);
+      const auto curve = [&](int a, int b, double by) {
+        sums.curvature[static_cast<std::size_t>(noise_size::count * a + b)] += by * 2.0 / (fit.within * fit.within);
+      };
+      const auto pull = [&](int a, double by) { slope[static_cast<std::size_t>(a)] += by * 2.0 * off / fit.within; };
+      pull(size, 1.0);
+      curve(size, size, 1.0);
+      if (!goes_with_wheels) continue;
+      pull(noise_size::wheel, -1.0);
+      curve(noise_size::wheel, noise_size::wheel, 1.0);
+      curve(noise_size::wheel, size, -1.0);
+      curve(size, noise_size::wheel, -1.0);
     }
     // What lies at its bound and would go beyond stays there; sideways it then goes with the wheels.
     constexpr double kAtBound = 1.0 + 1e-9;
@@ -117,7 +129,6 @@ FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&
       for (int a = 0; a < noise_size::count; ++a) {
         if (moves_with[a] != fit.free[i]) continue;
         out.slope[i] += slope[a];
-        out.curvature[i * n + i] += own[a];
         for (std::size_t j = 0; j < n; ++j)
           for (int b = 0; b < noise_size::count; ++b)
             if (moves_with[b] == fit.free[j]) out.curvature[i * n + j] += sums.curvature[noise_size::count * a + b];

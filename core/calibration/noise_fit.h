@@ -12,13 +12,14 @@ struct NoiseFit {
   std::vector<int> free;  // of noise_size; the others stay
   FittedNoise usual;      // mild priors keep a size finite that the recordings say nothing about:
   double within = 2.3;    // so far from usual, in logarithms; a factor of ten
-  // Shares of the wheels' noise: what is usual sideways, where nothing rolls, and what nobody is truer than.
-  double usual_sideways = 0.0, least_sideways = 0.0;
+  // Shares of the wheels' noise: what is usual of the body (along, turning and sideways), and what nobody is truer than
+  // sideways, where nothing rolls.
+  double usual_of_body = 0.0, least_sideways = 0.0;
 
   // Lets the truth's wander free too. Not while samples are still thinned until they are white: it would take the noise
   // of neighbours, which ends, for one that goes on.
   void add_wander(bool of_headings);
-  // Lets the body's sizes free too. Sideways a tenth of the wheels' noise is usual, and less than a fiftieth is not
+  // Lets the body's sizes free too. A tenth of the wheels' noise is usual, and sideways less than a fiftieth is not
   // believed.
   void add_body();
 };

@@ -88,7 +88,7 @@ class PoseFilter {
       }
       if (update(k)) {
         refused = 0;
-      } else if (++refused >= kContradiction) {
+      } else if (++refused >= options_.contradiction) {
         begin_at(k);
         sums_.set_aside[k] = kRestartHere;
         ++sums_.restarts;

@@ -47,6 +47,12 @@ FittedModel model_of(const Diagnosis& diagnosis) {
     // The fit has the crawl as a turned mounting; where it is the wheels', the mounting sits as it was drawn.
     if (finding.effect == "wheel_toe")
       model.vehicle.truth.axle_T_tracked.heading_rad += effect.active.parameter("sideways_per_metre");
+    // And a base that follows late as a truth that is late, of its own in each recording.
+    if (finding.effect == "actuator_delay") {
+      const double delay_s = effect.active.parameter("delay_s");
+      model.vehicle.truth.time_offset_s -= delay_s;
+      for (auto& [recording, offset_s] : model.truth_clock_s) offset_s -= delay_s;
+    }
     for (const FoundParameter& p : finding.parameters) effect.stderr_values.emplace_back(p.name, p.stderr_value);
     // phases of their own, each in its recording alone
     if (has_parameter(effect.active, "phase_rad_2")) {

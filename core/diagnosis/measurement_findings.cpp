@@ -57,7 +57,11 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     findings.push_back(mounting);
     return;
   }
-  constexpr double kMostOfAnAxle_rad = 0.02;  // markers are put on by hand, axles in a workshop
+  // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too.
+  constexpr double kMostOfAnAxle_rad = 0.02;
+  const bool sits_where_it_should =
+      mounting.parameters.size() == 3 &&
+      shifted + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) < least_m;
   const char* told_apart_by = "a look at how the markers sit: the motion is the same";
   const FoundParameter& heading = mounting.parameters.back();
   const double z = turned / heading.stderr_value;
@@ -69,7 +73,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   toe.p_value = chi_square_tail(z * z, 1);
   toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
   toe.where.regime = "wherever it drives, in proportion to the way";
-  if (std::abs(turned) < kMostOfAnAxle_rad) {
+  if (sits_where_it_should || std::abs(turned) < kMostOfAnAxle_rad) {
     toe.alternatives.push_back({mounting.effect, mounting.component, gain, told_apart_by});
     findings.push_back(toe);
   } else {

@@ -127,14 +127,15 @@ std::string name_in_words(const Effect& effect) {
 }  // namespace
 
 std::optional<Named> named(const JointModel& calibrated, const Predictor& predictor, double family_wise_error,
-                           const Progress& progress) {
+                           const Progress& progress, bool asks_what_is_undone) {
   constexpr double kSelected = 0.75;  // of the progress
   Named now{calibrated, {}, {}, {}, {}, {}, {}};
   JointModel& joint = now.joint;
   Selected& selected = now.selected;
   const auto go_on = [&](double) { return goes_on(progress, kSelected); };
-  selected = select_effects(joint, family_wise_error, progress);
+  selected = select_effects(joint, family_wise_error, progress, {}, asks_what_is_undone);
   if (!goes_on(progress, kSelected)) return {};
+  if (selected.undone) return now;
   // Where nothing was let in to stay, nothing that was tried may have moved the calibration and the noise.
   if (joint.accepted.empty()) joint = calibrated;
   const bool hinted = joint.accepted.empty() && !predictor.leaves_out_in_turn() &&
@@ -180,8 +181,9 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     } else {
       joint = calibrated;
       if (untenables.size() < kMostUntenable) {  // what it stood for may have another name
-        selected = select_effects(joint, family_wise_error, go_on, untenables);
+        selected = select_effects(joint, family_wise_error, go_on, untenables, asks_what_is_undone);
         if (!goes_on(progress, kSelected)) return {};
+        if (selected.undone) return now;
         if (joint.accepted.empty()) joint = calibrated;
       }
     }

@@ -21,8 +21,9 @@ struct Named {
   std::vector<std::string> warnings;  // what was named and refuted
 };
 
-// Beside a model that is calibrated only. Unset where `progress` stops it.
+// Beside a model that is calibrated only. Unset where `progress` stops it. `asks_what_is_undone`: where something is
+// undone (select.h), no more than that is filled in.
 std::optional<Named> named(const JointModel& calibrated, const Predictor& predictor, double family_wise_error,
-                           const Progress& progress);
+                           const Progress& progress, bool asks_what_is_undone = false);
 
 }  // namespace odolab

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/calibration/correlated_truth.h"
@@ -11,6 +12,7 @@
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/truth_elsewhere.h"
 #include "core/diagnosis/truth_jumps.h"
 
 namespace odolab {
@@ -44,6 +46,36 @@ std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::
     left_out_s = joined(std::move(left_out_s));
   }
   return all;
+}
+
+// Where the truth was somewhere else for a while, its samples are left out. What happens so often that it is no mishap
+// stays. Whether there is any.
+bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
+                               const Vehicle& nominal) {
+  constexpr std::size_t kMost = 6;
+  std::vector<TimeStretches> of_each(each.size());
+  parallel_for(static_cast<int>(each.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    const Result<InnovationRun> run = ready_run(*each[r], nominal);
+    if (run) of_each[r] = truth_elsewhere(*run, model_of(ready.calibration, r));
+  });
+  std::size_t times = 0;
+  for (const TimeStretches& of : of_each) times += of.size();
+  if (times == 0 || times > kMost) return false;
+  for (std::size_t r = 0; r < each.size(); ++r)
+    for (const auto& [from_s, to_s] : of_each[r]) {
+      Recording& recording = each[r]->recording;
+      for (Channel& c : recording.channels)
+        for (std::size_t i = 0; i < recording.time_s.size(); ++i)
+          if (c.name.rfind("truth_", 0) == 0 && recording.time_s[i] >= from_s && recording.time_s[i] <= to_s)
+            c.values[i] = std::numeric_limits<double>::quiet_NaN();
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    ": from %.2f to %.2f s the truth is elsewhere, and then back where the wheels went; left out",
+                    from_s, to_s);
+      each[r]->warnings.push_back(recording.name + text);
+    }
+  return true;
 }
 
 // Where a reading is off its wheel's pace and the truth knows nothing of it, it is left out. Whether there is any.
@@ -116,14 +148,14 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   for (const MovedMounting& m : put_right.moved) each[m.index]->recording = put_right.recordings[m.index];
   ready.moved = put_right.moved;
 
-  std::vector<Recording> fitted;
-  for (const CheckedRecording& c : ready.train) {
-    fitted.push_back(c.recording);
-    ready.from_commands = ready.from_commands || c.from_commands;
-  }
+  for (const CheckedRecording& c : ready.train) ready.from_commands = ready.from_commands || c.from_commands;
   const auto calibrate = [&]() -> Result<Done> {
     LeastSquaresOptions with_faults_left_out;
-    for (const CheckedRecording& c : ready.train) with_faults_left_out.left_out.push_back(c.left_out_s);
+    std::vector<Recording> fitted;
+    for (const CheckedRecording& c : ready.train) {
+      fitted.push_back(c.recording);
+      with_faults_left_out.left_out.push_back(c.left_out_s);
+    }
     Result<LeastSquaresCalibration> calibration = calibrate_least_squares(
         fitted, nominal, with_faults_left_out, [&](double share) { return goes_on(progress, share); });
     if (!calibration) return calibration.error();
@@ -132,6 +164,8 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
   if (leave_out_encoder_jumps(ready, each, nominal))
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+  if (leave_out_truth_elsewhere(ready, each, nominal))
     if (const Result<Done> done = calibrate(); !done) return done.error();
   constexpr int kMostRounds = 3;  // without the largest, smaller ones show
   for (int round = 0; round < kMostRounds; ++round) {

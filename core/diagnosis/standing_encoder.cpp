@@ -62,6 +62,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
   constexpr double kLeast_m = 0.03, kTimesTheNoise = 8.0, kLeast_s = 0.15, kBefore_s = 0.3;
   constexpr double kScale = 0.08;  // error of a length in the file
   constexpr double kFar_rad = 1.0;
+  constexpr double kBraked = 0.5, kRunsOn_s = 1.0, kOnItsWay_s = 2.0;
   constexpr double kOfThePaceBefore = 0.4, kInTheMiddle = 0.25;  // of the whole way, in the middle half of the time
   TimeStretches stands;
   if (truth.size() < 4) return stands;
@@ -84,6 +85,14 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
     const auto of_other_m = [&](std::size_t begin, std::size_t end) {
       return radius_m(other) * (rotation(wheels[end], other) - rotation(wheels[begin], other));
     };
+    // Of the wheel, from so long before a reading to so long before it.
+    const auto pace_before_mps = [&](std::size_t reading, double from_s, double to_s) {
+      std::size_t to = reading;
+      while (to > 0 && wheels[reading].time_s - wheels[to].time_s < to_s) --to;
+      std::size_t from = to;
+      while (from > 0 && wheels[reading].time_s - wheels[from].time_s < from_s) --from;
+      return radius_m(wheel) * std::abs(rad(to) - rad(from)) / std::max(wheels[to].time_s - wheels[from].time_s, 1e-3);
+    };
     const bool turns_far = std::abs(of_other_m(i, j)) > kFar_rad * drive.wheelbase_m;  // a chord is no arc
     const bool by_turn = steady.has_heading() && !both_hold && (turns_far || by_turn_m < by_place_m);
     // The wheel's own way by the truth, and beyond what lengths in the file that are a little wrong make of it. Where
@@ -103,12 +112,13 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
     };
     if (j > i + 3 && span_s > std::max(kLeast_s, 1.5 * steady.period_s())) {
       const double all_m = way_m(i, j);
-      std::size_t before = i;
-      while (before > 0 && from_s - wheels[before].time_s < kBefore_s) --before;
-      const double pace_mps =
-          radius_m(wheel) * std::abs(rad(i) - rad(before)) / std::max(from_s - wheels[before].time_s, 1e-3);
+      const double pace_mps = pace_before_mps(i, kBefore_s, 0.0);
+      // It came to rest by itself: what the truth still says is a clock that is late, or a marker that rings on.
+      const bool was_braked =
+          pace_before_mps(i, kBefore_s / 3.0, 0.0) < kBraked * pace_before_mps(i, kBefore_s, kBefore_s * 2.0 / 3.0) &&
+          all_m < kRunsOn_s * pace_before_mps(i, kOnItsWay_s, 0.0);
       const std::size_t quarter = (j - i) / 4;
-      if (all_m > (by_turn ? by_turn_m : by_place_m) && pace_mps > kOfThePaceBefore * all_m / span_s &&
+      if (!was_braked && all_m > (by_turn ? by_turn_m : by_place_m) && pace_mps > kOfThePaceBefore * all_m / span_s &&
           way_m(i + quarter, j - quarter) > kInTheMiddle * all_m)
         stands.push_back({from_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
     }
@@ -120,6 +130,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
 TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel wheel) {
   constexpr std::size_t kPace = 5;  // readings before, and behind, that say how fast it goes
   constexpr double kCounts = 5.0, kTimesThePace = 3.0, kGap_s = 0.5;
+  constexpr double kOfTheWayMissed = 0.25;  // of what comes at once: a wheel that stood before holds nothing back
   TimeStretches found;
   const double count_rad = least_count_rad(wheels, wheel);
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
@@ -132,6 +143,7 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
                    after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
       if (std::abs(next) > kCounts * count_rad &&
           std::abs(next) > kTimesThePace * std::max(std::abs(before), std::abs(after)) &&
+          std::abs(before) * static_cast<double>(j + 1 - i) > kOfTheWayMissed * std::abs(next) &&
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
         found.push_back({wheels[i].time_s, wheels[j + 1].time_s});
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/diagnosis/naming/intervals.h"
 
@@ -40,16 +41,38 @@ Vec2 place_of(const std::string& component, const EffectStep& s, double wheelbas
   return s.position + rotated({0.0, side}, s.heading_rad);
 }
 
+// What comes at one time in each recording, where only one lasts until then: that one, and its own time.
+struct OfOne {
+  std::size_t run;
+  double at_s;
+};
+std::optional<OfOne> only_one_with(const JointModel& joint, const AcceptedEffect& a) {
+  if (a.effect->of_one_recording || a.effect->and_later_recordings || !has_shape(a, "at_s")) return std::nullopt;
+  std::optional<OfOne> only;
+  for (std::size_t r = 0; r < joint.views().size(); ++r) {
+    const std::vector<EffectStep>& steps = joint.views()[r].steps;
+    if (steps.empty()) continue;
+    const double at_s = effects::put_on_s(shape_named(a, "at_s"), steps.front().time_s - steps.front().since_start_s);
+    if (at_s <= steps.front().time_s || at_s >= steps.back().time_s) continue;
+    if (only) return std::nullopt;
+    only = OfOne{r, at_s};
+  }
+  return only;
+}
+
 }  // namespace
 
 WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eigen::MatrixXd& covariance) {
   WhereFound w;
   w.regime = a.effect->regime;
   w.and_later_recordings = a.effect->and_later_recordings;
-  if (a.effect->of_one_recording || a.effect->and_later_recordings) {
-    const auto run = static_cast<std::size_t>(a.shape[0]);
+  const std::optional<OfOne> only = only_one_with(joint, a);
+  if (only) w.regime = "from one time on";
+  if (only || a.effect->of_one_recording || a.effect->and_later_recordings) {
+    const auto run = only ? only->run : static_cast<std::size_t>(a.shape[0]);
     w.recording = joint.runs()[run].name;
-    const double at_s = shape_named(a, "at_s"), wide_s = k95 * stderr_of_shape(a, covariance, "at_s");
+    const double at_s = only ? only->at_s : shape_named(a, "at_s"),
+                 wide_s = k95 * stderr_of_shape(a, covariance, "at_s");
     const std::vector<WheelSample>& wheels = joint.runs()[run].wheels;
     const double low_s = std::min(at_s, wheels.front().time_s), high_s = std::max(at_s, wheels.back().time_s);
     w.time_s.push_back({std::max(at_s - wide_s, low_s), std::min(at_s + wide_s, high_s)});

@@ -21,7 +21,7 @@ TEST(ModelReplay, TheRightEffectMakesTheMismatchVanish) {
   const Recording recording = eccentric_eight();
   FittedModel model;
   model.effects = {{{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.02}, {"phase_rad", 0.5}}}, {}, ""}};
-  const Result<ModelReplay> replayed = replay_model({recording}, {}, model, FitFigures{1e-4, 1e-4, 1.0});
+  const Result<ModelReplay> replayed = replay_model({recording}, {}, {}, model, FitFigures{1e-4, 1e-4, 1.0});
   ASSERT_TRUE(replayed) << replayed.error().message();
   ASSERT_TRUE(replayed->fit.calibrated && replayed->fit.with_findings);
   // 2 % of a wheel's way, up to 0.075 m of radius and a phase to both sides: some 3 mm of way and 9 mrad of heading
@@ -36,13 +36,13 @@ TEST(ModelReplay, AnEventOfAnotherRecordingDoesNotActHere) {
   const Recording recording = eccentric_eight();
   FittedModel model;
   model.effects = {{{"collision", "vehicle", {{"at_s", 3.0}, {"dx_m", 0.1}}}, {}, "another.csv"}};
-  const Result<ModelReplay> replayed = replay_model({recording}, {}, model, std::nullopt);
+  const Result<ModelReplay> replayed = replay_model({recording}, {}, {}, model, std::nullopt);
   ASSERT_TRUE(replayed);
   EXPECT_EQ(replayed->fit.calibrated->position_rms_m, replayed->fit.with_findings->position_rms_m);
 }
 
 TEST(ModelReplay, StopsWhenTold) {
-  EXPECT_FALSE(replay_model({eccentric_eight()}, {}, {}, std::nullopt, [](double) { return false; }));
+  EXPECT_FALSE(replay_model({eccentric_eight()}, {}, {}, {}, std::nullopt, [](double) { return false; }));
 }
 
 }  // namespace

@@ -91,6 +91,8 @@ std::optional<Visible> typical(const JointModel& joint, const Effect& e, double 
 
 std::vector<Visible> visible(const JointModel& joint, double family_wise_error) {
   const bool commands = joint.views().front().from_commands;
+  const bool has_headings = std::any_of(joint.runs().begin(), joint.runs().end(),
+                                        [](const InnovationRun& run) { return run.truth_has_heading; });
   std::vector<const Effect*> asked;
   for (const Effect& e : catalogue()) {
     if (e.only_commands && !commands) continue;
@@ -98,7 +100,8 @@ std::vector<Visible> visible(const JointModel& joint, double family_wise_error) 
     if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
                     [&](const AcceptedEffect& a) { return a.effect->name == e.name; }))
       continue;
-    if (e.name == "wheel_toe") continue;  // a mounting turned the other way; seen as that
+    // A mounting turned the other way, seen as that; of places alone, the heading that a run began with.
+    if (e.name == "wheel_toe" && has_headings) continue;
     asked.push_back(&e);
   }
   std::vector<std::optional<Visible>> looks(asked.size());

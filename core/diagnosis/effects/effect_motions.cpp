@@ -40,22 +40,74 @@ bool is_more_than_counts(double displaces_m, double count_rad, const std::vector
   return displaces_m > kCounts * count_rad * radius_m;
 }
 
-std::vector<BodyMotion> motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects) {
-  std::vector<BodyMotion> sum(view.steps.size());
+bool changes_speeds(const Effect& effect) { return effect.acts_on_motion() && !effect.local; }
+
+DriveView as_it_goes(DriveView view, const std::function<std::vector<BodyMotion>(const DriveView&)>& motions) {
+  constexpr int kMostRounds = 8;
+  constexpr double kSettled = 1e-3;     // m/s, and rad/s
+  constexpr double kSmoothed_s = 0.15;  // to either side: whole counts come in jerks
+  constexpr double kMost = 0.5;         // of a rim's speed: beyond that no effect is what it is fitted as
+  const std::size_t n = view.steps.size();
+  std::vector<double> speed_mps(n), yaw_rate_radps(n);
+  for (std::size_t i = 0; i < n; ++i)
+    speed_mps[i] = view.steps[i].speed_mps, yaw_rate_radps[i] = view.steps[i].yaw_rate_radps;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::vector<BodyMotion> by = motions(view);
+    double changed = 0.0, forward_m = 0.0, turn_rad = 0.0, span_s = 0.0;
+    std::size_t from = 0, to = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      EffectStep& s = view.steps[i];
+      for (; to < n && view.steps[to].time_s <= s.time_s + kSmoothed_s; ++to)
+        forward_m += by[to].forward_m, turn_rad += by[to].turn_rad, span_s += view.steps[to].duration_s;
+      for (; view.steps[from].time_s < s.time_s - kSmoothed_s; ++from)
+        forward_m -= by[from].forward_m, turn_rad -= by[from].turn_rad, span_s -= view.steps[from].duration_s;
+      if (span_s <= 0.0) continue;
+      const double half_base_m = 0.5 * view.drive.wheelbase_m,
+                   most_mps = kMost * (std::abs(speed_mps[i]) + half_base_m * std::abs(yaw_rate_radps[i]));
+      const auto with = [&](double by_wheels, double now, double more, double most) {
+        const double there = by_wheels + std::clamp(more, -most, most);
+        return round == 0 ? there : 0.5 * (now + there);  // halfway: what feeds back does not swing
+      };
+      const double speed = with(speed_mps[i], s.speed_mps, forward_m / span_s, most_mps),
+                   yaw_rate = with(yaw_rate_radps[i], s.yaw_rate_radps, turn_rad / span_s, most_mps / half_base_m);
+      changed = std::max({changed, std::abs(speed - s.speed_mps), std::abs(yaw_rate - s.yaw_rate_radps)});
+      s.speed_mps = speed;
+      s.yaw_rate_radps = yaw_rate;
+    }
+    if (changed < kSettled) break;
+  }
+  return view;
+}
+
+std::vector<BodyMotion> motions_of(const DriveView& by_wheels, const std::vector<ActiveEffect>& effects) {
+  struct Acting {
+    const Effect* effect;
+    std::vector<double> value, shape;
+  };
+  std::vector<Acting> acting;
   for (const ActiveEffect& a : effects) {
     const Effect* e = catalogue_entry(a);
-    if (!e || e->clock_rate || (e->only_commands && !view.from_commands)) continue;
-    std::vector<double> value, shape;
+    if (!e || e->clock_rate || (e->only_commands && !by_wheels.from_commands)) continue;
+    Acting one{e, {}, {}};
     if (e->from_parameters)
-      value = e->from_parameters(a);
+      one.value = e->from_parameters(a);
     else
-      for (const Effect::Amplitude& p : e->amplitudes) value.push_back(a.parameter(p.name));
-    for (const Effect::Amplitude& p : e->shapes) shape.push_back(p.name == "recording" ? 0.0 : a.parameter(p.name));
-    if (e->forms.size() > 1) shape.push_back(a.parameter("form"));
-    const std::vector<Motions> motions = e->motions(view, shape);
-    for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum, value[k]);
+      for (const Effect::Amplitude& p : e->amplitudes) one.value.push_back(a.parameter(p.name));
+    for (const Effect::Amplitude& p : e->shapes) one.shape.push_back(p.name == "recording" ? 0.0 : a.parameter(p.name));
+    if (e->forms.size() > 1) one.shape.push_back(a.parameter("form"));
+    acting.push_back(std::move(one));
   }
-  return sum;
+  const auto sum_of = [&](const DriveView& view, const auto& is_meant) {
+    std::vector<BodyMotion> sum(view.steps.size());
+    for (const Acting& a : acting) {
+      if (!is_meant(*a.effect)) continue;
+      const std::vector<Motions> motions = a.effect->motions(view, a.shape);
+      for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum, a.value[k]);
+    }
+    return sum;
+  };
+  const DriveView view = as_it_goes(by_wheels, [&](const DriveView& v) { return sum_of(v, changes_speeds); });
+  return sum_of(view, [](const Effect&) { return true; });
 }
 
 }  // namespace odolab

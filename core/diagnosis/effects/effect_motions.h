@@ -18,8 +18,16 @@ Motions motion_of(const Effect& effect, const DriveView& view, const std::vector
 double displaces_m(const std::vector<DriveView>& views, const std::function<Motions(const DriveView&)>& motion);
 bool is_more_than_counts(double displaces_m, double count_rad, const std::vector<DriveView>& views);
 
+// Whether an effect changes how fast a vehicle goes for longer than a moment.
+bool changes_speeds(const Effect& effect);
+
+// The drive at the speeds and turn rates at which the vehicle goes, once what effects add to them is added to what the
+// wheels say: a tyre is squeezed in the bend that is driven, not in the one that its wheels promise, which it makes
+// wider. `motions`: what the effects that change speeds add to each step of such a drive.
+DriveView as_it_goes(DriveView by_wheels, const std::function<std::vector<BodyMotion>(const DriveView&)>& motions);
+
 // Of all effects that are switched on; what acts on clocks, on the truth or on commands that are not there adds
-// nothing.
+// nothing. The view is as the wheels say.
 std::vector<BodyMotion> motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects);
 
 }  // namespace odolab

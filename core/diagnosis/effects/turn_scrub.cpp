@@ -21,9 +21,7 @@ std::vector<Effect> turn_scrub() {
     Motions m;
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) {
-      // The rate at which it does turn, not that of its wheels: w (1 + k w) is theirs.
-      const double by_wheels = std::abs(s.yaw_rate_radps);
-      const double rate = 2.0 * by_wheels / (1.0 + std::sqrt(1.0 + 4.0 * shape[0] * by_wheels));
+      const double rate = std::abs(s.yaw_rate_radps);  // at which it does turn, not that of its wheels
       m.push_back(BodyMotion{0.0, 0.0, -rate * s.turn_rad / (1.0 + shape[0] * rate)});
     }
     return std::vector<Motions>{m};

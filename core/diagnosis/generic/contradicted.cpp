@@ -104,6 +104,20 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
   return u;
 }
 
+// In the order of the recordings.
+std::string in_words(std::vector<Moment> moments, const JointModel& joint) {
+  std::sort(moments.begin(), moments.end(), [](const Moment& a, const Moment& b) {
+    return std::pair{a.run, a.at_s} < std::pair{b.run, b.at_s};
+  });
+  std::string words;
+  for (const Moment& m : moments) {
+    char text[40];
+    std::snprintf(text, sizeof text, " at %.1f s", m.at_s);
+    words += (words.empty() ? "" : ", ") + joint.runs()[static_cast<std::size_t>(m.run)].name + text;
+  }
+  return words;
+}
+
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
   constexpr int kTooMany = 3;
   Unnamed u;
@@ -114,7 +128,8 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
   if (joint.runs().size() > 1) u.where.time_s.clear();  // times of several recordings
   if (static_cast<int>(moments.size()) >= kTooMany) {
     u.where.regime = "what happens at " + std::to_string(moments.size()) +
-                     " moments or more, each of which would be a push or a bump of its own";
+                     " moments or more, each of which would be a push or a bump of its own (" +
+                     in_words(moments, joint) + ")";
     return u;
   }
   if (moments.size() != 2 || !are_at_one_place(moments[0], moments[1], joint.model.drive.wheelbase_m))

@@ -10,7 +10,7 @@ InnovationRun JointModel::recorded(int r) const {
   if (!all) return prepared(r);
   DriveView view;
   if (!accepted.empty())
-    view = drive_view(numbers_[r], *all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read);
+    view = as_it_goes(drive_view(numbers_[r], *all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read));
   return prepared(r, *all, view);
 }
 

@@ -251,9 +251,7 @@ CandidateTest JointModel::tested_thoroughly(const Asked& asked, CandidateProduct
   std::vector<double> u, i;
   double square_all = 0.0;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    VectorXd column = -(now_->z[r] * now_->acting(r, of_model));
-    const auto& [acting, z, stretch] = c.of_run[r];
-    if (!acting.empty()) column.segment(3 * stretch.first, z.rows()).noalias() += z * value(acting);
+    const VectorXd column = beside_model(static_cast<int>(r), c, value, of_model);
     const int n = now_->runs[r].samples();
     for (int from = 0; from < n; from += asked.batch) {
       const int rows = 3 * (std::min(n, from + asked.batch) - from);
@@ -284,6 +282,86 @@ CandidateTest JointModel::tested_thoroughly(const Asked& asked, CandidateProduct
     out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
   }
   return out;
+}
+
+VectorXd JointModel::beside_model(int run, const CandidateColumns& c, const VectorXd& value,
+                                  const VectorXd& of_model) const {
+  const auto r = static_cast<std::size_t>(run);
+  VectorXd column = -(now_->z[r] * now_->acting(r, of_model));
+  const auto& [acting, z, stretch] = c.of_run[r];
+  if (!acting.empty()) column.segment(3 * stretch.first, z.rows()).noalias() += z * value(acting);
+  return column;
+}
+
+VectorXd JointModel::beside_all_else(int accepted) const {
+  const Absorbing by = absorbing(accepted);
+  const VectorXd with_all = gram_ * by.taken;
+  VectorXd with_kept(by.kept.size());
+  for (std::size_t i = 0; i < by.kept.size(); ++i) with_kept(static_cast<Eigen::Index>(i)) = with_all(by.kept[i]);
+  const VectorXd absorbed = by.gram.solve(with_kept);
+  VectorXd out = by.taken;
+  for (std::size_t i = 0; i < by.kept.size(); ++i) out(by.kept[i]) -= absorbed(static_cast<Eigen::Index>(i));
+  return out;
+}
+
+namespace {
+
+// (sum |a| |b|)^2 / sum a^2, of samples of three innovations each.
+class Leak {
+ public:
+  void add(const VectorXd& a, const VectorXd& b) {
+    for (Eigen::Index i = 0; i + 3 <= a.size(); i += 3) {
+      both_ += a.segment<3>(i).norm() * b.segment<3>(i).norm();
+      a2_ += a.segment<3>(i).squaredNorm();
+    }
+  }
+  double value() const { return a2_ > 0.0 ? both_ * both_ / a2_ : 0.0; }
+
+ private:
+  double both_ = 0.0, a2_ = 0.0;
+};
+
+}  // namespace
+
+double JointModel::can_look_like(const CandidateColumns& candidate, const std::vector<double>& value,
+                                 int accepted) const {
+  const VectorXd amplitudes = Eigen::Map<const VectorXd>(value.data(), candidate.amplitudes);
+  const VectorXd of_model = absorbed(candidate) * amplitudes, own = absorbing(accepted).taken;
+  Leak leak;
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    leak.add(beside_model(static_cast<int>(r), candidate, amplitudes, of_model), now_->z[r] * now_->acting(r, own));
+  return leak.value();
+}
+
+double JointModel::can_look_like(int other_accepted, int accepted) const {
+  const VectorXd other = beside_all_else(other_accepted), own = absorbing(accepted).taken;
+  Leak leak;
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    leak.add(now_->z[r] * now_->acting(r, other), now_->z[r] * now_->acting(r, own));
+  return leak.value();
+}
+
+double JointModel::scatter_about(int run, double time_s, const CandidateColumns& candidate,
+                                 const std::vector<double>& value) const {
+  constexpr double kAbout_s = 1.0, kWhereItHappens_s = 0.3;
+  constexpr double kChance = 3.0;  // standard deviations of a mean of squares
+  constexpr int kFewest = 12;      // scalars
+  const auto r = static_cast<std::size_t>(run);
+  const VectorXd amplitudes = Eigen::Map<const VectorXd>(value.data(), candidate.amplitudes);
+  const VectorXd left = residual_[r] - beside_model(run, candidate, amplitudes, absorbed(candidate) * amplitudes);
+  const std::vector<FilterStep>& steps = now_->runs[r].steps();
+  double sum = 0.0;
+  int scalars = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!steps[i].used || steps[i].truth_index < 0) continue;
+    const double away_s = std::abs(runs_[r].truth[steps[i].truth_index].time_s - clock_s[r] - time_s);
+    if (away_s > kAbout_s || away_s < kWhereItHappens_s) continue;
+    sum += left.segment<3>(3 * static_cast<Eigen::Index>(i)).squaredNorm();
+    scalars += runs_[r].truth_has_heading ? 3 : 2;
+  }
+  if (scalars < kFewest) return 1.0;
+  const double scatter = sum / scalars;
+  return scatter > 1.0 + kChance * std::sqrt(2.0 / scalars) ? scatter : 1.0;
 }
 
 std::shared_ptr<ScannedProducts> JointModel::scanned_products() const {

@@ -80,12 +80,11 @@ void JointModel::linearise(bool with_columns) {
       for (const FilterStep& s : first.steps())
         if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
     }
-    if (with_columns)
-      next->views[r] = drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::smoothed);
-    if (!accepted.empty())
-      next->read_views[r] =
-          with_columns ? as_read(next->views[r], runs_[r])
-                       : drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], Way::as_read);
+    const auto view = [&](Way way) {
+      return as_it_goes(drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], way));
+    };
+    if (with_columns) next->views[r] = view(Way::smoothed);
+    if (!accepted.empty()) next->read_views[r] = with_columns ? as_read(next->views[r], runs_[r]) : view(Way::as_read);
     made[r].emplace_back(prepared(r, runs_[r], next->read_views[r]), m);
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();

@@ -5,6 +5,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/noise_fit.h"
 #include "core/calibration/restamped.h"
+#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/model/counts_at_rest.h"
 
 namespace odolab {
@@ -81,6 +82,17 @@ InnovationModel JointModel::model_of(int run) const {
 }
 
 InnovationRun JointModel::prepared(int r) const { return prepared(r, runs_[r], now_->read_views[r]); }
+
+DriveView JointModel::as_it_goes(DriveView by_wheels) const {
+  const auto is_meant = [](const AcceptedEffect& a) { return changes_speeds(*a.effect); };
+  if (std::none_of(accepted.begin(), accepted.end(), is_meant)) return by_wheels;
+  return odolab::as_it_goes(std::move(by_wheels), [&](const DriveView& view) {
+    std::vector<BodyMotion> sum(view.steps.size());
+    for (const AcceptedEffect& a : accepted)
+      if (is_meant(a)) motion_of(*a.effect, view, a.shape, a.value).add_to(sum, 1.0);
+    return sum;
+  });
+}
 
 InnovationRun JointModel::prepared(int r, const InnovationRun& of, const DriveView& view) const {
   InnovationRun run = of;

@@ -73,6 +73,8 @@ class JointModel {
   void gate();  // isolated contradictions only; longer ones are left to be explained
   // Takes what was set aside near that time of that run among the evidence again.
   void readmit(int run, double time_s);
+  // Leaves the truth of that run out between two times of its wheels' clock: it shows something else than the vehicle.
+  void leave_out(int run, double from_s, double to_s);
   // Whether that time of that run lies more than a few samples and a tenth of a second from all that is left out and
   // from both ends: what happens nearer cannot be told from a sample that errs.
   bool is_well_inside(int run, double time_s) const;
@@ -139,6 +141,16 @@ class JointModel {
   // Thoroughly, against each of these.
   std::vector<CandidateTest> tests(const CandidateColumns& columns,
                                    const std::vector<std::shared_ptr<const Asked>>& against) const;
+  // Twice the log-likelihood that an accepted effect could lend to a candidate of these amplitudes, or to another
+  // accepted one, if it were there and showed only as the other does, wherever both show: (sum |a| |b|)^2 / sum a^2
+  // over the samples, b its own trace, a the other's with all that is in the model projected off. A form that is wrong
+  // by a share, however that comes and goes, lends no more than that share, squared, of this.
+  double can_look_like(const CandidateColumns& candidate, const std::vector<double>& value, int accepted) const;
+  double can_look_like(int other_accepted, int accepted) const;
+  // How much wider than the model says what is left scatters about a moment of a run, once a candidate of these
+  // amplitudes is taken off: within a second of it, but not where it happens. One where that is no more than chance.
+  double scatter_about(int run, double time_s, const CandidateColumns& candidate,
+                       const std::vector<double>& value) const;
   // How fast the log-likelihood grows with the motion of each wheel interval of a run, everything in the model fitted
   // anew: the score of any column is its product with this.
   std::vector<BodyMotion> score_of_motions(int run) const;
@@ -184,7 +196,12 @@ class JointModel {
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
   CandidateTest tested_thoroughly(const Asked& by, CandidateProducts products, const CandidateColumns& c) const;
+  // Of the model's columns, what makes up an accepted effect with all else projected off.
+  Eigen::VectorXd beside_all_else(int accepted) const;
   CandidateProducts products_of(const CandidateColumns& columns) const;
+  // What a candidate of these amplitudes leaves in a run, `of_model` of the model's columns taken off.
+  Eigen::VectorXd beside_model(int run, const CandidateColumns& c, const Eigen::VectorXd& value,
+                               const Eigen::VectorXd& of_model) const;
   // Of the linearisation as it is. Not to be asked for the first time by several threads.
   std::shared_ptr<ScannedProducts> scanned_products() const;
   JointModel() = default;
@@ -198,6 +215,8 @@ class JointModel {
   Standing standing() const;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const InnovationRun& of, const DriveView& view) const;
+  // At the speeds that the accepted effects leave.
+  DriveView as_it_goes(DriveView by_wheels) const;
   // Radii, wheelbase and mounting by their column, 0 to 5.
   static double& nuisance(InnovationModel& model, int c);
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;

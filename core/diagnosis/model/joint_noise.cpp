@@ -85,7 +85,7 @@ void JointModel::fit_noise() {
   NoiseFit of_ways{{noise_size::wheel}, model.noise, kSampledWithin};
   of_ways.add_body();
   of_ways.add_wander(any_heading);
-  of_ways.usual_sideways = 0.0;  // what is usual is what the samples said
+  of_ways.usual_of_body = 0.0;  // what is usual is what the samples said
   model.noise = fitted(thinned, of_ways);
 }
 
@@ -118,4 +118,23 @@ void JointModel::readmit(int run, double time_s) {
     linearised_at_.reset();
   }
 }
+
+void JointModel::leave_out(int run, double from_s, double to_s) {
+  const auto r = static_cast<std::size_t>(run);
+  const auto set_aside = [&](InnovationRun& of) {
+    for (std::size_t i = 0; i < of.truth.size(); ++i) {
+      const double at_s = of.truth[i].time_s - clock_s[r];
+      if (at_s >= from_s && at_s <= to_s) of.set_aside[i] = 1;
+    }
+  };
+  set_aside(runs_[r]);
+  masked_[r] = runs_[r].set_aside;
+  if (runs_[r].as_recorded) {
+    InnovationRun all = *runs_[r].as_recorded;
+    set_aside(all);
+    runs_[r].as_recorded = std::make_shared<const InnovationRun>(std::move(all));
+  }
+  linearised_at_.reset();
+}
+
 }  // namespace odolab

@@ -182,6 +182,11 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
         best.test.inflation = std::max(best.test.inflation, scatter_of(at_rest, best.test.freedom));
     }
   }
+  // A truth that is worse for a while, as of a tracker that loses a marker, tells as much less of what happens then.
+  if (e.local && e.of_one_recording)
+    best.test.inflation = std::max(
+        best.test.inflation,
+        joint.scatter_about(static_cast<int>(shape[0]), shape[1], joint.columns_of(e, shape), best.test.value));
   if (!best.test.value.empty()) best.beyond_counts = beyond_counts(joint, e, best.test);
   best.log_tests = log_tests;
   judge(best);

@@ -20,6 +20,10 @@ constexpr int kMostEffects = 4;
 // looks like it.
 constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03, kLeastShareBesideItsLike = 0.05;
 
+// The same of what could look like the effect (JointModel::can_look_like): a form that is wrong by a fourteenth, and
+// everywhere in the way of the effect.
+constexpr double kLeastShareWhereBothShow = 0.5;  // of the shares above
+
 // Share of the evidence that a right name may lose since its form is not quite the world's.
 constexpr double kFormError = 0.15;
 // Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
@@ -160,8 +164,12 @@ bool is_simpler(const ScoredCandidate& c, const ScoredCandidate& other) {
 // One name after the other, then what each of them is worth beside the others.
 class Selection {
  public:
-  Selection(JointModel& joint, double family_wise_error, const std::vector<const Effect*>& refuted)
-      : joint_(joint), family_wise_error_(family_wise_error), refuted_(refuted) {}
+  Selection(JointModel& joint, double family_wise_error, const std::vector<const Effect*>& refuted,
+            bool asks_what_is_undone)
+      : joint_(joint),
+        family_wise_error_(family_wise_error),
+        refuted_(refuted),
+        asks_what_is_undone_(asks_what_is_undone) {}
 
   Selected run(const Progress& progress) {
     let_clocks_in(joint_);
@@ -169,6 +177,7 @@ class Selection {
     double share = 0.3;
     for (int step = 0; step < kMostEffects; ++step) {
       if (!let_best_in()) break;
+      if (out_.undone) return std::move(out_);
       align_held_clocks();
       find_places_again();
       find_moment_among_what_was_set_aside();
@@ -197,29 +206,46 @@ class Selection {
     return joint_.test(joint_.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
   }
 
+  // What of the evidence of an accepted effect a form which is not quite the world's could make look like another
+  // effect; `can`: as far as the two show in the same samples. What happens in one place or at one moment shares it
+  // with few, and yet is the first that such a form leaves: it is held against all.
+  template <typename Can>
+  double could_lend(std::size_t accepted, const Effect& to, const Can& can) const {
+    const double says = statistic_of(accepted), counts = counted(*joint_.accepted[accepted].effect, says);
+    if (to.local || says <= 0.0) return counts;
+    return std::min(1.0, kLeastShareWhereBothShow * can(static_cast<int>(accepted)) / says) * counts;
+  }
+
   // Of the evidence an accepted effect's part.
   double share_of(std::size_t k, double at_least = 0.0) const {
-    double others = 0.0, own = 0.0;
+    double others = 0.0;
     for (std::size_t j = 0; j < joint_.accepted.size(); ++j)
-      if (j == k)
-        own = statistic_of(j);
-      else
-        others += counted(*joint_.accepted[j].effect, statistic_of(j));
-    own = std::max(own, at_least);
+      if (j != k)
+        others += could_lend(j, *joint_.accepted[k].effect,
+                             [&](int other) { return joint_.can_look_like(static_cast<int>(k), other); });
+    const double own = std::max(statistic_of(k), at_least);
     return own + others > 0.0 ? own / (own + others) : 1.0;
   }
 
-  Standing standing_of(const std::vector<ScoredCandidate>& scored) const {
-    double explained = 0.0;  // under the noise as it is now, not as it was while these were missing
+  // Whether a candidate says more than what is let in could lend it.
+  bool is_no_trace(const ScoredCandidate& c, double distrust) const {
+    if (joint_.accepted.empty()) return true;
+    const CandidateColumns columns = joint_.columns_of(*c.effect, c.test.shape);
+    double lent = 0.0;
     for (std::size_t k = 0; k < joint_.accepted.size(); ++k)
-      explained += counted(*joint_.accepted[k].effect, statistic_of(k));
+      lent +=
+          could_lend(k, *c.effect, [&](int accepted) { return joint_.can_look_like(columns, c.test.value, accepted); });
+    return c.test.statistic > lent * least_share(joint_, *c.effect, c.test, distrust);
+  }
+
+  Standing standing_of(const std::vector<ScoredCandidate>& scored) const {
     const double distrust = joint_.distrust();
     Standing standing;
     for (const ScoredCandidate& c : scored) {
       // Clocks that run apart by another rate in each recording are let in where they are beyond doubt, or not at all.
       const bool is_a_clock_of_each = c.effect->clock_rate && c.effect->of_each_recording;
       if (stands(c, family_wise_error_) && !is_refuted(c) && !of_the_same(joint_, c) && !is_a_clock_of_each &&
-          c.test.statistic > explained * least_share(joint_, *c.effect, c.test, distrust))
+          is_no_trace(c, distrust))
         standing.push_back(&c);
     }
     std::stable_sort(standing.begin(), standing.end(),
@@ -283,6 +309,7 @@ class Selection {
       if (with.gained > kLeastKept &&
           is_material(distrust_of(joint_, *standing[tried], family_wise_error_), joint_.truth_noise_lasts,
                       joint_.gathered_error(), with.model.gathered_error(), standing[tried]->test.value.size())) {
+        if (asks_what_is_undone_) out_.undone = undone(joint_, *standing[tried]);
         joint_ = std::move(with.model);
         return true;
       }
@@ -418,6 +445,7 @@ class Selection {
   JointModel& joint_;
   double family_wise_error_;
   const std::vector<const Effect*>& refuted_;
+  bool asks_what_is_undone_;
   const Effect* clocks_ = nullptr;         // known beyond doubt
   std::vector<ScoredCandidate> with_all_;  // judged against the model that has all that was let in
   Selected out_;
@@ -426,8 +454,8 @@ class Selection {
 }  // namespace
 
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
-                        const std::vector<const Effect*>& refuted) {
-  return Selection(joint, family_wise_error, refuted).run(progress);
+                        const std::vector<const Effect*>& refuted, bool asks_what_is_undone) {
+  return Selection(joint, family_wise_error, refuted, asks_what_is_undone).run(progress);
 }
 
 }  // namespace odolab

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/diagnosis/naming/scored_candidates.h"
+#include "core/diagnosis/naming/undone.h"
 
 namespace odolab {
 
@@ -17,10 +19,13 @@ struct Selected {
   std::vector<std::vector<ScoredCandidate>> coming_back;
   std::vector<ScoredCandidate> first_look;  // all candidates before any was let in
   std::vector<ScoredCandidate> beside_all;  // and beside all that stayed; empty where none did
+  // What was about to be let in as happening at one moment, and is undone soon after: then nothing else is filled in.
+  std::optional<Undone> undone;
 };
-// `refuted`: names that are not to be let in.
+// `refuted`: names that are not to be let in. `asks_what_is_undone`: ends at the first moment that is
+// (Selected::undone).
 Selected select_effects(JointModel& joint, double family_wise_error, const Progress& progress,
-                        const std::vector<const Effect*>& refuted = {});
+                        const std::vector<const Effect*>& refuted = {}, bool asks_what_is_undone = false);
 
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
 constexpr double kDecisive = 200.0;

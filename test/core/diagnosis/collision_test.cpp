@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
@@ -50,6 +51,64 @@ TEST(Collision, HappenedBeforeTheFirstSampleThatSawIt) {
     ASSERT_EQ(at.name, "at_s");
     EXPECT_NEAR(at.value, kPushed_s, 0.338) << seed;  // from one sample to the next
     EXPECT_LT(std::abs(at.value - kPushed_s), 4.0 * at.stderr_value) << seed;
+  }
+}
+
+// What the truth of one run says between two times is moved, and then it is back: a marker was lost.
+Case with_truth_elsewhere(std::uint64_t seed, double from_s, double to_s, double by_m, double by_rad) {
+  CaseSettings settings;
+  settings.duration_s = 40.0;
+  settings.runs = 3;
+  Case c = generated_case(settings, seed);
+  for (Channel& channel : c.recordings[1].channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+      if (c.recordings[1].time_s[i] < from_s || c.recordings[1].time_s[i] > to_s) continue;
+      if (channel.name == "truth_y_m") channel.values[i] += by_m;
+      if (channel.name == "truth_heading_rad") channel.values[i] += by_rad;
+    }
+  return c;
+}
+
+TEST(Collision, IsNoneWhereTheTruthIsBackHalfASecondLater) {
+  for (const std::uint64_t seed : {21u, 22u, 23u, 24u}) {
+    const Case c = with_truth_elsewhere(seed, 20.0, 20.6, 0.01, 0.015);
+    const Diagnosis d = diagnose(c.recordings, {}, c.nominal).value();
+    EXPECT_EQ(d.verdict, Verdict::nothing_missing) << seed;
+    EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
+      return w.find("run_1") != std::string::npos && w.find("the truth is elsewhere") != std::string::npos;
+    })) << seed;
+  }
+}
+
+TEST(Collision, StaysOneWhereTheTruthIsNotBackAgain) {
+  for (const std::uint64_t seed : {21u, 22u, 23u, 24u}) {
+    CaseSettings settings;
+    settings.effect = "collision";
+    settings.duration_s = 40.0;
+    settings.runs = 3;
+    const Case c = generated_case(settings, seed);
+    const Diagnosis d = diagnose(c.recordings, {}, c.nominal).value();
+    ASSERT_FALSE(d.findings.empty()) << seed;
+    EXPECT_EQ(d.findings.front().effect, "collision") << seed;
+  }
+}
+
+// A tracker that sees a marker less for two seconds errs six times as much there, and a push is what such a scatter
+// looks like first.
+TEST(Collision, IsNotMadeOfATruthThatIsWorseForAWhile) {
+  for (const std::uint64_t seed : {31u, 32u, 33u, 34u, 35u, 36u}) {
+    Case c = with_truth_elsewhere(seed, 0.0, -1.0, 0.0, 0.0);
+    Random random(seed);
+    for (Channel& channel : c.recordings[1].channels)
+      for (std::size_t i = 0; i < channel.values.size(); ++i) {
+        if (std::abs(c.recordings[1].time_s[i] - 20.0) > 1.0) continue;
+        if (channel.name == "truth_x_m" || channel.name == "truth_y_m") channel.values[i] += 0.006 * random.normal();
+        if (channel.name == "truth_heading_rad") channel.values[i] += 0.012 * random.normal();
+      }
+    const Diagnosis d = diagnose(c.recordings, {}, c.nominal).value();
+    EXPECT_TRUE(std::none_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+      return f.effect == "collision" || f.effect == "bump";
+    })) << seed;
   }
 }
 

@@ -37,6 +37,28 @@ TEST(PayloadRadiusChange, IsKnownToTheRestThatItCameIn) {
   }
 }
 
+// Only one run lasts until then: what comes in every run from that time on is that run's own.
+TEST(PayloadRadiusChange, IsOfTheOneRunThatLastsSoLong) {
+  constexpr double kLoaded_s = 45.0;
+  Random random(53);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.02);
+  std::vector<Recording> recordings;
+  for (const double lasts_s : {35.0, 70.0, 30.0}) {
+    g.duration_s = lasts_s;
+    g.inject = [](InjectedStep& s) {
+      if (s.time_s > kLoaded_s) s.left_m *= 0.994, s.right_m *= 0.997;
+    };
+    recordings.push_back(generated(g, varied_driving(random, g.duration_s), random));
+    recordings.back().name = "run_" + std::to_string(recordings.size());
+  }
+  const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "payload_radius_change");
+  EXPECT_EQ(d.findings[0].where.recording, "run_2");
+  ASSERT_EQ(d.findings[0].where.time_s.size(), 1u);
+  EXPECT_NEAR(0.5 * (d.findings[0].where.time_s[0].first + d.findings[0].where.time_s[0].second), kLoaded_s, 0.5);
+}
+
 // A gripper that takes up its load half a minute into every run, whose stamps go on from run to run.
 TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegin) {
   constexpr double kLoaded_s = 20.0, kEpoch_s = 1.7e9, kApart_s = 600.0;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "test/support/drive_generator.h"
@@ -154,6 +155,36 @@ TEST(Checked, TakesAnEncoderOfTwelveCountsForSoundWhereOneOfThemLasts) {
   Vehicle vehicle;
   vehicle.kind = g.drive;
   EXPECT_TRUE(checked(r, vehicle).faults.empty());
+}
+
+// Brakes to rest at 9 s and stands to the end at 10 s, while the truth's clock runs half a second late.
+TEST(Checked, TakesAWheelThatIsBrakedForSoundWhereALateTruthRunsOn) {
+  test::GeneratorSettings g;
+  g.duration_s = 10.0;
+  g.truth.time_offset_s = 0.5;
+  g.truth_position_noise_m = g.truth_heading_noise_rad = 0.001;
+  Random random(5);
+  const Recording r = generated(
+      g,
+      [](double t) {
+        const double pace = 6.0 * std::clamp(9.0 - t, 0.0, 1.0);
+        return test::WheelSpeedsAt{pace, pace};
+      },
+      random);
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+TEST(Checked, TakesAWheelThatSetsOffLateForSound) {
+  test::GeneratorSettings g;
+  g.duration_s = 10.0;
+  Random random(6);
+  const Recording r = generated(
+      g,
+      [](double t) {
+        return test::WheelSpeedsAt{3.0, t < 1.4 ? 0.0 : t < 1.42 ? 3.0 : 0.3};  // jerks, and then creeps
+      },
+      random);
+  EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
 }
 
 }  // namespace
