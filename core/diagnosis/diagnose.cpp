@@ -74,6 +74,19 @@ bool is_beyond_doubt(const ScoredCandidate& evidence) {
 
 bool is_known_clock(const Finding& f) { return f.effect == "clock_rate" && 2.0 * f.log_likelihood_gain > kDecisive; }
 
+// Whether calibration by itself has the tracked point elsewhere than the vehicle's file, beyond chance.
+bool calibration_moved_the_mounting(const LeastSquaresCalibration& fit, const Vehicle& nominal) {
+  const Pose& then = nominal.truth.axle_T_tracked;
+  const std::pair<const char*, double> of_file[] = {{"truth_mounting.x_m", then.x_m},
+                                                    {"truth_mounting.y_m", then.y_m},
+                                                    {"truth_mounting.heading_rad", then.heading_rad}};
+  return std::any_of(std::begin(of_file), std::end(of_file), [&](const auto& of) {
+    return std::any_of(fit.parameters.begin(), fit.parameters.end(), [&](const ParameterEstimate& p) {
+      return p.name == of.first && p.determined && std::abs(p.value - of.second) > kSigmasOfBias * p.stderr_value;
+    });
+  });
+}
+
 // The model with what is beyond doubt; unset where nothing is.
 std::optional<JointModel> beyond_doubt(const JointModel& joint, const std::vector<ScoredCandidate>& evidence) {
   JointModel known = joint;
@@ -277,7 +290,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     // Where the point sits and how the clocks go as it is without the names that did not suffice.
     JointModel without = known.value_or(calibrated);
     const Intervals of_it = refined(without, std::vector<double>(without.accepted.size(), 1.0));
-    add_mounting(found, without, of_it, d.calibration_alone, nominal);
+    if (calibration_moved_the_mounting(d.calibration_alone, nominal))
+      add_mounting(found, without, of_it, d.calibration_alone, nominal);
     add_clock(found, without, of_it, d.calibration_alone, nominal, ready->from_commands);
     found.insert(found.begin(), unknown);
     d.verdict = Verdict::unknown_effect;

@@ -78,6 +78,15 @@ double distrust_of(const JointModel& joint, const ScoredCandidate& c, double fam
   return doubted.p_value < family_wise_error ? 0.0 : distrust;
 }
 
+// A size at the end of what any vehicle has is none: it stands for something else.
+bool is_at_its_bound(const AcceptedEffect& a) {
+  for (std::size_t k = 0; k < a.value.size(); ++k) {
+    const Effect::Amplitude& of = a.effect->amplitudes[k];
+    if (a.value[k] != 0.0 && (a.value[k] <= of.low || a.value[k] >= of.high)) return true;
+  }
+  return false;
+}
+
 // What was looked for in more places and at more times than another must say so much more, in twice the log-likelihood.
 double more_by_tries(const ScoredCandidate& c, const ScoredCandidate& other) {
   return 2.0 * std::max(0.0, c.log_tests - other.log_tests);
@@ -212,7 +221,7 @@ class Selection {
   template <typename Can>
   double could_lend(std::size_t accepted, const Effect& to, const Can& can) const {
     const double says = statistic_of(accepted), counts = counted(*joint_.accepted[accepted].effect, says);
-    if (to.local || says <= 0.0) return counts;
+    if (to.local || joint_.accepted[accepted].effect->of_the_truth || says <= 0.0) return counts;
     return std::min(1.0, kLeastShareWhereBothShow * can(static_cast<int>(accepted)) / says) * counts;
   }
 
@@ -306,7 +315,7 @@ class Selection {
           std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
       Fitted with = known != fitted.end() ? *known : fitted_with(standing[tried]);
       with.model.fit_noise_and_all();
-      if (with.gained > kLeastKept &&
+      if (with.gained > kLeastKept && !is_at_its_bound(with.model.accepted.back()) &&
           is_material(distrust_of(joint_, *standing[tried], family_wise_error_), joint_.truth_noise_lasts,
                       joint_.gathered_error(), with.model.gathered_error(), standing[tried]->test.value.size())) {
         if (asks_what_is_undone_) out_.undone = undone(joint_, *standing[tried]);
@@ -379,7 +388,9 @@ class Selection {
       for (const ScoredCandidate& c : instead)
         if (c.effect == joint_.accepted[k].effect) own = c;
       const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
-      if ((!own.effect || !stands(own, family_wise_error_) || share_of(k) < least) && !keep_needed(k, least, own)) {
+      const bool stands_here =
+          own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) && share_of(k) >= least;
+      if (!stands_here && !keep_needed(k, least, own)) {
         with_all_.clear();
         out_.evidence.clear();
         out_.alternatives.clear();
@@ -409,7 +420,7 @@ class Selection {
     JointModel without = joint_;
     const double lost = joint_.lost_without(static_cast<int>(k), &without);
     without.fit_noise_and_all();
-    if (lost <= kNeeded || share_of(k, a.is_held ? lost : 0.0) <= least ||
+    if (lost <= kNeeded || is_at_its_bound(a) || share_of(k, a.is_held ? lost : 0.0) <= least ||
         !lowers(without.gathered_error(), joint_.gathered_error(), kMaterial)) {
       joint_ = without;
       return false;
