@@ -217,7 +217,8 @@ class Selection {
 
   // What of the evidence of an accepted effect a form which is not quite the world's could make look like another
   // effect; `can`: as far as the two show in the same samples. What happens in one place or at one moment shares it
-  // with few, and yet is the first that such a form leaves: it is held against all.
+  // with few, and yet is the first that such a form leaves: it is held against all. So is what stands beside a truth
+  // that is smoothed, of which kernels differ beyond their second moment.
   template <typename Can>
   double could_lend(std::size_t accepted, const Effect& to, const Can& can) const {
     const double says = statistic_of(accepted), counts = counted(*joint_.accepted[accepted].effect, says);
