@@ -4,15 +4,16 @@
 
 namespace odolab {
 
-std::vector<char> outlying(const InnovationRun& run, const InnovationModel& model) {
-  constexpr std::size_t kFew = 4;
+std::vector<Refused> refused_in_a_row(const InnovationRun& run, const InnovationModel& model, int contradiction) {
   constexpr double kBackOnItsWay = 0.25, kOfTheJump = 0.05;
   FilterOptions options;
   options.derivatives = false;
   options.gate = kGate;
+  options.contradiction = contradiction;
   std::vector<double> squared(run.truth.size(), kGate);
   options.on_innovation = [&](const Innovation& i) { squared[static_cast<std::size_t>(i.truth_index)] = i.squared; };
-  std::vector<char> aside = filtered(run, summed_up(run, model), model, options).set_aside;
+  const std::vector<char> aside = filtered(run, summed_up(run, model), model, options).set_aside;
+  std::vector<Refused> refused;
   for (std::size_t i = 0; i < aside.size();) {
     std::size_t j = i;
     double jump = 1e300;  // the least of those refused
@@ -23,11 +24,19 @@ std::vector<char> outlying(const InnovationRun& run, const InnovationModel& mode
     }
     const bool comes_back =
         j < aside.size() && !begins_anew && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
-    const bool is_outlying = j - i <= kFew || comes_back;
-    std::fill(aside.begin() + static_cast<std::ptrdiff_t>(i), aside.begin() + static_cast<std::ptrdiff_t>(j),
-              is_outlying ? 1 : 0);
+    if (j > i) refused.push_back({i, j, comes_back});
     i = std::max(j, i + 1);
   }
+  return refused;
+}
+
+std::vector<char> outlying(const InnovationRun& run, const InnovationModel& model) {
+  constexpr std::size_t kFew = 4;
+  std::vector<char> aside(run.truth.size(), 0);
+  for (const Refused& r : refused_in_a_row(run, model, kContradiction))
+    if (r.end - r.first <= kFew || r.comes_back)
+      std::fill(aside.begin() + static_cast<std::ptrdiff_t>(r.first),
+                aside.begin() + static_cast<std::ptrdiff_t>(r.end), 1);
   return aside;
 }
 

@@ -220,8 +220,8 @@ class Selection {
   // with few, and yet is the first that such a form leaves: it is held against all. So is what stands beside a truth
   // that is smoothed, of which kernels differ beyond their second moment.
   template <typename Can>
-  double could_lend(std::size_t accepted, const Effect& to, const Can& can) const {
-    const double says = statistic_of(accepted), counts = counted(*joint_.accepted[accepted].effect, says);
+  double could_lend(std::size_t accepted, double says, const Effect& to, const Can& can) const {
+    const double counts = counted(*joint_.accepted[accepted].effect, says);
     if (to.local || joint_.accepted[accepted].effect->of_the_truth || says <= 0.0) return counts;
     return std::min(1.0, kLeastShareWhereBothShow * can(static_cast<int>(accepted)) / says) * counts;
   }
@@ -231,31 +231,33 @@ class Selection {
     double others = 0.0;
     for (std::size_t j = 0; j < joint_.accepted.size(); ++j)
       if (j != k)
-        others += could_lend(j, *joint_.accepted[k].effect,
+        others += could_lend(j, statistic_of(j), *joint_.accepted[k].effect,
                              [&](int other) { return joint_.can_look_like(static_cast<int>(k), other); });
     const double own = std::max(statistic_of(k), at_least);
     return own + others > 0.0 ? own / (own + others) : 1.0;
   }
 
-  // Whether a candidate says more than what is let in could lend it.
-  bool is_no_trace(const ScoredCandidate& c, double distrust) const {
+  // Whether a candidate says more than what is let in, of which each `says` so much, could lend it.
+  bool is_no_trace(const ScoredCandidate& c, const std::vector<double>& says, double distrust) const {
     if (joint_.accepted.empty()) return true;
     const CandidateColumns columns = joint_.columns_of(*c.effect, c.test.shape);
     double lent = 0.0;
     for (std::size_t k = 0; k < joint_.accepted.size(); ++k)
-      lent +=
-          could_lend(k, *c.effect, [&](int accepted) { return joint_.can_look_like(columns, c.test.value, accepted); });
+      lent += could_lend(k, says[k], *c.effect,
+                         [&](int accepted) { return joint_.can_look_like(columns, c.test.value, accepted); });
     return c.test.statistic > lent * least_share(joint_, *c.effect, c.test, distrust);
   }
 
   Standing standing_of(const std::vector<ScoredCandidate>& scored) const {
     const double distrust = joint_.distrust();
+    std::vector<double> says;  // under the noise as it is now, not as it was while these were missing
+    for (std::size_t k = 0; k < joint_.accepted.size(); ++k) says.push_back(statistic_of(k));
     Standing standing;
     for (const ScoredCandidate& c : scored) {
       // Clocks that run apart by another rate in each recording are let in where they are beyond doubt, or not at all.
       const bool is_a_clock_of_each = c.effect->clock_rate && c.effect->of_each_recording;
       if (stands(c, family_wise_error_) && !is_refuted(c) && !of_the_same(joint_, c) && !is_a_clock_of_each &&
-          is_no_trace(c, distrust))
+          is_no_trace(c, says, distrust))
         standing.push_back(&c);
     }
     std::stable_sort(standing.begin(), standing.end(),
