@@ -10,7 +10,7 @@ namespace odolab {
 namespace {
 
 JointModel with_instead(JointModel joint, std::size_t name, const ScoredCandidate& other) {
-  joint.accepted[name] = {other.effect, other.test.shape, std::vector<double>(other.test.value.size(), 0.0), {}};
+  joint.accepted[name] = {other.effect, other.test.shape, std::vector<double>(other.test.value.size(), 0.0)};
   joint.fit(3);
   joint.fit_noise_and_all();
   return joint;

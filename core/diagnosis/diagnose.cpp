@@ -118,6 +118,16 @@ Finding unknown_of(const Unnamed& more, const JointModel& joint, const std::vect
   return unknown;
 }
 
+// What comes nearest to it of the catalogue, where no name was let in: what lasts, and stands by the likelihood alone.
+void add_nearest(Finding& unknown, const std::vector<ScoredCandidate>& first_look, double family_wise_error) {
+  for (const ScoredCandidate& c : first_look)
+    if (!c.effect->local && c.beyond_counts && c.p_value < family_wise_error && c.test.cross_validated > 0.0) {
+      unknown.alternatives.push_back(
+          {c.effect->name, c.effect->component, 0.5 * c.test.judged(), c.effect->told_apart_by});
+      return;
+    }
+}
+
 // Names that are not told apart, for the drive that would. Beaten in the form that fits best, a name would come back in
 // another.
 std::vector<Confusion> confusions(const JointModel& joint, const Selected& selected) {
@@ -262,6 +272,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
+  for (const Adequacy::Ripple& r : adequacy.ripples)
+    d.warnings.push_back("the " + r.channel.substr(0, r.channel.find(" per metre")) +
+                         text(" comes and goes %.3g times a turn, by ", r.times_a_turn) +
+                         text("%.2g %% of it, as a gear before it makes it do; it adds up to nothing over any way",
+                              100.0 * r.amplitude));
   d.something_sways = adequacy.sway.has_value();
   if (adequacy.sway)
     d.warnings.push_back(
@@ -285,7 +300,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const std::optional<JointModel> known = adequacy.unnamed ? beyond_doubt(joint, selected.evidence) : joint;
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
-    const Finding unknown = unknown_of(*more, joint, selected.evidence);
+    Finding unknown = unknown_of(*more, joint, selected.evidence);
+    if (unknown.alternatives.empty()) add_nearest(unknown, selected.first_look, options.family_wise_error);
     std::erase_if(found, [&](const Finding& f) { return !is_known_clock(f); });
     // Where the point sits and how the clocks go as it is without the names that did not suffice.
     JointModel without = known.value_or(calibrated);

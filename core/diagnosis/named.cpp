@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/chi_square.h"
 #include "core/diagnosis/chosen_by_unseen.h"
 
 namespace odolab {
@@ -10,13 +11,12 @@ namespace odolab {
 namespace {
 
 // Well away from nothing and, where it is one moment, from all that is left out and from both ends of its recording.
-bool stands_out(const JointModel& joint, const AcceptedEffect& a) {
-  constexpr double kLeastSigmas = 3.0;
+bool stands_out(const JointModel& joint, const Intervals& intervals, std::size_t k) {
+  constexpr double kByChance = 0.0027;  // of three standard errors
+  const AcceptedEffect& a = joint.accepted[k];
   if (a.effect->local && a.effect->of_one_recording && !joint.is_well_inside(static_cast<int>(a.shape[0]), a.shape[1]))
     return false;
-  for (std::size_t k = 0; k < a.value.size(); ++k)
-    if (std::abs(a.value[k]) > kLeastSigmas * a.stderr_value[k]) return true;
-  return false;
+  return chi_square_tail(intervals.from_nothing[k], static_cast<int>(a.value.size())) < kByChance;
 }
 
 std::vector<double> inflations_of(const Selected& selected) {
@@ -37,8 +37,8 @@ std::size_t to_take_out(const JointModel& joint, const Selected& selected, std::
     without.fit_noise_and_all();
     std::vector<double> inflations = inflations_of(selected);
     inflations.erase(inflations.begin() + static_cast<std::ptrdiff_t>(j));
-    refined(without, inflations);
-    if (stands_out(without, without.accepted[j < k ? k - 1 : k])) return j;
+    const Intervals intervals = refined(without, inflations);
+    if (stands_out(without, intervals, j < k ? k - 1 : k)) return j;
   }
   return k;
 }
@@ -147,7 +147,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   // it was not fitted to refute.
   const auto untenable = [&]() -> std::optional<std::size_t> {
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
-      if (!stands_out(joint, joint.accepted[k])) return to_take_out(joint, selected, k);
+      if (!stands_out(joint, now.intervals, k)) return to_take_out(joint, selected, k);
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);
     now.by_joint = joint.accepted.empty() ? now.by_calibrated : predictor.of(joint, joint.model.noise);
     if (const auto k = refuted(predictor, joint, now.by_joint, now.by_calibrated)) {

@@ -161,7 +161,7 @@ void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
   for (std::size_t r = 0; r < train.size(); ++r) d.truth_clock_s.emplace_back(train[r].name, after.clock_s[r]);
   const auto by_term = [&](const Effect& term) {
     JointModel m = calibrated;
-    m.accepted.push_back({&term, {}, std::vector<double>(term.amplitudes.size(), 0.0), {}});
+    m.accepted.push_back({&term, {}, std::vector<double>(term.amplitudes.size(), 0.0)});
     m.fit(2);
     return predictor.of(m, noise);
   };

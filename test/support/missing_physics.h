@@ -231,6 +231,13 @@ inline std::function<void(InjectedStep&)> injected(const std::string& effect, do
       s.left_m *= 1.0 + by * std::sin(2.0 * kPi * left_x_m / 1.5);
       s.right_m *= 1.0 + by * std::sin(2.0 * kPi * right_x_m / 1.5);
     };
+  if (effect == "gear" || effect == "gear_and_push") {  // of the left wheel: two and a half times a turn
+    const auto pushed = injected(effect == "gear" ? "" : "collision", 0.3 * size, drive, run, duration_s, random);
+    return [=](InjectedStep& s) {
+      s.left_m *= 1.0 + 0.007 * size * std::sin(2.5 * s.left_rad + phase);
+      if (pushed) pushed(s);
+    };
+  }
   if (effect == "gusts")  // carried to and fro, once in six seconds
     return [=](InjectedStep& s) {
       if (speed(s) != 0.0) s.room_m.y_m += 0.002 * size * std::sin(2.0 * kPi * s.time_s / 6.0) * s.dt_s;

@@ -25,7 +25,7 @@ constexpr std::size_t kMostTried = 4;
 
 // Lets a group of generic terms in; twice what the log-likelihood gains by it.
 double let_in(JointModel& joint, const GenericTest& group) {
-  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0), {}});
+  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0)});
   return joint.fit(2);
 }
 
@@ -190,7 +190,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
   const JointModel bare = without_names(joint);
   JointModel named = bare;
   for (const AcceptedEffect& a : joint.accepted)
-    if (a.acts_on_motion()) named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0), {}});
+    if (a.acts_on_motion()) named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
   double looked_for = 0.0;
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
   const double by_names = std::max(0.0, named.fit(3) - looked_for), fair = beyond_chance(evidence);
@@ -228,6 +228,24 @@ std::optional<Adequacy::Sway> sway_of(const std::vector<GenericTest>& generic, d
   return Adequacy::Sway{clearest->variable, clearest->sway->to_either_side_m};
 }
 
+// Takes out what goes with a wheel's turns and makes dead reckoning no better.
+std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::vector<GenericTest>& generic,
+                                                double error) {
+  std::vector<Adequacy::Ripple> ripples;
+  std::erase_if(generic, [&](const GenericTest& g) {
+    if (g.times_a_turn == 0.0 || g.p_value >= error) return false;
+    JointModel with = joint;
+    let_in(with, g);
+    if (is_material(1.0, joint.truth_noise_lasts, joint.gathered_error(), with.gathered_error(), g.test.value.size()))
+      return false;
+    double square = 0.0;
+    for (double v : g.test.value) square += 2.0 * v * v / static_cast<double>(g.test.value.size());
+    ripples.push_back({g.channel, g.times_a_turn, std::sqrt(square)});
+    return true;
+  });
+  return ripples;
+}
+
 std::ptrdiff_t names_of_physics(const JointModel& joint) {
   return std::count_if(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
 }
@@ -246,7 +264,9 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
     if (e.effect->acts_on_motion()) of_vehicle.push_back(e);
   }
-  if (const Left left = what_is_left(joint, out.generic, error); left.group) {
+  std::vector<GenericTest> left_by_names = out.generic;
+  if (names_of_physics(joint) > 0) out.ripples = ripples_taken_out(joint, left_by_names, error);
+  if (const Left left = what_is_left(joint, left_by_names, error); left.group) {
     const CandidateTest& test = left.group->test;
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
     if (!is_worth_saying(joint, calibrated, *left.group))

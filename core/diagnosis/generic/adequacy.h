@@ -22,6 +22,13 @@ struct Adequacy {
     double to_either_side_m = 0.0;
   };
   std::optional<Sway> sway;
+  // What a wheel does evenly often a turn beside names that stand, as a gear before it makes it do: of no way does it
+  // add up to anything.
+  struct Ripple {
+    std::string channel;
+    double times_a_turn = 0.0, amplitude = 0.0;  // of the way
+  };
+  std::vector<Ripple> ripples;
 };
 
 // Of all recordings that there are; `calibrated`: without any name.

@@ -40,6 +40,7 @@ struct GenericTest {
     double to_either_side_m = 0.0, p_value = 1.0;
   };
   std::optional<Sway> sway;
+  double times_a_turn = 0.0;  // of a wheel, where it goes with its angle: a cosine and a sine for each recording
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is

@@ -37,6 +37,7 @@ std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double look
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const Wheel wheel = i % 2 == 0 ? Wheel::left : Wheel::right;
     const int times_a_turn = i < 2 ? 2 : 3;
+    t.times_a_turn = times_a_turn;
     auto term = std::make_shared<Effect>();
     term->name = t.variable = std::string("its angle, ") + (times_a_turn == 2 ? "twice" : "three times") + " a turn";
     term->component = t.channel =

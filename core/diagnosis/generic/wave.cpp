@@ -6,6 +6,7 @@ namespace odolab {
 
 double coordinate(Along along, const DriveView& view, const EffectStep& s) {
   const DifferentialDrive& d = view.drive;
+  if (is_of_a_wheel(along)) return (along == Along::left_wheel ? s.left_rad : s.right_rad) / (2.0 * kPi);
   const double left_m = d.wheel_radius_left_m * s.left_rad, right_m = d.wheel_radius_right_m * s.right_rad;
   return along == Along::time  ? s.since_start_s
          : along == Along::way ? 0.5 * (left_m + right_m)
@@ -15,6 +16,11 @@ double coordinate(Along along, const DriveView& view, const EffectStep& s) {
 // What comes and goes with the way is a place on that axis: driven back, it is undone.
 Unit unit_of(const EffectStep& s, double wheelbase_m, int channel, Along along) {
   Unit u;
+  if (is_of_a_wheel(along)) {
+    const Wheel wheel = along == Along::left_wheel ? Wheel::left : Wheel::right;
+    u.of[0] = by_wheel(wheel, wheel == Wheel::left ? s.left_m : s.right_m, wheelbase_m);
+    return u;
+  }
   if (along == Along::way) {
     BodyMotion& m = u.of[0];
     (channel == 0 ? m.forward_m : channel == 1 ? m.sideways_m : m.turn_rad) = s.forward_m();
@@ -41,6 +47,10 @@ double product(const BodyMotion& a, const BodyMotion& b) {
 // What one step adds to each slot.
 void add_scores(const DriveView& view, const EffectStep& s, const BodyMotion& of_step, Along along, double* score) {
   const double b = view.drive.wheelbase_m;
+  if (is_of_a_wheel(along)) {
+    score[of_wheel] += product(unit_of(s, b, kUnderWheels, along).of[0], of_step);
+    return;
+  }
   for (int channel = 0; channel < kChannelsOfAll; ++channel)
     score[channel] += product(unit_of(s, b, channel, along).of[0], of_step);
   if (along == Along::way || along == Along::turning) return;

@@ -8,8 +8,10 @@
 
 namespace odolab {
 
-// What a wave goes along: what has passed, been driven or turned since the run began, or the floor.
-enum class Along { time, way, turning, floor };
+// What a wave goes along: what has passed, been driven or turned since the run began, how often a wheel has turned, or
+// the floor.
+enum class Along { time, way, turning, left_wheel, right_wheel, floor };
+inline bool is_of_a_wheel(Along along) { return along == Along::left_wheel || along == Along::right_wheel; }
 double coordinate(Along along, const DriveView& view, const EffectStep& step);  // of all but the floor
 
 // The first channels are those of all generic groups but for the turn by itself.
@@ -17,8 +19,9 @@ constexpr int kChannelsOfAll = kTurnOfItself;
 
 // What a wave modulates: the generic channels; what carries the vehicle across the floor, for each metre of way or, in
 // time, for each second that it moves; in time, the pace of the clock, which all motion has in common, and the turn
-// by itself, as a wheelbase does that is wider for a while; and, of the floor, how far each wheel rolls where it stands
-// itself: along one ripple of a floor both do alike, across it the one and then the other.
+// by itself, as a wheelbase does that is wider for a while; and how far a wheel rolls: of its own turns, and of the
+// floor each wheel where it stands itself: along one ripple of a floor both do alike, across it the one and then the
+// other.
 constexpr int kAcross = kChannelsOfAll, kPace = kChannelsOfAll + 1, kTurning = kChannelsOfAll + 2,
               kUnderWheels = kChannelsOfAll + 3, kWaveChannels = kChannelsOfAll + 4;
 

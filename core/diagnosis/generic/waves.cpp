@@ -26,7 +26,7 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
       const Unit u = unit_of(s, view.drive.wheelbase_m, channel, wave.along);
-      if (channel == kUnderWheels) {
+      if (wave.on_the_floor() && channel == kUnderWheels) {
         for (const Wheel wheel : {Wheel::left, Wheel::right}) {
           const BodyMotion m = by_wheel(wheel, way_of(s, wheel), view.drive.wheelbase_m);
           const double at = 2.0 * kPi * dot(wave.per_m, place_of_wheel(s, view.drive.wheelbase_m, wheel));
@@ -55,7 +55,9 @@ std::string name_of(const Wave& wave) {
     std::snprintf(text, sizeof text, "place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
                   std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
   for (const Axis& axis : kAxes)
-    if (axis.along == wave.along)
+    if (is_of_a_wheel(wave.along))
+      std::snprintf(text, sizeof text, "its angle, %.3g times a turn", wave.per_unit);
+    else if (axis.along == wave.along)
       std::snprintf(text, sizeof text, "%s, in waves of %.2g %s", axis.name, 1.0 / wave.per_unit, axis.unit);
   return text;
 }
@@ -85,7 +87,8 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     int channel;
   };
   std::vector<Chosen> chosen;
-  for (const Along along : {Along::time, Along::way, Along::turning, Along::floor})
+  for (const Along along :
+       {Along::time, Along::way, Along::turning, Along::left_wheel, Along::right_wheel, Along::floor})
     for (int band = 0; band < kWaveBands; ++band)
       for (int channel = 0; channel < kWaveChannels; ++channel) {
         double best = 0.0;
@@ -99,6 +102,7 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
   for (const Heard& h : heard)
     looked_at += h.wave.along == Along::time    ? kWaveChannels
                  : h.wave.along == Along::floor ? kChannelsOfAll + 2
+                 : is_of_a_wheel(h.wave.along)  ? 1
                                                 : kChannelsOfAll;
   std::vector<GenericTest> tests(chosen.size());
   parallel_for(static_cast<int>(chosen.size()), [&](int i) {
@@ -106,12 +110,15 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     const Wave wave = between_neighbours(*chosen[static_cast<std::size_t>(i)].wave, channel, views, scores);
     t.variable = name_of(wave);
-    t.channel = channel == kPace          ? "pace of its clock [1]"
-                : channel == kUnderWheels ? "way of the wheel that is there, per metre [1]"
-                : channel == kTurning     ? name_of_channel(kTurnOfItself)
+    t.channel = wave.along == Along::left_wheel    ? "way of the left wheel per metre [1]"
+                : wave.along == Along::right_wheel ? "way of the right wheel per metre [1]"
+                : channel == kPace                 ? "pace of its clock [1]"
+                : channel == kUnderWheels          ? "way of the wheel that is there, per metre [1]"
+                : channel == kTurning              ? name_of_channel(kTurnOfItself)
                 : channel == kAcross
                     ? wave.in_time() ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
+    if (is_of_a_wheel(wave.along)) t.times_a_turn = wave.per_unit;
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     ask(t, asked, term, looked_at);
     leave_to_counting(t, asked.joint);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <span>
 #include <unsupported/Eigen/FFT>
 
 namespace odolab {
@@ -13,6 +14,12 @@ namespace {
 constexpr Modulated kInTime[] = {
     {0, 0}, {1, 1}, {2, 2}, {across_s, kAcross}, {across_s + 1, kAcross}, {of_pace, kPace}, {of_turning, kTurning}};
 constexpr Modulated kOnTheWay[] = {{0, 0}, {1, 1}, {2, 2}};
+constexpr Modulated kOfAWheel[] = {{of_wheel, kUnderWheels}};
+
+std::span<const Modulated> modulated_by(Along along) {
+  if (is_of_a_wheel(along)) return kOfAWheel;
+  return along == Along::time ? std::span<const Modulated>(kInTime) : std::span<const Modulated>(kOnTheWay);
+}
 
 // A length of no large prime factors, which transforms quickly.
 int next_smooth(double least) {
@@ -55,9 +62,7 @@ std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& v
                         kWaveBands - 1);
     heard.push_back({w, {}});
   }
-  const bool in_time = axis.along == Along::time;
-  const Modulated* const begin = in_time ? std::begin(kInTime) : std::begin(kOnTheWay);
-  const Modulated* const end = in_time ? std::end(kInTime) : std::end(kOnTheWay);
+  const std::span<const Modulated> modulated = modulated_by(axis.along);
   Eigen::FFT<double> fft;
   fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
   for (std::size_t r = 0; r < views.size(); ++r) {
@@ -67,13 +72,13 @@ std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& v
       double score[kSlots] = {};
       add_scores(views[r], s, scores[r][i], axis.along, score);
       const auto cell = static_cast<std::size_t>((coordinate(axis.along, views[r], s) - low[r]) / axis.cell);
-      for (const Modulated* m = begin; m != end; ++m) cells[static_cast<std::size_t>(m->slot)][cell] += score[m->slot];
+      for (const Modulated& m : modulated) cells[static_cast<std::size_t>(m.slot)][cell] += score[m.slot];
     }
     std::vector<std::complex<double>> transformed;
-    for (const Modulated* m = begin; m != end; ++m) {
-      fft.fwd(transformed, cells[static_cast<std::size_t>(m->slot)]);
+    for (const Modulated& m : modulated) {
+      fft.fwd(transformed, cells[static_cast<std::size_t>(m.slot)]);
       for (std::size_t k = 0; k < heard.size(); ++k)
-        heard[k].power[static_cast<std::size_t>(m->channel)] +=
+        heard[k].power[static_cast<std::size_t>(m.channel)] +=
             std::norm(transformed[k + static_cast<std::size_t>(first)]);
     }
   }

@@ -93,12 +93,6 @@ double JointModel::fit(int iterations) {
     }
     gained += gone.dot(score + zr_);
   }
-  const MatrixXd cov = covariance();
-  int k = first_amplitude();
-  for (AcceptedEffect& a : accepted) {
-    a.stderr_value.resize(a.value.size());
-    for (std::size_t j = 0; j < a.value.size(); ++j, ++k) a.stderr_value[j] = std::sqrt(std::max(0.0, cov(k, k)));
-  }
   return gained;
 }
 

@@ -16,7 +16,7 @@ namespace odolab {
 
 struct AcceptedEffect {
   const Effect* effect = nullptr;
-  std::vector<double> shape, value, stderr_value;
+  std::vector<double> shape, value;
   bool is_held = false;  // found by the likelihood itself: fits leave it where it is
   bool acts_on_motion() const { return effect->acts_on_motion(); }
 };

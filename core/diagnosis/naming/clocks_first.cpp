@@ -78,7 +78,7 @@ void align(JointModel& joint, const std::vector<std::optional<AlignedClock>>& mo
 // With those rates let in, and clocks held where they are likeliest.
 JointModel held(JointModel joint, const Effect* rates, const std::vector<double>& value,
                 const std::vector<std::optional<AlignedClock>>& moments) {
-  if (rates) joint.accepted.push_back({rates, {}, value, {}});
+  if (rates) joint.accepted.push_back({rates, {}, value});
   align(joint, moments);
   joint.clocks_are_held = true;
   joint.fit(2);

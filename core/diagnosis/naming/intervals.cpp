@@ -151,8 +151,10 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
       }
     }
     // Whether there is a patch at all was asked of all places and sizes together.
-    for (int k = 0; k < n; ++k)
-      joint.accepted[a].stderr_value[k] = std::sqrt(is_patch ? at_these_shapes(first + k, first + k) : block(k, k));
+    MatrixXd known = block.topLeftCorner(n, n);
+    if (is_patch) known = at_these_shapes.block(first, first, n, n);
+    const VectorXd value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(), n);
+    out.from_nothing.push_back(value.dot(known.ldlt().solve(value)));
     for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2);
     out.of_effect.push_back(block);
   }

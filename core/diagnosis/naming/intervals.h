@@ -11,6 +11,7 @@ namespace odolab {
 struct Intervals {
   Eigen::MatrixXd columns;                 // covariance of the model's columns: nuisances, clocks, amplitudes
   std::vector<Eigen::MatrixXd> of_effect;  // covariance of each accepted effect's amplitudes, then of its free shapes
+  std::vector<double> from_nothing;        // how far its amplitudes together are from zero: chi-square of so many
 
   double stderr_of_nuisance(int c) const;
   SharedClock shared_clock(const JointModel& joint) const;

@@ -193,6 +193,7 @@ class Selection {
       if (!goes_on(progress, share += 0.08)) return std::move(out_);
       exchange_names();
     }
+    if (asks_what_is_undone_ && with_all_.empty() && finds_what_is_undone()) return std::move(out_);
     drop_what_does_not_stand();
     out_.beside_all = std::move(with_all_);
     return std::move(out_);
@@ -327,6 +328,14 @@ class Selection {
       }
     }
     with_all_ = std::move(scored);
+    return false;
+  }
+
+  // Where all names that may be let in are taken, moments that would still stand are asked whether they are undone.
+  bool finds_what_is_undone() {
+    with_all_ = scored_candidates(joint_);
+    for (const ScoredCandidate* c : standing_of(with_all_))
+      if ((out_.undone = undone(joint_, *c))) return true;
     return false;
   }
 

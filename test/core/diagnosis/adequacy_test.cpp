@@ -53,6 +53,30 @@ TEST(Adequacy, CallsATruthSeenThroughALensUnknownAndSaysThatItsPositionsAreBent)
   EXPECT_NEAR(cubic, there, 0.1 * there);  // 2 % at the rim, so much is the place itself off
 }
 
+bool says_that_it_comes_and_goes(const Diagnosis& d) {
+  return std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
+    return w.find("way of the left wheel comes and goes 2.5 times a turn") != std::string::npos;
+  });
+}
+
+TEST(Adequacy, LeavesANameItsPlaceBesideAGearThatAddsUpToNothing) {
+  const test::Case c = case_of("gear_and_push", 1.5, 3, 4);
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::found);
+  EXPECT_EQ(d->findings.front().effect, "collision");
+  EXPECT_TRUE(says_that_it_comes_and_goes(*d));
+}
+
+TEST(Adequacy, CallsAGearUnknownWhereNoNameStands) {
+  const test::Case c = case_of("gear", 3.0, 3, 4);
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d->findings.front().where.regime,
+            "way of the left wheel per metre [1] that depends on its angle, 2.5 times a turn");
+}
+
 // Curves of six seconds to either side, one in three in reverse, with rests of a second and a half between.
 test::SpeedProfile curves_and_rests(int run) {
   constexpr double kLeg_s = 6.0, kAll_s = 7.5;

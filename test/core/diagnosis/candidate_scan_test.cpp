@@ -20,7 +20,7 @@ JointModel model_with(const Effect& accepted, test::CaseSettings::Truth truth) {
   runs[1].set_aside[runs[1].set_aside.size() / 2] = 1;  // a sample that is not used
   const LeastSquaresCalibration start = *calibrate_least_squares(c.recordings, c.nominal);
   JointModel joint(std::move(runs), std::vector<char>(c.recordings.size(), 0), start, c.nominal);
-  joint.accepted.push_back({&accepted, {}, {0.5 * accepted.amplitudes[0].medium}, {}});
+  joint.accepted.push_back({&accepted, {}, {0.5 * accepted.amplitudes[0].medium}});
   joint.linearise();
   joint.linearise();
   return joint;

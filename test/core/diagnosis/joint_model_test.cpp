@@ -30,7 +30,7 @@ TEST(JointModel, GainsByAnEffectThatCalibrationNearlyTakesUpWhatItsScorePromises
   for (const Effect& e : catalogue()) {
     if (e.name != "turn_scrub") continue;
     const CandidateTest t = joint.test(joint.columns_of(e, {0.04}));
-    joint.accepted.push_back({&e, {0.04}, {0.0}, {}});
+    joint.accepted.push_back({&e, {0.04}, {0.0}});
     // The score is that at no scrub; a scrub of 4 % per rad/s is not quite linear.
     EXPECT_NEAR(joint.fit(4), t.statistic, 0.15 * t.statistic);
     EXPECT_GT(t.statistic, 100.0);

@@ -111,7 +111,7 @@ TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   const GenericTest& t = strongest(tests);
   // Over all waves; both runs have phases of their own. Gusts are three times the noise, which has grown with them.
   JointModel with = joint;
-  with.accepted.push_back({t.as_effect.get(), {}, std::vector<double>(t.test.value.size(), 0.0), {}});
+  with.accepted.push_back({t.as_effect.get(), {}, std::vector<double>(t.test.value.size(), 0.0)});
   with.fit(2);
   const CandidateTest again = tested_under_own_noise(joint, with, true, kLeastSurvivingOfGeneric);
   EXPECT_GT(again.statistic, 3.0 * t.test.statistic);
@@ -120,6 +120,14 @@ TEST(Waves, OfTimeAreFoundWithTheirPeriod) {
   double period_s = 0.0;
   ASSERT_EQ(std::sscanf(t.variable.c_str(), "time, in waves of %lf s", &period_s), 1) << t.variable;
   EXPECT_NEAR(period_s, 6.0, 0.5);  // neighbours are 0.4 turns in 40 s apart: 0.36 s
+}
+
+TEST(Waves, OfAGearAreFoundByHowOftenItTurnsWithItsWheel) {
+  const std::vector<GenericTest> tests = wave_tests(AskedModel(calibrated(short_case("gear"))), 0);
+  const GenericTest& t = strongest(tests);
+  EXPECT_LT(t.p_value, 1e-6);
+  EXPECT_EQ(t.channel, "way of the left wheel per metre [1]");
+  EXPECT_NEAR(t.times_a_turn, 2.5, 0.01);  // neighbours are 0.4 turns in 20 to 30 turns of the wheel apart
 }
 
 TEST(Waves, AreNotFoundInNoise) {
