@@ -16,6 +16,8 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
   constexpr double kLeastWander = 0.1 * kLeast;
   noise.wander_m_per_sqrt_s = std::max(noise.wander_m_per_sqrt_s, kLeastWander);
   noise.heading_wander_rad_per_sqrt_s = std::max(noise.heading_wander_rad_per_sqrt_s, kLeastWander);
+  constexpr double kLeastTiming_s = 1e-4;
+  if (noise.command_timing_s > 0.0) noise.command_timing_s = std::max(noise.command_timing_s, kLeastTiming_s);
   return noise;
 }
 

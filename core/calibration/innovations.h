@@ -34,6 +34,9 @@ struct FittedNoise {
   // stands as where it drives. Satellites, radio beacons and maps wander; cameras that are bolted to a wall do not.
   double wander_m_per_sqrt_s = 0.0;
   double heading_wander_rad_per_sqrt_s = 0.0;
+  // Of the moment at which a base acts on a change of its command, from one change to the next; nothing where encoders
+  // are read.
+  double command_timing_s = 0.0;
 };
 
 // The same, none of them so small that no floor, no wheel and no camera could have it: 0.02 mm, 0.02 mrad and 0.02 mm
@@ -131,7 +134,8 @@ struct RelativeMotion {
   double wheel_noise[6] = {};  // covariance xx, xy, xh, yy, yh, hh for a wheel noise of 1 m per root metre
   // The same for noises of the body of 1 m per root metre, each by itself; 0 where the model has none.
   double along_noise[6] = {}, turning_noise[6] = {}, sideways_noise[6] = {};
-  double count_noise[6] = {};  // covariance of the count fractions that a wheel takes into a rest and leaves behind
+  double timing_noise[6] = {};  // for a second by which changes of a command are acted on sooner or later
+  double count_noise[6] = {};   // covariance of the count fractions that a wheel takes into a rest and leaves behind
 };
 struct SummedRun {
   std::vector<RelativeMotion> motions;  // [i] leads from truth sample i to i + 1

@@ -30,6 +30,8 @@ double& size_of(FittedNoise& noise, int size) {
       return noise.wander_m_per_sqrt_s;
     case noise_size::heading_wander:
       return noise.heading_wander_rad_per_sqrt_s;
+    case noise_size::command_timing:
+      return noise.command_timing_s;
     default:
       return noise.sideways_m_per_sqrt_m;
   }
@@ -68,6 +70,11 @@ FittedNoise with_wander(FittedNoise noise) {
   const double start = kShare * noise.wheel_m_per_sqrt_m * std::sqrt(kWalking_mps);
   noise.wander_m_per_sqrt_s = std::max(noise.wander_m_per_sqrt_s, start);
   noise.heading_wander_rad_per_sqrt_s = std::max(noise.heading_wander_rad_per_sqrt_s, start / kBase_m);
+  return noise;
+}
+
+FittedNoise with_timing(FittedNoise noise) {
+  if (noise.command_timing_s <= 0.0) noise.command_timing_s = kUsualNoise.command_timing_s;
   return noise;
 }
 

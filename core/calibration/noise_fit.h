@@ -22,13 +22,17 @@ struct NoiseFit {
   // Lets the body's sizes free too. A tenth of the wheels' noise is usual, and sideways less than a fiftieth is not
   // believed.
   void add_body();
+  // Lets the timing of commands free too.
+  void add_timing() { free.push_back(noise_size::command_timing); }
 };
 
-constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001, 0.00001};
+constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001, 0.00001, 0.02};
 // Gives a noise that has none of the body a little, to start a fit from.
 FittedNoise with_body(FittedNoise noise);
 // Wander, too, if it has less: from next to nothing a fit would not come back.
 FittedNoise with_wander(FittedNoise noise);
+// A timing of commands, too, if it has none.
+FittedNoise with_timing(FittedNoise noise);
 
 // Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.
 FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,

@@ -17,7 +17,8 @@ constexpr int turning = 4;
 constexpr int sideways = 5;
 constexpr int wander = 6;
 constexpr int heading_wander = 7;
-constexpr int count = 8;
+constexpr int command_timing = 8;
+constexpr int count = 9;
 }  // namespace noise_size
 
 double& size_of(FittedNoise& noise, int size);

@@ -59,6 +59,7 @@ class PoseFilter {
     turning2_ = model.noise.turning_m_per_sqrt_m * model.noise.turning_m_per_sqrt_m;
     sideways2_ = model.noise.sideways_m_per_sqrt_m * model.noise.sideways_m_per_sqrt_m;
     wander2_ = model.noise.wander_m_per_sqrt_s * model.noise.wander_m_per_sqrt_s;
+    timing2_ = model.noise.command_timing_s * model.noise.command_timing_s;
     heading_wander2_ = model.noise.heading_wander_rad_per_sqrt_s * model.noise.heading_wander_rad_per_sqrt_s;
   }
 
@@ -171,11 +172,13 @@ class PoseFilter {
     const PoseCovariance of_wheels = PoseCovariance::packed(step.wheel_noise).times(wheel2_),
                          along = PoseCovariance::packed(step.along_noise).times(along2_),
                          turning = PoseCovariance::packed(step.turning_noise).times(turning2_),
-                         sideways = PoseCovariance::packed(step.sideways_noise).times(sideways2_);
+                         sideways = PoseCovariance::packed(step.sideways_noise).times(sideways2_),
+                         timing = PoseCovariance::packed(step.timing_noise).times(timing2_);
     noise.add(of_wheels);
     noise.add(along);
     noise.add(turning);
     noise.add(sideways);
+    noise.add(timing);
     const double took_s = run_.truth[t + 1].time_s - run_.truth[t].time_s;
     const double wandered2 = wander2_ * took_s, turned2 = heading_wander2_ * took_s;
     if (slopes_) {
@@ -186,6 +189,7 @@ class PoseFilter {
       slopes_->grow(noise_size::along, along.turned(c, s));
       slopes_->grow(noise_size::turning, turning.turned(c, s));
       slopes_->grow(noise_size::sideways, sideways.turned(c, s));
+      slopes_->grow(noise_size::command_timing, timing.turned(c, s));
     }
     covariance_ = covariance_.carried(dx, dy);
     covariance_.add(noise.turned(c, s));
@@ -371,7 +375,7 @@ class PoseFilter {
   Turn facing_;  // cosine and sine of its heading
   int turns_ = 0;
   PoseCovariance covariance_, count_error_;
-  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_, wander2_, heading_wander2_;  // variances
+  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_, wander2_, heading_wander2_, timing2_;  // variances
   double determinant_ = 1.0;  // of the samples since the last logarithm
   Eigen::Matrix<double, 3, columns, Eigen::RowMajor> derivative_, jacobian_;
   Eigen::Matrix<double, columns, columns, Eigen::RowMajor> information_;

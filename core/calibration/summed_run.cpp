@@ -1,6 +1,7 @@
 // The wheels between two truth samples, summed up: README.md in this folder, Eqs. 2 to 6.
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/calibration/innovations.h"
@@ -126,6 +127,40 @@ class RollingNoise {
  private:
   PoseCovariance along_, turning_, uneven_, sideways_;
 };
+
+// Each change of a command is acted on a second too late or too soon: of what the body's velocity changes from one motion
+// to the next. That shows in the motions about the change until it is acted on, so it is spread over them. What changes
+// within one motion and is back does not count.
+void add_timing_noise(SummedRun& summed, const InnovationRun& run) {
+  constexpr double kSpread_s = 0.2, kGap_s = 1.0;
+  const auto& truth = run.truth;
+  const std::size_t n = summed.motions.size();
+  const auto velocity = [&](std::size_t t) {
+    const double took_s = truth[t + 1].time_s - truth[t].time_s;
+    const Pose& m = summed.motions[t].motion;
+    return std::array{m.x_m / took_s, m.y_m / took_s, m.heading_rad / took_s};
+  };
+  std::vector<PoseCovariance> noise(n);
+  std::vector<double> share;
+  for (std::size_t t = 1; t < n; ++t) {
+    const double before_s = truth[t].time_s - truth[t - 1].time_s, behind_s = truth[t + 1].time_s - truth[t].time_s;
+    if (is_cut(run, t) || before_s + behind_s > kGap_s) continue;
+    const double spread_s = std::max({kSpread_s, before_s, behind_s});
+    const auto share_of = [&](std::size_t m) {
+      return 1.0 - std::abs(0.5 * (truth[m].time_s + truth[m + 1].time_s) - truth[t].time_s) / spread_s;
+    };
+    std::size_t first = t - 1, last = t;
+    while (first > 0 && share_of(first - 1) > 0.0) --first;
+    while (last + 1 < n && share_of(last + 1) > 0.0) ++last;
+    share.clear();
+    double all = 0.0;
+    for (std::size_t m = first; m <= last; ++m) all += share.emplace_back(share_of(m));
+    const auto was = velocity(t - 1), is = velocity(t);
+    for (std::size_t m = first; m <= last; ++m)
+      noise[m].add(share[m - first] / all, is[0] - was[0], is[1] - was[1], is[2] - was[2]);
+  }
+  for (std::size_t m = 0; m < n; ++m) noise[m].pack(summed.motions[m].timing_noise);
+}
 
 }  // namespace
 
@@ -260,6 +295,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
     rolling_noise.pack(out, body_is_noisy);
     count_noise.pack(out.count_noise);
   }
+  if (run.speeds_are_held) add_timing_noise(summed, run);
   return summed;
 }
 }  // namespace odolab

@@ -24,6 +24,7 @@ RelativeMotion followed(const RelativeMotion& first, const RelativeMotion& then)
   add_up(first.along_noise, then.along_noise, both.along_noise);
   add_up(first.turning_noise, then.turning_noise, both.turning_noise);
   add_up(first.sideways_noise, then.sideways_noise, both.sideways_noise);
+  add_up(first.timing_noise, then.timing_noise, both.timing_noise);
   add_up(first.count_noise, then.count_noise, both.count_noise);
   return both;
 }

@@ -106,7 +106,6 @@ Finding unknown_of(const Unnamed& more, const JointModel& joint, const std::vect
   unknown.where = more.where;
   unknown.log_likelihood_gain = 0.5 * more.gain;
   unknown.p_value = more.p_value;
-  unknown.share_of_mismatch = more.share;
   unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     const Effect& e = *joint.accepted[k].effect;
@@ -267,8 +266,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   add_mounting(found, joint, intervals, d.calibration_alone, nominal);
   add_clock(found, joint, intervals, d.calibration_alone, nominal, ready->from_commands);
 
-  const Adequacy adequacy = judged_adequacy(*names, calibrated, predictor, d.calibration_alone.noise,
-                                            kOfTheUnnamed * options.family_wise_error);
+  FittedNoise of_calibration = d.calibration_alone.noise;
+  of_calibration.command_timing_s = joint.model.noise.command_timing_s;  // which calibration does not know
+  const Adequacy adequacy =
+      judged_adequacy(*names, calibrated, predictor, of_calibration, kOfTheUnnamed * options.family_wise_error);
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
@@ -277,6 +278,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
                          text(" comes and goes %.3g times a turn, by ", r.times_a_turn) +
                          text("%.2g %% of it, as a gear before it makes it do; it adds up to nothing over any way",
                               100.0 * r.amplitude));
+  constexpr double kUneven_s = 0.02;
+  if (const double timing_s = joint.model.noise.command_timing_s; timing_s > kUneven_s)
+    d.warnings.push_back(text("the base acts on each change of its command %.2g s sooner or later than on another, as "
+                              "where it asks for commands every so often: that is taken for noise",
+                              timing_s));
   d.something_sways = adequacy.sway.has_value();
   if (adequacy.sway)
     d.warnings.push_back(
@@ -301,6 +307,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
     Finding unknown = unknown_of(*more, joint, selected.evidence);
+    unknown.share_of_mismatch = std::min(1.0, 2.0 * unknown.log_likelihood_gain / all);
     if (unknown.alternatives.empty()) add_nearest(unknown, selected.first_look, options.family_wise_error);
     std::erase_if(found, [&](const Finding& f) { return !is_known_clock(f); });
     // Where the point sits and how the clocks go as it is without the names that did not suffice.

@@ -9,35 +9,50 @@ namespace odolab {
 
 namespace {
 
-// By how much a rate stands out from those before and behind it, on the same side of both, with its sign: a wheel that
+// By how much one stands out from those before and behind it, on the same side of both, with its sign: a wheel that
 // stops or sets off is like one of them.
-double standing_out(const std::vector<double>& rates, std::size_t i) {
+double standing_out(const std::vector<double>& of, std::size_t i) {
   constexpr std::size_t kAround = 3;
-  if (i < kAround || i + kAround >= rates.size()) return 0.0;
-  const auto at = rates.begin() + static_cast<std::ptrdiff_t>(i);
+  if (i < kAround || i + kAround >= of.size()) return 0.0;
+  const auto at = of.begin() + static_cast<std::ptrdiff_t>(i);
   const double before = median({at - kAround, at}), behind = median({at + 1, at + 1 + kAround});
-  return rates[i] - std::clamp(rates[i], std::min(before, behind), std::max(before, behind));
+  return of[i] - std::clamp(of[i], std::min(before, behind), std::max(before, behind));
 }
 
 // Of the readings of one wheel, each with the next.
 struct Rates {
   std::vector<double> each, out_by;
-  double usual = 0.0, trembles = 0.0;  // how large they are, and by how much they stand out, but for a few
+  std::vector<double> step_rad, step_out_by_rad;
+  double usual = 0.0, trembles = 0.0;  // how large rates are, and by how much they stand out, but for a few
+  double usual_step_rad = 0.0;
+
+  // Where the step is like its neighbours and only the rate is not, the stamp of a reading is wrong, and not its count.
+  bool is_of_the_stamp(std::size_t i, double gap_s) const {
+    constexpr double kOfTheRate = 0.5;
+    const double by_rate_rad = out_by[i] * gap_s;
+    return step_out_by_rad[i] * by_rate_rad < kOfTheRate * by_rate_rad * by_rate_rad;
+  }
 };
 
 Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& angle_rad) {
   constexpr double kNearlyAll = 0.97;
   Rates rates;
-  for (std::size_t i = 0; i + 1 < angle_rad.size(); ++i)
-    rates.each.push_back((angle_rad[i + 1] - angle_rad[i]) / (time_s[i + 1] - time_s[i]));
+  for (std::size_t i = 0; i + 1 < angle_rad.size(); ++i) {
+    rates.step_rad.push_back(angle_rad[i + 1] - angle_rad[i]);
+    rates.each.push_back(rates.step_rad[i] / (time_s[i + 1] - time_s[i]));
+  }
   if (rates.each.empty()) return rates;
-  for (std::size_t i = 0; i < rates.each.size(); ++i) rates.out_by.push_back(standing_out(rates.each, i));
+  for (std::size_t i = 0; i < rates.each.size(); ++i) {
+    rates.out_by.push_back(standing_out(rates.each, i));
+    rates.step_out_by_rad.push_back(standing_out(rates.step_rad, i));
+  }
   const auto size = [&](std::vector<double> of) {
     for (double& v : of) v = std::abs(v);
     return quantile(std::move(of), kNearlyAll);
   };
   rates.usual = size(rates.each);
   rates.trembles = size(rates.out_by);
+  rates.usual_step_rad = size(rates.step_rad);
   return rates;
 }
 
@@ -79,11 +94,13 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
     const bool back_and_on =
         i > 0 && i + 1 < each.size() && each[i] * each[i - 1] < 0.0 && each[i] * each[i + 1] < 0.0;
     const bool too_fast = std::abs(by) * radius_m > kLeast_m && std::abs(by) > 1.5 * count_rad &&
-                          std::abs(each[i]) > (back_and_on ? 1.0 : 4.0) * rates.usual;
+                          std::abs(each[i]) > (back_and_on ? 1.0 : 4.0) * rates.usual &&
+                          std::abs(by) > (back_and_on ? 0.0 : 2.0) * rates.usual_step_rad;
     // One reading off the pace that the wheel had before and has behind it, where no tyre could have pushed it.
     const double out_by = std::abs(rates.out_by[i]);
     const bool off_its_pace = out_by * gap > 4.0 * count_rad && out_by > 4.0 * rates.trembles &&
-                              out_by > 0.5 * rates.usual && out_by * radius_m > kTyre_mps2 * gap;
+                              out_by > 0.5 * rates.usual && out_by * radius_m > kTyre_mps2 * gap &&
+                              !rates.is_of_the_stamp(i, gap);
     if (too_fast || off_its_pace) jumps.push_back({time_s[i], time_s[i + 1]});
   }
   return jumps;
@@ -92,6 +109,7 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
 TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
                                   double WheelSample::*wheel) {
   constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0, kBeside = 0.3;
+  constexpr double kFarFromTrembling = 20.0;  // of counts that are lost: no bump loses any
   constexpr double kBeyondDoubt = 30.0;  // of twice the log-likelihood
   constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
   std::vector<double> time_s, angle_rad;
@@ -102,8 +120,11 @@ TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationMode
   TimeStretches jumps;
   for (std::size_t i = 1; i + 1 < rates.each.size(); ++i) {
     const double out_by = std::abs(rates.out_by[i]), gap_s = time_s[i + 1] - time_s[i];
-    if (out_by < kOfUsual * rates.usual || out_by < kTrembles * rates.trembles ||
-        out_by * gap_s < kCounts * count_rad(run, calibrated.drive))
+    const bool loses = rates.out_by[i] * (rates.each[i] - rates.out_by[i]) < 0.0;
+    const double least = loses ? std::min(kOfUsual * rates.usual, kFarFromTrembling * rates.trembles)
+                               : kOfUsual * rates.usual;
+    if (out_by < least || out_by < kTrembles * rates.trembles ||
+        out_by * gap_s < kCounts * count_rad(run, calibrated.drive) || rates.is_of_the_stamp(i, gap_s))
       continue;
     // A wheel that slows and speeds up again takes more than one reading for it.
     if (std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) > kBeside * out_by) continue;

@@ -47,7 +47,7 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
   if (d.findings.empty()) return;
   report.heading("What was found");
   int count = 0;
-  for (const Finding& f : d.findings) {
+  for (const Finding& f : faults_together(d.findings)) {
     const std::string name = number_text("%.0f. ", ++count) + effect_text(f.effect, f.component);
     report.sentence(f.sentence.empty() ? name : name + ": " + f.sentence);
     std::vector<std::vector<std::string>> rows;

@@ -284,6 +284,43 @@ std::string where_text(const WhereFound& where) {
   return text;
 }
 
+std::vector<Finding> faults_together(const std::vector<Finding>& findings) {
+  constexpr std::size_t kMostSaid = 4;
+  std::vector<Finding> together;
+  std::vector<std::string> merged;  // effects
+  for (const Finding& first : findings) {
+    if (!is_data_fault(first.effect)) {
+      together.push_back(first);
+      continue;
+    }
+    if (std::find(merged.begin(), merged.end(), first.effect) != merged.end()) continue;
+    merged.push_back(first.effect);
+    std::vector<const Finding*> alike;
+    for (const Finding& f : findings)
+      if (f.effect == first.effect) alike.push_back(&f);
+    if (alike.size() == 1) {
+      together.push_back(first);
+      continue;
+    }
+    const bool of_one_part = std::all_of(alike.begin(), alike.end(),
+                                         [&](const Finding* f) { return f->component == first.component; });
+    Finding all;
+    all.effect = first.effect;
+    all.component = of_one_part ? first.component : "";
+    for (std::size_t i = 0; i < std::min(alike.size(), kMostSaid); ++i)
+      all.where.regime += (i == 0 ? "" : "; ") + where_text(alike[i]->where) +
+                          (of_one_part ? "" : " (" + component_text(alike[i]->component) + ")");
+    if (alike.size() > kMostSaid)
+      all.where.regime += more_of(alike.size() - kMostSaid, "; and in one recording or part more",
+                                  "; and in %.0f recordings or parts more");
+    std::size_t times = 0;
+    for (const Finding* f : alike) times += f->where.time_s.size();
+    all.sentence = std::to_string(times) + " times in all, left out";
+    together.push_back(all);
+  }
+  return together;
+}
+
 std::vector<std::string> merged_warnings(const std::vector<std::string>& warnings) {
   struct Said {
     std::string name, text, kind;  // `kind`: the text but for its figures
@@ -387,7 +424,7 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
 
   constexpr std::size_t kMostFindings = 4;
   // A marker that is off shows a hundred times as strongly as what is looked for.
-  std::vector<Finding> physics_first = diagnosis.findings;
+  std::vector<Finding> physics_first = faults_together(diagnosis.findings);
   const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
   std::stable_sort(physics_first.begin(), physics_first.end(),
                    [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });

@@ -27,6 +27,9 @@ std::string size_text(double value, const std::string& unit);
 // "in run_3.csv, 3.75 to 7.25 s; within 0.70 m of (2.20, 0.10) m; in turns"; empty where nothing applies.
 std::string where_text(const WhereFound& where);
 
+// Findings as a page shows them: faults of one kind, in several recordings or wheels, are one.
+std::vector<Finding> faults_together(const std::vector<Finding>& findings);
+
 // Warnings that say the same of several recordings, but for their figures, as one, with the figures of the first.
 std::vector<std::string> merged_warnings(const std::vector<std::string>& warnings);
 

@@ -62,7 +62,7 @@ Effect of_wheel(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
   e.component = component_of(wheel);
-  e.amplitudes = {{"fraction", "1", 0.01, 0.0, 1.0}};
+  e.amplitudes = {{"fraction", "1", 0.01, 0.0, 0.99}};
   e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
   e.tests_of_a_shape = 0.8;
   e.sentence = std::string("the encoder of ") +

@@ -147,11 +147,10 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
   return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
 }
 
-Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain, double share) {
+Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain) {
   Unnamed u;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.gain = gain;
-  u.share = share;
   u.p_value = group.p_value;
   u.shape = std::move(shape);
   return u;
@@ -215,7 +214,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
     if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = beyond(kept, kMostLeft);
-    if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more, 1.0);
+    if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more);
   }
   return out;
 }
@@ -272,7 +271,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > kMostLeft * explained || is_in_pieces(of_vehicle))
-      out.unnamed = unnamed_by(*left.group, left.shape, gain, gain / std::max(1e-9, gain + explained));
+      out.unnamed = unnamed_by(*left.group, left.shape, gain);
   }
   const double fair = beyond_chance(of_vehicle);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {

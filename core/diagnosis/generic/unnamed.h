@@ -10,8 +10,7 @@ namespace odolab {
 // What no name describes.
 struct Unnamed {
   WhereFound where;
-  double gain = 0.0;   // twice the log-likelihood that it explains beyond the names and beyond chance
-  double share = 1.0;  // of all that calibration leaves
+  double gain = 0.0;  // twice the log-likelihood that it explains beyond the names and beyond chance
   double p_value = 0.0;
   std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
 };

@@ -10,6 +10,39 @@ namespace odolab {
 
 namespace {
 
+// Over one window, for a second by which changes of a command are acted on sooner or later: squared, of the position at
+// its end and of its heading.
+struct TimingError {
+  double position_m2 = 0.0, heading_rad2 = 0.0;
+};
+
+TimingError timing_error(Track::const_iterator from, Track::const_iterator to) {
+  constexpr double kApart_s = 0.05;
+  TimingError sum;
+  BodyMotion before;
+  bool any = false;
+  for (auto begin = from; begin < to;) {
+    auto end = begin;
+    while (end < to && end->time_s - begin->time_s < kApart_s) ++end;
+    const double took_s = end->time_s - begin->time_s;
+    if (took_s < kApart_s) break;
+    const Vec2 way = end->pose.position() - begin->pose.position();
+    const double h = begin->pose.heading_rad;
+    const BodyMotion now{(way.x_m * std::cos(h) + way.y_m * std::sin(h)) / took_s, 0.0,
+                         (end->pose.heading_rad - h) / took_s};
+    if (any) {
+      const Vec2 to_go = to->pose.position() - begin->pose.position();
+      const double by_mps = now.forward_m - before.forward_m, by_radps = now.turn_rad - before.turn_rad;
+      sum.position_m2 += by_mps * by_mps + by_radps * by_radps * dot(to_go, to_go);
+      sum.heading_rad2 += by_radps * by_radps;
+    }
+    before = now;
+    any = true;
+    begin = end;
+  }
+  return sum;
+}
+
 // Over one window: the truth's error at both ends, that of its heading at the start swinging the way about, the wheels'
 // errors, which turn the rest of the way, and what is hidden behind a count of each wheel at both ends.
 void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double wheelbase_m, double count_m,
@@ -49,6 +82,12 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
   sum.noise_position_m2 += 4.0 * p2 + 0.5 * at_both_m2 + (h2 + per_base2 * at_start_m2) * dot(along, along) +
                            (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m + wandered2 + turn2_per_m * swung_m3;
   sum.noise_heading_rad2 += 2.0 * h2 + per_base2 * at_both_m2 + turned2 + turn2_per_m * left_and_right_m;
+  if (noise.command_timing_s > 0.0) {
+    const TimingError timing = timing_error(from, std::min(to, guess.end() - 1));
+    const double timing2 = noise.command_timing_s * noise.command_timing_s;
+    sum.noise_position_m2 += timing2 * timing.position_m2;
+    sum.noise_heading_rad2 += timing2 * timing.heading_rad2;
+  }
 }
 
 // Where it stands at an end it stood there longer than it was read: a pose that is taken there belongs to it, however

@@ -1,6 +1,7 @@
 #include "core/diagnosis/model/joint_model.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/calibration/left_out.h"
 #include "core/calibration/noise_fit.h"
@@ -35,6 +36,8 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   model.noise = start.noise;
   if (model.noise.truth_heading_rad <= 0.0) model.noise.truth_heading_rad = 0.01;
   model.noise = with_wander(with_body(model.noise));
+  if (std::any_of(runs_.begin(), runs_.end(), std::mem_fn(&InnovationRun::speeds_are_held)))
+    model.noise = with_timing(model.noise);
   clock_s = start.time_offset_s;
   clock_s.resize(runs_.size(), model.truth.time_offset_s);
   clock_active.assign(runs_.size(), 1);

@@ -59,15 +59,17 @@ void JointModel::fit_noise() {
     };
     return most_likely_noise(likelihood, model.noise, fit);
   };
-  bool any_heading = false;
+  bool any_heading = false, any_commands = false;
   std::vector<Part> whole;
   for (const LinearisedRun& l : now_->runs) {
     whole.push_back({&l.run(), &l.summed()});
     any_heading = any_heading || l.run().truth_has_heading;
+    any_commands = any_commands || l.run().speeds_are_held;
   }
   NoiseFit of_samples{{noise_size::wheel, noise_size::position}, kUsualNoise};
   of_samples.add_body();
   of_samples.add_wander(any_heading);
+  if (any_commands) of_samples.add_timing();
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples);
   // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
@@ -85,6 +87,7 @@ void JointModel::fit_noise() {
   NoiseFit of_ways{{noise_size::wheel}, model.noise, kSampledWithin};
   of_ways.add_body();
   of_ways.add_wander(any_heading);
+  if (any_commands) of_ways.add_timing();
   of_ways.usual_of_body = 0.0;  // what is usual is what the samples said
   model.noise = fitted(thinned, of_ways);
 }

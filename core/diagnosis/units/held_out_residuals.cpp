@@ -17,6 +17,7 @@ FittedNoise times(FittedNoise noise, double factor) {
   noise.along_m_per_sqrt_m *= factor;
   noise.turning_m_per_sqrt_m *= factor;
   noise.sideways_m_per_sqrt_m *= factor;
+  noise.command_timing_s *= factor;
   return noise;
 }
 

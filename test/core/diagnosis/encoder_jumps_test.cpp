@@ -50,6 +50,22 @@ TEST(EncoderJumps, AreNotWhereAWheelOnlySetsOffStopsReversesOrRunsEvenly) {
   EXPECT_TRUE(jumps_of(read([](double t) { return t < 2.0 ? 6.0 : -6.0; })).empty());
 }
 
+// Counts that are read evenly and stamped when they arrive: two that arrive together look like a leap.
+TEST(EncoderJumps, AreNotWhereOnlyAStampIsLate) {
+  for (double reading_s : {0.005, 0.1}) {
+    Read r;
+    for (int i = 0; i < 400; ++i) {
+      r.time_s.push_back(reading_s * i);
+      r.angle_rad.push_back(kCount_rad * std::floor(6.0 * r.time_s.back() / kCount_rad));
+    }
+    Read late = r;
+    late.time_s[200] += 0.8 * reading_s;
+    EXPECT_TRUE(jumps_of(late).empty()) << reading_s;
+    for (std::size_t i = 201; i < late.angle_rad.size(); ++i) late.angle_rad[i] -= 3.0 * 6.0 * reading_s;
+    EXPECT_EQ(jumps_of(late).size(), 1u) << "and what is lost besides shows as it did";
+  }
+}
+
 TEST(EncoderJumps, AreNotWhereReadingsAreCoarse) {
   Read r = read([](double) { return 1.0; });
   for (double& a : r.angle_rad) a = 0.1 * std::floor(a / 0.1);
@@ -98,6 +114,18 @@ TEST(EncoderJumps, AreWhereAReadingIsOffItsPaceAndTheTruthIsNot) {
   EXPECT_NEAR(found.front().second, 6.04, 1e-9);
   EXPECT_TRUE(jumps_against_truth(jumps, model, &WheelSample::right_rad).empty());
   EXPECT_TRUE(jumps_against_truth(slows, model, &WheelSample::left_rad).empty());
+}
+
+// A hundredth of a second's worth of counts, as of one byte that was read wrongly; as much too many may be a bump.
+TEST(EncoderJumps, AreWhereAnEvenPaceLosesLittle) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  for (const double share : {0.25, -0.25}) {  // of 0.1 rad: a fifth of a reading
+    InnovationRun run = falls_behind(model, false);
+    for (std::size_t i = 151; i < run.wheels.size(); ++i) run.wheels[i].left_rad += (1.0 - share) * 0.1;
+    EXPECT_EQ(jumps_against_truth(run, model, &WheelSample::left_rad).size(), share > 0.0 ? 1u : 0u) << share;
+  }
 }
 
 // A truth whose clock is late by a tenth of a second knows nothing yet of a wheel that stops for a moment.

@@ -135,6 +135,27 @@ TEST(SummaryLines, HoldEachFindingWholeAndSayHowManyMoreThereAre) {
   EXPECT_NE(all.find("-0.09"), std::string::npos) << all;
 }
 
+TEST(FaultsTogether, SayOnceWhatHappensInSeveralRecordingsAndWheels) {
+  std::vector<Finding> findings(7);
+  for (std::size_t k = 0; k < findings.size(); ++k) {
+    findings[k].effect = k == 0 ? "bump" : k == 6 ? "truth_frozen" : "encoder_data_fault";
+    findings[k].component = k == 0 ? "left_wheel" : k == 6 ? "truth" : k % 2 == 0 ? "left_wheel" : "right_wheel";
+    findings[k].where.recording = "run_" + std::to_string(k);
+    findings[k].where.time_s = {{1.0, 2.0}, {3.0, 3.5}};
+  }
+  const std::vector<Finding> together = faults_together(findings);
+  ASSERT_EQ(together.size(), 3u);
+  EXPECT_EQ(together[0].effect, "bump");
+  EXPECT_EQ(together[2].effect, "truth_frozen");
+  EXPECT_EQ(together[2].where.recording, "run_6") << "one alone stays as it is";
+  const Finding& all = together[1];
+  EXPECT_EQ(all.sentence.substr(0, 8), "10 times");
+  EXPECT_NE(all.where.regime.find("run_1 at 1.00 to 2.00 s, 3.00 to 3.50 s (the right wheel)"), std::string::npos)
+      << all.where.regime;
+  EXPECT_NE(all.where.regime.find("in one recording or part more"), std::string::npos) << all.where.regime;
+  EXPECT_EQ(faults_together({findings.begin(), findings.begin() + 1}).size(), 1u);
+}
+
 TEST(DiagnosisReport, IsOnePageWithEveryPart) {
   const std::string html = diagnosis_report(test::diagnosis_by_hand()).text();
   EXPECT_EQ(count(html, "<h1>What the model lacks"), 1u);
