@@ -48,7 +48,7 @@ struct FindingCard {
 // A bar of the proof.
 struct ProofBar {
   std::string label;
-  double position_rms_m = 0.0, heading_rms_rad = 0.0;
+  double position_rms_m = 0.0, heading_rms_rad = 0.0;  // the latter NaN where the truth has none
   enum class Kind { calibrated, with_findings, noise } kind = Kind::calibrated;
 };
 

@@ -382,13 +382,16 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);
     if (put_right && is_white(*put_right)) return all;
   }
-  constexpr std::array<double, 5> kApart_s = {0.05, 0.1, 0.2, 0.3, 0.5};
+  constexpr std::array<double, 7> kApart_s = {0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0};
   const auto of_samples_apart = [&](double apart_s, const LeastSquaresOptions& with) {
     std::vector<Recording> thinned;
     for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
     return calibrated_by_all(thinned, nominal, with, {});
   };
-  std::array<std::optional<Result<LeastSquaresCalibration>>, kApart_s.size()> tried;
+  // What sways slowly and little is no such noise, and is not seen any more in samples that are far apart.
+  constexpr std::size_t kOfLittle = 5;
+  std::vector<std::optional<Result<LeastSquaresCalibration>>> tried(
+      all->lasting_correlation >= kLasting ? kApart_s.size() : kOfLittle);
   parallel_for(static_cast<int>(tried.size()), [&](int k) {
     const auto at = static_cast<std::size_t>(k);
     tried[at] = of_samples_apart(kApart_s[at], clocks_right);

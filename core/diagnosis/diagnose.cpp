@@ -318,6 +318,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     add_clock(found, without, of_it, d.calibration_alone, nominal, ready->from_commands);
     found.insert(found.begin(), unknown);
     d.verdict = Verdict::unknown_effect;
+    d.warnings.push_back(
+        "the calibration stands beside something that it does not know: it may be off by more than its standard errors");
   } else if (!found.empty()) {
     d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
   } else {

@@ -1,6 +1,7 @@
 // Where a vehicle and its model differ, what physics was left out, how much of it, and the proof.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,11 +61,12 @@ struct Finding {
 
 struct FitFigures {
   double position_rms_m = 0.0;  // gathered over a metre or a radian, from a true start
-  double heading_rms_rad = 0.0;
+  double heading_rms_rad = 0.0;  // NaN: the truth has none, and windows begin with what the model makes of the way
   double normalised_chi2 = 0.0;
 
-  // False: there was nothing to gather them over, as of a truth without headings; both are then exactly zero.
+  // False: there was nothing to gather them over, as of poses at both ends; both are then exactly zero.
   bool gathered() const { return position_rms_m > 0.0 || heading_rms_rad > 0.0; }
+  bool has_heading() const { return !std::isnan(heading_rms_rad); }
 };
 
 struct FitTable {

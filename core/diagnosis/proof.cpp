@@ -65,16 +65,19 @@ Predicted::Side side_of(const std::vector<JointModel>& models) {
     side.error.add(side.of_model.back());
     chi2 += j.chi2(), scalars += j.scalars();
   }
-  side.figures = {std::sqrt(side.error.position_m2), std::sqrt(side.error.heading_rad2),
-                  scalars > 0.0 ? chi2 / scalars : 0.0};
+  if (side.error.windows == 0)
+    for (const JointModel& j : models) side.of_path.add(j.path_error());
+  const JointModel::GatheredError& shown = side.shown();
+  side.figures = {std::sqrt(shown.position_m2), std::sqrt(shown.heading_rad2), scalars > 0.0 ? chi2 / scalars : 0.0};
   return side;
 }
 
 // What the noise alone leaves over the same windows; it is fitted too, and where chance was kind the floor is what was
 // reached.
 FitFigures noise_floor(const Predicted::Side& reached) {
-  return {std::min(std::sqrt(reached.error.noise_position_m2), reached.figures.position_rms_m),
-          std::min(std::sqrt(reached.error.noise_heading_rad2), reached.figures.heading_rms_rad),
+  const JointModel::GatheredError& shown = reached.shown();
+  return {std::min(std::sqrt(shown.noise_position_m2), reached.figures.position_rms_m),
+          std::min(std::sqrt(shown.noise_heading_rad2), reached.figures.heading_rms_rad),
           std::min(1.0, reached.figures.normalised_chi2)};
 }
 

@@ -202,6 +202,10 @@ std::vector<FitRow> rows_of(const FitTable& t) {
           {"calibrated, and what was found", t.with_findings, ink::kBlue}};
 }
 
+std::string heading_text(const FitFigures& figures) {
+  return figures.has_heading() ? number_text("%.3f", degrees(figures.heading_rms_rad)) : "not measured";
+}
+
 void add_proof(HtmlReport& report, const Diagnosis& d) {
   std::vector<std::vector<std::string>> table;
   BarPicture bars;
@@ -215,7 +219,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
         return;
       }
       table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                       number_text("%.3f", degrees(figures->heading_rms_rad)), chi2});
+                       heading_text(*figures), chi2});
       group.bars.push_back(
           {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };
@@ -229,7 +233,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
     if (!figures || !figures->gathered()) return;
     table.push_back({std::string("Simulator: ") + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                     number_text("%.3f", degrees(figures->heading_rms_rad)),
+                     heading_text(*figures),
                      number_text("%.2f", figures->normalised_chi2)});
     simulated.bars.push_back(
         {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});

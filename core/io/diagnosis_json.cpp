@@ -73,7 +73,7 @@ void put(Json& json, const char* key, const std::optional<FitFigures>& figures) 
   if (!figures) return;
   Json& entry = json[key];
   entry["position_rms_m"] = figures->gathered() ? Json(figures->position_rms_m) : Json();
-  entry["heading_rms_rad"] = figures->gathered() ? Json(figures->heading_rms_rad) : Json();
+  entry["heading_rms_rad"] = figures->gathered() && figures->has_heading() ? Json(figures->heading_rms_rad) : Json();
   entry["normalised_chi2"] = figures->normalised_chi2;
 }
 

@@ -68,7 +68,8 @@ bool is_of_the_measurement(const Finding& finding) {
 }
 
 std::string figures_text(const FitFigures& f) {
-  return number_text("%.2f mm", 1e3 * f.position_rms_m) + number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad));
+  return number_text("%.2f mm", 1e3 * f.position_rms_m) +
+         (f.has_heading() ? number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad)) : "");
 }
 
 // Broken between words; every line but the first is indented by `indent`.
@@ -146,7 +147,7 @@ std::string fit_line(const char* name, const FitTable& table) {
     if (f) line += (line.empty() ? "" : "  ->  ") + std::string(what) + " " + figures_text(*f);
   };
   if (table.with_findings && !table.with_findings->gathered())
-    return std::string(name) + "not to be had: it takes a metre of truth with headings";
+    return std::string(name) + "not to be had: it takes a metre of truth";
   add("nominal", table.nominal);
   add("calibrated", table.calibrated);
   add("with findings", table.with_findings);

@@ -1,6 +1,7 @@
 // What the joint model leaves over a metre or a radian of dead reckoning, and from one innovation to the next.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/model/joint_model.h"
@@ -9,6 +10,8 @@
 namespace odolab {
 
 namespace {
+
+constexpr double kNoHeading = std::numeric_limits<double>::quiet_NaN();
 
 // Over one window, for a second by which changes of a command are acted on sooner or later: squared, of the position at
 // its end and of its heading.
@@ -106,12 +109,14 @@ void stand_longer(Track& track) {
 
 }  // namespace
 
-JointModel::GatheredError JointModel::gathered_error(int first_run) const {
+JointModel::GatheredError JointModel::gathered(
+    int first_run, const std::function<std::vector<double>(int, const InnovationRun&)>& headings_of) const {
   std::vector<GatheredError> of(runs_.size());
   const FittedNoise noise = noise_as_recorded();
   parallel_for(static_cast<int>(runs_.size()), [&](int r) {
-    if (!runs_[r].truth_has_heading || r < first_run) return;
+    if (r < first_run) return;
     const InnovationRun run = recorded(r);
+    const std::vector<double> headings = headings_of(r, run);
     Track guess, truth;
     std::vector<char> anew;
     Pose pose;
@@ -135,9 +140,8 @@ JointModel::GatheredError JointModel::gathered_error(int first_run) const {
     bool cut = false;
     for (std::size_t i = 0; i < run.truth.size(); ++i) {
       cut = cut || is_cut(run, i);
-      if (run.set_aside[i] || !run.truth[i].heading_rad) continue;
-      truth.push_back(
-          {run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, *run.truth[i].heading_rad}});
+      if (run.set_aside[i] || std::isnan(headings[i])) continue;
+      truth.push_back({run.truth[i].time_s, {run.truth[i].position.x_m, run.truth[i].position.y_m, headings[i]}});
       anew.push_back(cut);
       cut = false;
     }
@@ -158,6 +162,36 @@ JointModel::GatheredError JointModel::gathered_error(int first_run) const {
   });
   GatheredError sum;
   for (const GatheredError& e : of) sum.add(e);
+  return sum;
+}
+
+JointModel::GatheredError JointModel::gathered_error(int first_run) const {
+  return gathered(first_run, [](int, const InnovationRun& run) {
+    std::vector<double> headings(run.truth.size(), kNoHeading);
+    for (std::size_t i = 0; run.truth_has_heading && i < headings.size(); ++i)
+      headings[i] = run.truth[i].heading_rad.value_or(kNoHeading);
+    return headings;
+  });
+}
+
+JointModel::GatheredError JointModel::path_error() const {
+  constexpr double kFirst_m = 1.0;
+  GatheredError sum = gathered(0, [&](int r, const InnovationRun& run) {
+    std::vector<double> headings(run.truth.size(), kNoHeading);
+    if (run.truth_has_heading) return headings;
+    const InnovationModel m = model_of(r);
+    FilterOptions options;
+    options.derivatives = false;
+    double driven_m = 0.0;
+    options.on_step = [&](const FilterStep& s) {
+      driven_m = s.starts ? 0.0 : driven_m + length(s.moved);
+      if (driven_m > kFirst_m)
+        headings[static_cast<std::size_t>(s.truth_index)] = s.pose.heading_rad + m.truth.axle_T_tracked.heading_rad;
+    };
+    filtered(run, summed_up(run, m), m, options);
+    return headings;
+  });
+  sum.heading_rad2 = sum.noise_heading_rad2 = kNoHeading;
   return sum;
 }
 

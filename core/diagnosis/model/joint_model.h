@@ -124,6 +124,9 @@ class JointModel {
     void add(const GatheredError& of_other_runs);
   };
   GatheredError gathered_error(int first_run = 0) const;  // of the runs from that one on
+  // The same of the position alone, of runs whose truth has no headings: each window begins with the heading that the
+  // model makes of the truth before it, and none within the first metre. The heading's error is no number.
+  GatheredError path_error() const;
   // How little the likelihood is to be believed, since innovations are correlated: from 0, white, to 1. `of_a_moment`:
   // of what acts at one moment or place.
   double distrust(bool of_a_moment = false) const;
@@ -213,6 +216,9 @@ class JointModel {
     bool operator==(const Standing&) const = default;
   };
   Standing standing() const;
+  // `headings_of` the truth's samples of a run; NaN where none is known.
+  GatheredError gathered(int first_run,
+                         const std::function<std::vector<double>(int, const InnovationRun&)>& headings_of) const;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const InnovationRun& of, const DriveView& view) const;
   // At the speeds that the accepted effects leave.

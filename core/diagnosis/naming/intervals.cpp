@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/shape_likelihood.h"
 #include "core/diagnosis/naming/shape_search.h"
 #include "core/diagnosis/naming/time_at_rest.h"
@@ -123,6 +124,13 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
   Intervals out;
   const VectorXd wider = joint.inflation_of_columns().cwiseSqrt();
   out.columns = wider.asDiagonal() * joint.covariance() * wider.asDiagonal();
+  for (std::size_t a = 0; a < count; ++a) {
+    if (!joint.accepted[a].is_held) continue;
+    const Eigen::Index c = joint.first_column(static_cast<int>(a));
+    const double larger = std::sqrt(inflation[a] * variance_of_held(joint, a) / std::max(out.columns(c, c), 1e-300));
+    out.columns.row(c) *= larger;
+    out.columns.col(c) *= larger;
+  }
   const MatrixXd at_these_shapes = out.columns;
   std::vector<MatrixXd> moves(count);  // the columns by the shapes
   for (std::size_t a = 0; a < count; ++a) {

@@ -7,7 +7,12 @@ namespace odolab {
 
 // Puts the effect that was let in last, a lag, to the size at which the likelihood is largest, all else fitted anew, and
 // holds it there. The offset that would do nearly as well changes with the lag along a valley that is bent: steps along
-// the columns run out of it, to and fro.
+// the columns run out of it, to and fro. What was noise of the moment at which commands are acted on may have been the
+// lag: it is put there as if they were acted on evenly, too, and the noise fitted to both.
 void put_lag_where_likeliest(JointModel& joint);
+
+// The variance of an accepted effect's size that is held so, by how the likelihood bends along the valley: its column
+// says nothing of that. In its own unit, squared.
+double variance_of_held(const JointModel& joint, std::size_t accepted);
 
 }  // namespace odolab

@@ -102,7 +102,8 @@ bool says_as_much_beside(const ScoredCandidate& instead, const std::vector<Score
   });
 }
 
-// Twice what the log-likelihood gains by it under the noise as it is.
+// Twice what the log-likelihood gains by it under the noise as it is; of a lag with the noise that it leaves, since how
+// evenly commands are acted on is asked of the motion that lags.
 double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
@@ -115,6 +116,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
     for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = coarser->value[k % coarser->value.size()];
     joint.accepted.erase(coarser);
   }
+  const double without = c.effect->only_commands ? joint.minus_two_log_likelihood() : 0.0;
   joint.accepted.push_back(a);
   double gained = joint.fit(3);
   // A shape that is the amplitude itself follows it by halves, and a lag goes a long way against the clock's offset.
@@ -126,8 +128,9 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
            std::abs(now.shape[0] - now.value[0]) < kSettled * std::max(now.shape[0], 1e-3);
   };
   for (int round = 0; round < kMostRounds && !settled(); ++round) gained += joint.fit(3);
-  if (c.effect->only_commands) put_lag_where_likeliest(joint);
-  return gained;
+  if (!c.effect->only_commands) return gained;
+  put_lag_where_likeliest(joint);
+  return without - joint.minus_two_log_likelihood();
 }
 
 // Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
