@@ -280,9 +280,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
                               100.0 * r.amplitude));
   constexpr double kUneven_s = 0.02;
   if (const double timing_s = joint.model.noise.command_timing_s; timing_s > kUneven_s)
-    d.warnings.push_back(text("the base acts on each change of its command %.2g s sooner or later than on another, as "
-                              "where it asks for commands every so often: that is taken for noise",
-                              timing_s));
+    d.warnings.push_back(
+        text("the base acts on each change of its command %.2g s sooner or later than on another, as "
+             "where it asks for commands every so often: that is taken for noise",
+             timing_s));
   d.something_sways = adequacy.sway.has_value();
   if (adequacy.sway)
     d.warnings.push_back(
@@ -319,7 +320,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     found.insert(found.begin(), unknown);
     d.verdict = Verdict::unknown_effect;
     d.warnings.push_back(
-        "the calibration stands beside something that it does not know: it may be off by more than its standard errors");
+        "the calibration stands beside something that it does not know: it may be off by more than its standard "
+        "errors");
   } else if (!found.empty()) {
     d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
   } else {

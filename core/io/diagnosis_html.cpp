@@ -218,8 +218,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
         table.push_back({part + ": " + name, "not measured", "not measured", chi2});
         return;
       }
-      table.push_back({part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                       heading_text(*figures), chi2});
+      table.push_back(
+          {part + ": " + name, number_text("%.2f", 1e3 * figures->position_rms_m), heading_text(*figures), chi2});
       group.bars.push_back(
           {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };
@@ -233,8 +233,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   const auto add_simulated = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
     if (!figures || !figures->gathered()) return;
     table.push_back({std::string("Simulator: ") + name, number_text("%.2f", 1e3 * figures->position_rms_m),
-                     heading_text(*figures),
-                     number_text("%.2f", figures->normalised_chi2)});
+                     heading_text(*figures), number_text("%.2f", figures->normalised_chi2)});
     simulated.bars.push_back(
         {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
   };

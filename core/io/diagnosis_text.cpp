@@ -303,8 +303,8 @@ std::vector<Finding> faults_together(const std::vector<Finding>& findings) {
       together.push_back(first);
       continue;
     }
-    const bool of_one_part = std::all_of(alike.begin(), alike.end(),
-                                         [&](const Finding* f) { return f->component == first.component; });
+    const bool of_one_part =
+        std::all_of(alike.begin(), alike.end(), [&](const Finding* f) { return f->component == first.component; });
     Finding all;
     all.effect = first.effect;
     all.component = of_one_part ? first.component : "";

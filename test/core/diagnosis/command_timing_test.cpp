@@ -11,8 +11,8 @@ namespace odolab {
 namespace {
 
 // Commands that change at once, logged 50 times a second. The base asks for one now and then, 0.05 to 0.25 s after the
-// last time, and keeps it until it asks again; of its forward speed it loses `loss` for each radian a second. Truth of a
-// millimetre at 100 Hz.
+// last time, and keeps it until it asks again; of its forward speed it loses `loss` for each radian a second. Truth of
+// a millimetre at 100 Hz.
 Recording asked_now_and_then(int number, double loss) {
   Random random(static_cast<std::uint64_t>(400 + number));
   Recording r;

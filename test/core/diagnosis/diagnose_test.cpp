@@ -143,9 +143,8 @@ TEST(Diagnose, NamesWhatIsMissingUnderATruthWhoseNoiseLastsForTenthsOfASecond) {
 TEST(Diagnose, ProvesByTheWayAloneWhereTheTruthHasNoHeadings) {
   Case c = generated_case(short_case("one_sided_drag", 8.0), 7069);
   for (Recording& r : c.recordings)
-    change_truth(r, [](std::size_t, double&, double&, double& heading) {
-      heading = std::numeric_limits<double>::quiet_NaN();
-    });
+    change_truth(
+        r, [](std::size_t, double&, double&, double& heading) { heading = std::numeric_limits<double>::quiet_NaN(); });
   const Diagnosis d = diagnosed(c);
   ASSERT_EQ(d.findings.size(), 1u) << said(d);
   ASSERT_TRUE(d.held_out.calibrated && d.held_out.with_findings && d.held_out.noise_floor);

@@ -101,8 +101,8 @@ TEST(FittedModel, PredictsFromCommandsAsTheyWereObeyed) {
   }
 }
 
-// A finding that the simulator refuses would be left unconfirmed. A bump is the exception: what climbs more than a wheel
-// does is one in the recording alone.
+// A finding that the simulator refuses would be left unconfirmed. A bump is the exception: what climbs more than a
+// wheel does is one in the recording alone.
 TEST(FittedModel, HasNoSizeThatCannotBeSwitchedOn) {
   for (const Effect& e : catalogue()) {
     const EffectEntry* entry = effect_entry(e.name);
