@@ -197,6 +197,14 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   return adequacy;
 }
 
+// What shows, or what something without a name resembles, could show.
+bool is_said(const std::string& effect, const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& f) {
+    return f.effect == effect || std::any_of(f.alternatives.begin(), f.alternatives.end(),
+                                             [&](const Alternative& a) { return a.effect == effect; });
+  });
+}
+
 // The verdict, its findings and the next drive in plain words.
 std::vector<std::string> sentences_of(const Diagnosis& d) {
   std::vector<std::string> sentences = {headline(d.verdict)};
@@ -339,6 +347,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const Advice next = advice(joint, confused, unseen(looks));
   d.asked = asked_effects(joint, selected, looks);
   d.not_testable = next.not_testable;
+  std::erase_if(d.not_testable, [&](const NotTestable& n) { return is_said(n.effect, d.findings); });
   // Less than a third of them could show.
   if (d.verdict == Verdict::nothing_missing && 3 * d.not_testable.size() > 2 * entries_for_encoders())
     d.verdict = Verdict::cannot_say;
@@ -355,7 +364,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
                                               : by_calibrated;
   prove(d, predictor, {joint.model.noise, said, calibrated, by_said, by_calibrated}, adequacy.generic.front().as_effect,
         train);
-  if (found.empty()) {  // then the calibration alone is the model, to the last digit
+  if (found.empty() || !known) {  // then the calibration alone is the model, to the last digit
     d.calibration = d.calibration_alone;
     d.fitted_vehicle = d.calibration_alone.vehicle;
     const std::vector<double>& clocks = d.calibration_alone.time_offset_s;

@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/chosen_by_unseen.h"
+#include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
 
@@ -118,6 +119,29 @@ bool name_what_is_hinted_at(JointModel& joint, Selected& selected, const Predict
   return true;
 }
 
+// A form that says as much with less is taken where it is not plainly less likely: what warms towards an end begins
+// twice as fast as what warms for ever, and the first minutes do not tell them apart.
+void take_simpler_forms(JointModel& joint, Selected& selected) {
+  constexpr double kPlainly = 4.0;  // of twice the log-likelihood: two standard errors
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const Effect& effect = *joint.accepted[k].effect;
+    if (effect.simpler_form.empty()) continue;
+    std::vector<double> shape = joint.accepted[k].shape;
+    const auto tested = [&] { return joint.test(joint.columns_of(effect, shape), static_cast<int>(k)); };
+    const double own = tested().statistic;
+    const int simpler = effect.simpler_form[static_cast<std::size_t>(shape.back())];
+    if (simpler == static_cast<int>(shape.back())) continue;
+    shape.back() = simpler;
+    const CandidateTest test = tested();
+    if (test.statistic < own - kPlainly * selected.evidence[k].test.inflation || !is_physical(effect, test.value))
+      continue;
+    joint.accepted[k].shape = selected.evidence[k].test.shape = shape;
+    joint.accepted[k].value = test.value;
+    joint.fit(3);
+    joint.fit_noise_and_all();
+  }
+}
+
 std::string name_in_words(const Effect& effect) {
   std::string name = effect.name + " of the " + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -142,6 +166,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
                       name_what_is_hinted_at(joint, selected, predictor, family_wise_error, go_on);
   if (!goes_on(progress, kSelected)) return {};
   choose_by_unseen(predictor, joint, selected);
+  take_simpler_forms(joint, selected);
   now.intervals = refined(joint, inflations_of(selected));
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.

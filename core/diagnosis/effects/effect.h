@@ -94,9 +94,11 @@ struct Effect {
   // Ways in which the same physics shows on different machines, the catalogue's own first. Where there are two or more,
   // the number of one stands behind the shapes.
   std::vector<std::string> forms;
-  int form_of_the_scan = 0;             // where many shapes are scanned in one form only
-  std::string sentence;                 // what it is, in words
-  std::string regime;                   // where it acts, in words
+  std::vector<int>
+      simpler_form;          // of each form the one to be said where that is not plainly less likely; empty: itself
+  int form_of_the_scan = 0;  // where many shapes are scanned in one form only
+  std::string sentence;      // what it is, in words
+  std::string regime;        // where it acts, in words
   std::vector<std::string> looks_like;  // effects that it is easily taken for
   std::string told_apart_by;            // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.

@@ -34,7 +34,10 @@ Effect of_wheel(Wheel wheel) {
   e.component = component_of(wheel);
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
   e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
-  for (const Form& form : kForms) e.forms.push_back(form.in_words);
+  for (const Form& form : kForms) {
+    e.forms.push_back(form.in_words);
+    e.simpler_form.push_back(form.through_the_session ? 1 : 0);  // for ever
+  }
   e.tests_of_a_shape = 0.3;  // what grows with time does so in all forms
   e.sentence = std::string("the radius of the ") +
                (wheel == Wheel::left    ? "left wheel"

@@ -78,6 +78,32 @@ Effect by_shape(const AcceptedEffect& a, const std::vector<int>& free, const Mat
   return e;
 }
 
+// By how much an accepted effect's amplitudes would be others in other forms, squared, each form weighed by its
+// likelihood.
+VectorXd between_forms(const JointModel& joint, std::size_t accepted, double inflation) {
+  const AcceptedEffect& a = joint.accepted[accepted];
+  const auto n = static_cast<Eigen::Index>(a.value.size());
+  VectorXd sum = VectorXd::Zero(n);
+  if (a.effect->forms.size() < 2 || a.is_held || a.effect->local) return sum;
+  std::vector<CandidateTest> of_form;
+  std::vector<double> shape = a.shape;
+  for (std::size_t form = 0; form < a.effect->forms.size(); ++form) {
+    shape.back() = static_cast<double>(form);
+    of_form.push_back(joint.test(joint.columns_of(*a.effect, shape), static_cast<int>(accepted)));
+  }
+  double best = 0.0, all = 0.0;
+  for (const CandidateTest& t : of_form) best = std::max(best, t.statistic);
+  const CandidateTest& own = of_form[static_cast<std::size_t>(a.shape.back())];
+  for (const CandidateTest& t : of_form) {
+    if (t.value.size() != a.value.size() || own.value.size() != a.value.size()) continue;
+    const double weight = std::exp(0.5 * (t.statistic - best) / inflation);
+    all += weight;
+    for (Eigen::Index k = 0; k < n; ++k)
+      sum(k) += weight * std::pow(t.value[static_cast<std::size_t>(k)] - own.value[static_cast<std::size_t>(k)], 2);
+  }
+  return all > 0.0 ? VectorXd(sum / all) : sum;
+}
+
 }  // namespace
 
 double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, columns(c, c))); }
@@ -163,7 +189,8 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     if (is_patch) known = at_these_shapes.block(first, first, n, n);
     const VectorXd value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(), n);
     out.from_nothing.push_back(value.dot(known.ldlt().solve(value)));
-    for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2);
+    const VectorXd of_forms = between_forms(joint, a, inflation[a]);
+    for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2) + of_forms(k);
     out.of_effect.push_back(block);
   }
   return out;

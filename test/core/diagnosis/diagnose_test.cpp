@@ -259,6 +259,11 @@ TEST(Diagnose, CallsUnknownWhatIsInNoList) {
        {"magnet", "compass", "memory", "waves", "gusts", "wheelbase_with_time", "uneven_castor"}) {
     const Diagnosis d = diagnosed(generated_case(short_case(outside, 2.0), 7301));
     EXPECT_EQ(d.verdict, Verdict::unknown_effect) << outside << ": " << said(d);
+    // Names that are not said leave no trace in the model.
+    ASSERT_TRUE(d.fitted_vehicle);
+    EXPECT_EQ(std::get<DifferentialDrive>(d.fitted_vehicle->kind).wheelbase_m,
+              std::get<DifferentialDrive>(d.calibration_alone.vehicle.kind).wheelbase_m)
+        << outside;
   }
 }
 
