@@ -171,6 +171,9 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.
   const auto untenable = [&]() -> std::optional<std::size_t> {
+    constexpr double kByChance = 0.5;  // what was left of a name when another was taken out
+    for (std::size_t k = joint.accepted.size(); k-- > 0;)
+      if (selected.evidence[k].p_value > kByChance && !joint.accepted[k].is_held) return k;
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
       if (!stands_out(joint, now.intervals, k)) return to_take_out(joint, selected, k);
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);

@@ -11,6 +11,7 @@
 #include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/unheard_commands.h"
 
 namespace odolab {
 
@@ -92,7 +93,18 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
                       std::to_string(frozen.time_s.size()) + " time(s); left out";
     out.faults.push_back(frozen);
   }
-  if (out.from_commands) return out;
+  if (out.from_commands) {
+    const std::vector<HeldCommand> commands = held_commands(recording);
+    const auto leave_out = [&](const TimeStretches& times, const std::string& what) {
+      if (times.empty()) return;
+      out.warnings.push_back(recording.name + ": " + what + " " + times_text(times) + ": left out");
+      out.left_out_s.insert(out.left_out_s.end(), times.begin(), times.end());
+    };
+    leave_out(holes_in_commands(commands), "no commands were logged");
+    leave_out(unmoved_base(commands, truth), "the base hardly moved though it was told to drive");
+    out.left_out_s = joined(std::move(out.left_out_s));
+    return out;
+  }
 
   if (const TimeStretches gaps = encoder_gaps(wheels); !gaps.empty()) {
     out.left_out_s = gaps;

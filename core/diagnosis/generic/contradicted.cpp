@@ -15,6 +15,16 @@ namespace {
 // recording the stretches of time.
 using Contradicted = std::vector<std::vector<std::pair<double, double>>>;
 
+// While the vehicle stands, a truth that goes to and fro is its own: nothing of the wheels hides how its noise lasts.
+constexpr double kStands_m = 0.05;  // of both wheels' way
+
+double rolled_m(const DriveView& view, double from_s, double to_s) {
+  double sum = 0.0;
+  for (const EffectStep& s : view.steps)
+    if (s.time_s > from_s && s.time_s < to_s) sum += std::abs(s.left_m) + std::abs(s.right_m);
+  return sum;
+}
+
 Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
   Contradicted of_run;
   for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r) {
@@ -23,7 +33,9 @@ Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
     const InnovationRun run = joint.recorded(r);
     of_run.emplace_back();
     for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
-      of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
+      if (rolled_m(joint.views()[static_cast<std::size_t>(r)], run.truth[first].time_s - joint.clock_s[r],
+                   run.truth[last].time_s - joint.clock_s[r]) > kStands_m)
+        of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
   }
   return of_run;
 }

@@ -1,6 +1,13 @@
 #include "core/diagnosis/naming/lag_and_delay.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
+#include <optional>
+
+#include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/naming/select.h"
 
 namespace odolab {
 
@@ -47,6 +54,32 @@ void put_lag_where_likeliest(JointModel& joint) {
     each->fit_noise_and_all();
   }
   if (is_likelier(even, joint)) joint = std::move(even);
+}
+
+void let_lag_in(JointModel& joint) {
+  constexpr double kShortest_s = 0.03;
+  if (std::none_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands))) return;
+  const auto lag = std::find_if(catalogue().begin(), catalogue().end(),
+                                [](const Effect& e) { return e.only_commands && e.shape_follows_amplitude; });
+  const double delay_s =
+      std::accumulate(joint.clock_s.begin(), joint.clock_s.end(), 0.0) / static_cast<double>(joint.clock_s.size());
+  if (lag == catalogue().end() || delay_s < kShortest_s) return;
+  JointModel late = joint;
+  late.fit(3);
+  late.fit_noise_and_all();
+  std::optional<JointModel> best;
+  for (const double share : {0.5, 1.0}) {
+    JointModel with = joint;
+    AcceptedEffect a;
+    a.effect = &*lag;
+    a.shape = a.value = {share * delay_s};
+    with.accepted.push_back(a);
+    for (double& clock : with.clock_s) clock -= share * delay_s;
+    put_lag_where_likeliest(with);
+    with.fit_noise_and_all();
+    if (!best || is_likelier(with, *best)) best = std::move(with);
+  }
+  if (best->minus_two_log_likelihood() < late.minus_two_log_likelihood() - kDecisive) joint = std::move(*best);
 }
 
 double variance_of_held(const JointModel& joint, std::size_t accepted) {

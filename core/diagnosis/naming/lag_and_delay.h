@@ -11,6 +11,11 @@ namespace odolab {
 // lag: it is put there as if they were acted on evenly, too, and the noise fitted to both.
 void put_lag_where_likeliest(JointModel& joint);
 
+// Behind commands: a base that lags is first taken for one that is late, and what is left looks like anything. Where a
+// lag in the place of the clocks' delay, or of half of it, is the likelier beyond doubt, noise and all, it is let in.
+// The model must have been linearised.
+void let_lag_in(JointModel& joint);
+
 // The variance of an accepted effect's size that is held so, by how the likelihood bends along the valley: its column
 // says nothing of that. In its own unit, squared.
 double variance_of_held(const JointModel& joint, std::size_t accepted);

@@ -186,6 +186,7 @@ class Selection {
   Selected run(const Progress& progress) {
     let_clocks_in(joint_);
     if (!joint_.accepted.empty()) clocks_ = joint_.accepted.front().effect;
+    let_lag_in(joint_);
     double share = 0.3;
     for (int step = 0; step < kMostEffects; ++step) {
       if (!let_best_in()) break;

@@ -1,0 +1,72 @@
+#include "core/diagnosis/unheard_commands.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace odolab {
+namespace {
+
+// Fifty times a second for twenty seconds: at rest for two, then ahead at 0.3 m/s to and fro by turns of 4 s.
+std::vector<HeldCommand> driven() {
+  std::vector<HeldCommand> commands;
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.02 * i;
+    commands.push_back({t, t < 2.0 ? 0.0 : 0.3, t < 2.0 ? 0.0 : 0.5 * std::sin(0.5 * kPi * t)});
+  }
+  return commands;
+}
+
+// What a base does that obeys but for the time between two, seen 20 times a second, late by so much.
+std::vector<TruthSample> followed(const std::vector<HeldCommand>& commands, double blocked_from_s, double to_s,
+                                  double late_s = 0.0) {
+  std::vector<TruthSample> truth;
+  Pose pose;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const HeldCommand& c = commands[i];
+    if (i % 5 == 0) truth.push_back({c.time_s + late_s, pose.position(), pose.heading_rad});
+    if (c.time_s >= blocked_from_s && c.time_s < to_s) continue;
+    pose.heading_rad += 0.02 * c.yaw_rate_radps;
+    pose.x_m += 0.02 * c.speed_mps * std::cos(pose.heading_rad);
+    pose.y_m += 0.02 * c.speed_mps * std::sin(pose.heading_rad);
+  }
+  return truth;
+}
+
+TEST(UnheardCommands, AreWhereRowsAreMissingWhileTheBaseDrives) {
+  std::vector<HeldCommand> commands = driven();
+  commands.erase(commands.begin() + 450, commands.begin() + 490);  // from 9 to 9.8 s
+  commands.erase(commands.begin() + 20, commands.begin() + 60);    // while it rests
+  const TimeStretches holes = holes_in_commands(commands);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_NEAR(holes[0].first, 8.98, 1e-9);
+  EXPECT_NEAR(holes[0].second, 9.8, 1e-9);
+  EXPECT_TRUE(holes_in_commands(driven()).empty());
+}
+
+TEST(UnheardCommands, AreNotMissingInALogThatHasARowForEachChange) {
+  std::vector<HeldCommand> commands;
+  for (int i = 0; i < 60; ++i) commands.push_back({0.05 * i * i, 0.1 + 0.001 * i, 0.0});
+  EXPECT_TRUE(holes_in_commands(commands).empty());
+}
+
+TEST(UnheardCommands, AreWhereTheBaseIsBlocked) {
+  const std::vector<HeldCommand> commands = driven();
+  const TimeStretches unmoved = unmoved_base(commands, followed(commands, 8.0, 13.0));
+  ASSERT_EQ(unmoved.size(), 1u);
+  EXPECT_NEAR(unmoved[0].first, 7.5, 0.5);
+  EXPECT_NEAR(unmoved[0].second, 13.0, 0.5);
+  EXPECT_TRUE(unmoved_base(commands, followed(commands, 0.0, 0.0)).empty());
+}
+
+// It sets off before it is told to, by its stamps, and stands while it is told to drive.
+TEST(UnheardCommands, AreNoneWhereTheTruthsClockIsOff) {
+  std::vector<HeldCommand> commands = driven();
+  for (HeldCommand& c : commands)
+    if (std::fmod(c.time_s, 8.0) > 4.0) c.speed_mps = c.yaw_rate_radps = 0.0;
+  for (const double late_s : {0.0, 3.0, -3.0})
+    EXPECT_TRUE(unmoved_base(commands, followed(commands, 0.0, 0.0, late_s)).empty()) << late_s;
+}
+
+}  // namespace
+}  // namespace odolab
