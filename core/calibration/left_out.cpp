@@ -51,22 +51,32 @@ double fastest_radps(const std::vector<WheelSample>& readings, double WheelSampl
 
 }  // namespace
 
-TimeStretches encoder_gaps(const std::vector<WheelSample>& readings) {
-  constexpr double kLeast_s = 0.2, kTimesUsual = 5.0, kUsualStep = 0.95;
+std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings) {
+  constexpr double kLeast_s = 0.2, kTimesUsual = 5.0;
   constexpr std::size_t kFewest = 20;
   if (readings.size() < kFewest) return {};
-  std::vector<double> lasts_s, turned_rad;
+  std::vector<double> lasts_s;
+  for (std::size_t i = 0; i + 1 < readings.size(); ++i) lasts_s.push_back(duration_s(readings, i));
+  const double longest_s = std::max(kLeast_s, kTimesUsual * quantile(lasts_s, 0.5));
+  std::vector<std::size_t> intervals;
+  for (std::size_t i = 0; i < lasts_s.size(); ++i)
+    if (lasts_s[i] > longest_s) intervals.push_back(i);
+  return intervals;
+}
+
+TimeStretches encoder_gaps(const std::vector<WheelSample>& readings) {
+  constexpr double kUsualStep = 0.95;
+  const std::vector<std::size_t> intervals = long_intervals(readings);
+  if (intervals.empty()) return {};
+  std::vector<double> turned_rad;
   for (std::size_t i = 0; i + 1 < readings.size(); ++i) {
     const WheelSample &a = readings[i], &b = readings[i + 1];
-    lasts_s.push_back(b.time_s - a.time_s);
     turned_rad.push_back(std::max(std::abs(b.left_rad - a.left_rad), std::abs(b.right_rad - a.right_rad)));
   }
-  const double longest_s = std::max(kLeast_s, kTimesUsual * quantile(lasts_s, 0.5));
   const double step_rad = quantile(turned_rad, kUsualStep);
   TimeStretches gaps;
-  for (std::size_t i = 0; i + 1 < readings.size(); ++i)
-    if (lasts_s[i] > longest_s && turned_rad[i] > step_rad)
-      gaps.emplace_back(readings[i].time_s, readings[i + 1].time_s);
+  for (const std::size_t i : intervals)
+    if (turned_rad[i] > step_rad) gaps.emplace_back(readings[i].time_s, readings[i + 1].time_s);
   return gaps;
 }
 

@@ -375,7 +375,8 @@ class PoseFilter {
   Turn facing_;  // cosine and sine of its heading
   int turns_ = 0;
   PoseCovariance covariance_, count_error_;
-  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_, wander2_, heading_wander2_, timing2_;  // variances
+  double position2_, heading2_, wheel2_, along2_, turning2_, sideways2_;  // variances, as these
+  double wander2_, heading_wander2_, timing2_;
   double determinant_ = 1.0;  // of the samples since the last logarithm
   Eigen::Matrix<double, 3, columns, Eigen::RowMajor> derivative_, jacobian_;
   Eigen::Matrix<double, columns, columns, Eigen::RowMajor> information_;

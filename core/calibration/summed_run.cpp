@@ -128,9 +128,9 @@ class RollingNoise {
   PoseCovariance along_, turning_, uneven_, sideways_;
 };
 
-// Each change of a command is acted on a second too late or too soon: of what the body's velocity changes from one motion
-// to the next. That shows in the motions about the change until it is acted on, so it is spread over them. What changes
-// within one motion and is back does not count.
+// Each change of a command is acted on a second too late or too soon: of what the body's velocity changes from one
+// motion to the next. That shows in the motions about the change until it is acted on, so it is spread over them. What
+// changes within one motion and is back does not count.
 void add_timing_noise(SummedRun& summed, const InnovationRun& run) {
   constexpr double kSpread_s = 0.2, kGap_s = 1.0;
   const auto& truth = run.truth;

@@ -21,10 +21,7 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
   const Effect& effect = *joint.accepted[name].effect;
   if (effect.forms.size() < 2 || joint.accepted[name].is_held || joint.distrust() > 0.0) return;
   const std::vector<double> shape = joint.accepted[name].shape;
-  const auto tested = [&](const std::vector<double>& of) {
-    return joint.test(joint.columns_of(effect, of), static_cast<int>(name));
-  };
-  const double own = tested(shape).statistic;
+  const double own = tested_in_form(joint, name, static_cast<std::size_t>(shape.back())).statistic;
   std::optional<Predicted> best;  // asked where there is another form
   const JointModel fitted = joint;
   for (std::size_t form = 0; form < effect.forms.size(); ++form) {
@@ -33,7 +30,7 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
     other.test.shape = shape;
     other.test.shape.back() = static_cast<double>(form);
     if (other.test.shape == shape) continue;
-    const CandidateTest test = tested(other.test.shape);
+    const CandidateTest test = tested_in_form(joint, name, form);
     if (test.statistic < own - 2.0 * kClearlyBeaten || !is_physical(effect, test.value)) continue;
     other.test.value = test.value;
     JointModel model = with_instead(fitted, name, other);

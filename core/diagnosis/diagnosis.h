@@ -60,7 +60,7 @@ struct Finding {
 };
 
 struct FitFigures {
-  double position_rms_m = 0.0;  // gathered over a metre or a radian, from a true start
+  double position_rms_m = 0.0;   // gathered over a metre or a radian, from a true start
   double heading_rms_rad = 0.0;  // NaN: the truth has none, and windows begin with what the model makes of the way
   double normalised_chi2 = 0.0;
 

@@ -124,19 +124,18 @@ bool name_what_is_hinted_at(JointModel& joint, Selected& selected, const Predict
 void take_simpler_forms(JointModel& joint, Selected& selected) {
   constexpr double kPlainly = 4.0;  // of twice the log-likelihood: two standard errors
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
-    const Effect& effect = *joint.accepted[k].effect;
-    if (effect.simpler_form.empty()) continue;
-    std::vector<double> shape = joint.accepted[k].shape;
-    const auto tested = [&] { return joint.test(joint.columns_of(effect, shape), static_cast<int>(k)); };
-    const double own = tested().statistic;
-    const int simpler = effect.simpler_form[static_cast<std::size_t>(shape.back())];
-    if (simpler == static_cast<int>(shape.back())) continue;
-    shape.back() = simpler;
-    const CandidateTest test = tested();
-    if (test.statistic < own - kPlainly * selected.evidence[k].test.inflation || !is_physical(effect, test.value))
+    AcceptedEffect& a = joint.accepted[k];
+    if (a.effect->simpler_form.empty()) continue;
+    const auto own = static_cast<std::size_t>(a.shape.back());
+    const auto simpler = static_cast<std::size_t>(a.effect->simpler_form[own]);
+    if (simpler == own) continue;
+    const CandidateTest test = tested_in_form(joint, k, simpler);
+    if (test.statistic < tested_in_form(joint, k, own).statistic - kPlainly * selected.evidence[k].test.inflation ||
+        !is_physical(*a.effect, test.value))
       continue;
-    joint.accepted[k].shape = selected.evidence[k].test.shape = shape;
-    joint.accepted[k].value = test.value;
+    a.shape.back() = static_cast<double>(simpler);
+    a.value = test.value;
+    selected.evidence[k].test.shape = a.shape;
     joint.fit(3);
     joint.fit_noise_and_all();
   }

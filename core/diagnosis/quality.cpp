@@ -94,14 +94,13 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     out.faults.push_back(frozen);
   }
   if (out.from_commands) {
-    const std::vector<HeldCommand> commands = held_commands(recording);
     const auto leave_out = [&](const TimeStretches& times, const std::string& what) {
       if (times.empty()) return;
       out.warnings.push_back(recording.name + ": " + what + " " + times_text(times) + ": left out");
       out.left_out_s.insert(out.left_out_s.end(), times.begin(), times.end());
     };
-    leave_out(holes_in_commands(commands), "no commands were logged");
-    leave_out(unmoved_base(commands, truth), "the base hardly moved though it was told to drive");
+    leave_out(holes_in_commands(wheels), "no commands were logged");
+    leave_out(unmoved_base(wheels, drive, truth), "the base hardly moved though it was told to drive");
     out.left_out_s = joined(std::move(out.left_out_s));
     return out;
   }

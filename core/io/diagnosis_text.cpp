@@ -288,14 +288,13 @@ std::string where_text(const WhereFound& where) {
 std::vector<Finding> faults_together(const std::vector<Finding>& findings) {
   constexpr std::size_t kMostSaid = 4;
   std::vector<Finding> together;
-  std::vector<std::string> merged;  // effects
   for (const Finding& first : findings) {
     if (!is_data_fault(first.effect)) {
       together.push_back(first);
       continue;
     }
-    if (std::find(merged.begin(), merged.end(), first.effect) != merged.end()) continue;
-    merged.push_back(first.effect);
+    if (std::any_of(together.begin(), together.end(), [&](const Finding& f) { return f.effect == first.effect; }))
+      continue;
     std::vector<const Finding*> alike;
     for (const Finding& f : findings)
       if (f.effect == first.effect) alike.push_back(&f);

@@ -116,8 +116,7 @@ void proof_part(const DiagnosisView& view, const Theme& theme) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x, thick = theme.px(9);
   for (const ProofBar& bar : view.proof) {
-    const std::string heading =
-        std::isnan(bar.heading_rms_rad) ? "" : "  " + shown(bar.heading_rms_rad, kDegrees, 3);
+    const std::string heading = std::isnan(bar.heading_rms_rad) ? "" : "  " + shown(bar.heading_rms_rad, kDegrees, 3);
     two_columns(bar.label, shown(bar.position_rms_m, kMillimetres, 2) + heading, theme);
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImU32 colour = bar.kind == ProofBar::Kind::calibrated      ? theme.orange

@@ -86,11 +86,8 @@ VectorXd between_forms(const JointModel& joint, std::size_t accepted, double inf
   VectorXd sum = VectorXd::Zero(n);
   if (a.effect->forms.size() < 2 || a.is_held || a.effect->local) return sum;
   std::vector<CandidateTest> of_form;
-  std::vector<double> shape = a.shape;
-  for (std::size_t form = 0; form < a.effect->forms.size(); ++form) {
-    shape.back() = static_cast<double>(form);
-    of_form.push_back(joint.test(joint.columns_of(*a.effect, shape), static_cast<int>(accepted)));
-  }
+  for (std::size_t form = 0; form < a.effect->forms.size(); ++form)
+    of_form.push_back(tested_in_form(joint, accepted, form));
   double best = 0.0, all = 0.0;
   for (const CandidateTest& t : of_form) best = std::max(best, t.statistic);
   const CandidateTest& own = of_form[static_cast<std::size_t>(a.shape.back())];

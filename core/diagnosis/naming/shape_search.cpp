@@ -226,6 +226,13 @@ bool is_physical(const Effect& e, const std::vector<double>& value) {
   return true;
 }
 
+CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std::size_t form) {
+  const AcceptedEffect& a = joint.accepted[accepted];
+  std::vector<double> shape = a.shape;
+  shape.back() = static_cast<double>(form);
+  return joint.test(joint.columns_of(*a.effect, shape), static_cast<int>(accepted));
+}
+
 Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
   Apart p;
   for (std::size_t k = 0; k < e.shapes.size(); ++k) {

@@ -23,6 +23,9 @@ bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radiu
 // Whether its amplitudes are such as there are.
 bool is_physical(const Effect& effect, const std::vector<double>& value);
 
+// An accepted effect as it would be in another of its forms, all else as it is.
+CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std::size_t form);
+
 // Two places: the square of how far they are apart, and their radii together; those without a radius are small.
 struct Apart {
   double away_m2 = 0.0, radii_m = 0.0;

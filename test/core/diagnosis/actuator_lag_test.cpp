@@ -1,54 +1,30 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "core/base/random.h"
 #include "core/diagnosis/diagnosis.h"
+#include "test/support/commanded_base.h"
 
 namespace odolab {
 namespace {
 
 constexpr double kLag_s = 0.065;
 
-// Joystick driving of 50 Hz commands, each held until the next; the base follows with a lag, reckoned in steps of half a
-// millisecond. Truth of a millimetre at 100 Hz.
+// Joystick driving; the base follows with a lag.
 Recording driven(int number, double lag_s) {
   Random random(static_cast<std::uint64_t>(70 + number));
-  Recording r;
-  r.name = "run_" + std::to_string(number);
-  std::vector<double> speed, yaw_rate, x, y, heading;
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kStep_s = 0.0005;
-  double command_v = 0.0, command_w = 0.0, v = 0.0, w = 0.0, wanted_v = 0.0, wanted_w = 0.0;
-  Pose pose;
-  for (int i = 0; i < 80000; ++i) {
-    if (i % 3000 == 0) wanted_v = random.uniform(-0.3, 0.6), wanted_w = random.uniform(-0.9, 0.9);
-    const bool commands = i % 40 == 0, seen = i % 20 == 0;
-    if (commands) {
-      command_v += std::clamp(wanted_v - command_v, -0.02, 0.02);
-      command_w += std::clamp(wanted_w - command_w, -0.06, 0.06);
+  double wanted_mps = 0.0, wanted_radps = 0.0;
+  return test::commanded("run_" + std::to_string(number), 80000, random, [&](int i, test::CommandedBase& b) {
+    if (i % 3000 == 0) wanted_mps = random.uniform(-0.3, 0.6), wanted_radps = random.uniform(-0.9, 0.9);
+    if (i % 40 == 0) {
+      b.command_mps += std::clamp(wanted_mps - b.command_mps, -0.02, 0.02);
+      b.command_radps += std::clamp(wanted_radps - b.command_radps, -0.06, 0.06);
     }
-    if (seen) {
-      r.time_s.push_back(kStep_s * i);
-      speed.push_back(commands ? command_v : kNone);
-      yaw_rate.push_back(commands ? command_w : kNone);
-      x.push_back(pose.x_m + 0.001 * random.normal());
-      y.push_back(pose.y_m + 0.001 * random.normal());
-      heading.push_back(pose.heading_rad + 0.002 * random.normal());
-    }
-    const double follows = 1.0 - std::exp(-kStep_s / lag_s);
-    v += follows * (command_v - v), w += follows * (command_w - w);
-    const double middle = pose.heading_rad + 0.5 * w * kStep_s;
-    // its wheels roll a little unevenly
-    const double rolled = v * kStep_s + 0.0005 * std::sqrt(std::abs(v) * kStep_s) * random.normal();
-    pose = {pose.x_m + rolled * std::cos(middle), pose.y_m + rolled * std::sin(middle),
-            pose.heading_rad + w * kStep_s + 0.001 * std::sqrt(std::abs(v) * kStep_s) * random.normal()};
-  }
-  r.add_channel("command_speed_mps").values = speed;
-  r.add_channel("command_yaw_rate_radps").values = yaw_rate;
-  r.add_channel("truth_x_m").values = x;
-  r.add_channel("truth_y_m").values = y;
-  r.add_channel("truth_heading_rad").values = heading;
-  return r;
+    const double follows = 1.0 - std::exp(-b.kStep_s / lag_s);
+    b.speed_mps += follows * (b.command_mps - b.speed_mps);
+    b.yaw_rate_radps += follows * (b.command_radps - b.yaw_rate_radps);
+  });
 }
 
 // Seen from its commands alone, a base that lags is nearly one that is late.
