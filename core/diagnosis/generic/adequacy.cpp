@@ -46,7 +46,7 @@ void look_again(const JointModel& joint, std::vector<GenericTest>& generic, doub
     GenericTest& g = *nearest[static_cast<std::size_t>(i)];
     JointModel with = joint;
     let_in(with, g);
-    const CandidateTest again = tested_under_own_noise(joint, with, true, kLeastSurvivingOfGeneric);
+    const CandidateTest again = tested_under_own_noise(joint, with, true, kAskedOfGeneric);
     if (again.freedom != g.test.freedom || again.statistic < g.test.statistic) return;
     g.under_own_noise = again.statistic / g.test.statistic;
     g.test = again;

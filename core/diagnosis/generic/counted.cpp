@@ -1,6 +1,7 @@
 #include "core/diagnosis/generic/counted.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -21,10 +22,12 @@ struct Extent {
 };
 
 // How much a term moves a wheel, and how much of that while the wheel turned by nearly a whole number of counts from
-// reading to reading, or from the next but one to the next but one: only then do remainders take as long to come back
-// as the term does.
+// reading to reading, or to the next but one, two or three: only then do remainders take as long to come back as the
+// term does.
+constexpr int kApart = 4;
 struct Moved {
-  double all_m = 0.0, evenly_m = 0.0;
+  double all_m = 0.0;
+  std::array<double, kApart> evenly_m{};  // by how many readings lie between, the fewest first
   void add(const DriveView& view, double EffectStep::*by_rad, double count_rad, const std::vector<double>& moved_m) {
     constexpr double kFaster = 1.5;  // that the remainder may come back
     for (std::size_t first = 0; first < moved_m.size();) {
@@ -40,7 +43,11 @@ struct Moved {
         return std::abs(each - std::round(each)) * readings / apart;
       };
       all_m += std::abs(way_m);
-      if (std::min(turns_of_remainder(1), turns_of_remainder(2)) < 0.5 * kFaster) evenly_m += std::abs(way_m);
+      for (int apart = 1; apart <= kApart; ++apart)
+        if (turns_of_remainder(apart) < 0.5 * kFaster) {
+          evenly_m[static_cast<std::size_t>(apart - 1)] += std::abs(way_m);
+          break;
+        }
       first = end;
     }
   }
@@ -49,6 +56,7 @@ struct Moved {
 bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<double>& value) {
   const DifferentialDrive& drive = joint.model.drive;
   Moved moved;
+  double furthest = 0.0;  // counts
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
     const Motions motion = motion_of(term, view, {}, value);
@@ -66,12 +74,15 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
     }
     moved.add(view, &EffectStep::left_by_rad, count, left_by_m);
     moved.add(view, &EffectStep::right_by_rad, count, right_by_m);
-    const double hidden_rad = kHidden * count;
-    if (left_m.half() > hidden_rad * drive.wheel_radius_left_m ||
-        right_m.half() > hidden_rad * drive.wheel_radius_right_m)
-      return false;
+    furthest = std::max({furthest, left_m.half() / (count * drive.wheel_radius_left_m),
+                         right_m.half() / (count * drive.wheel_radius_right_m)});
   }
-  return moved.evenly_m > kEvenly * moved.all_m;
+  // Remainders of readings that come back after so many share their turn evenly: what all hide is that much less.
+  double evenly_m = 0.0;
+  for (int apart = 1; apart <= kApart; ++apart)
+    if (furthest <= kHidden * std::min(1.0, 2.0 / apart))
+      evenly_m += moved.evenly_m[static_cast<std::size_t>(apart - 1)];
+  return evenly_m > kEvenly * moved.all_m;
 }
 
 }  // namespace

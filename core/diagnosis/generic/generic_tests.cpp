@@ -97,7 +97,7 @@ AskedModel::AskedModel(const JointModel& model) : joint(model), with_and_without
 
 void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at) {
   CandidateColumns columns = asked.joint.columns_of(*term, {});
-  columns.least_surviving = kLeastSurvivingOfGeneric;
+  columns.how = kAskedOfGeneric;
   const std::vector<CandidateTest> tests = asked.joint.tests(columns, asked.with_and_without);
   t.test = tests.front();
   t.instead = tests.back();

@@ -29,7 +29,7 @@ std::vector<CandidateTest> CandidateScan::tests(const Effect& effect,
   for (std::size_t k = 0; k < asked.size(); ++k)
     if (products[k].acts)
       results[asked[k]] =
-          JointModel::tested(absorbing_, std::move(products[k].products), CandidateColumns{}.least_surviving, nullptr);
+          JointModel::tested(absorbing_, std::move(products[k].products), AskedHow{}.least_surviving, nullptr);
   return results;
 }
 

@@ -1,4 +1,4 @@
-// The efficient score of what the joint model does not hold yet, and how much wider than the model says it scatters.
+// The efficient score of what the joint model does not hold yet.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -13,23 +13,20 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kBatches = 60;
-constexpr double kFewestToValidate = 4.0;
-constexpr double kPriorBatches = 6.0;  // the weight of believing that the innovations are white
+constexpr double kFewestToValidate = 4.0;  // batches
 
-// An inflation of one or more from the scatter of so many batches, relative to what it should be.
-double shrunk_inflation(double scatter, double count) {
-  const double own = count > 1.5 ? scatter * count / (count - 1.0) : 1.0;
-  return std::max(1.0, (kPriorBatches + count * own) / (kPriorBatches + count));
-}
 }  // namespace
+
+int JointModel::batch_samples() const {
+  int samples = 0;
+  for (const LinearisedRun& l : now_->runs) samples += l.samples();
+  return std::max(1, samples / kBatches);
+}
 
 VectorXd JointModel::inflation_of_columns() const {
   const MatrixXd cov = covariance();
   const VectorXd left = cov * zr_;  // what the last step of the fit did not take
-  int samples = 0;
-  for (const LinearisedRun& l : now_->runs) samples += l.samples();
-  const int batch = std::max(1, samples / kBatches), q = columns();
+  const int batch = batch_samples(), q = columns();
   VectorXd scatter = VectorXd::Zero(q), info = VectorXd::Zero(q), square = VectorXd::Zero(q);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const VectorXd res = residual_[r] - now_->z[r] * now_->acting(r, left);
@@ -48,9 +45,12 @@ VectorXd JointModel::inflation_of_columns() const {
     }
   }
   VectorXd inflation = VectorXd::Ones(q);
-  for (int c = 0; c < q; ++c)
-    if (info(c) > 0.0 && square(c) > 0.0)
-      inflation(c) = shrunk_inflation(scatter(c) / info(c), info(c) * info(c) / square(c));
+  for (int c = 0; c < q; ++c) {
+    if (info(c) <= 0.0 || square(c) <= 0.0) continue;
+    const double count = info(c) * info(c) / square(c);
+    if (count > 1.5)
+      inflation(c) = shrunk_inflation(scatter(c) / info(c) * count / (count - 1.0), count, batches_believed_white());
+  }
   return inflation;
 }
 
@@ -206,7 +206,6 @@ class JointModel::Asked {
  public:
   Absorbing by;
   std::vector<VectorXd> residual;  // of each run, with all that is kept at its best
-  int batch = 1;                   // samples
 };
 
 std::shared_ptr<const JointModel::Asked> JointModel::asked(int without) const {
@@ -215,18 +214,14 @@ std::shared_ptr<const JointModel::Asked> JointModel::asked(int without) const {
   VectorXd gone = -out->by.taken;
   for (std::size_t i = 0; i < out->by.kept.size(); ++i)
     gone(out->by.kept[i]) += out->by.step(static_cast<Eigen::Index>(i));
-  int samples = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) {
+  for (std::size_t r = 0; r < runs_.size(); ++r)
     out->residual.push_back(residual_[r] - now_->z[r] * now_->acting(r, gone));
-    samples += now_->runs[r].samples();
-  }
-  out->batch = std::max(1, samples / kBatches);
   return out;
 }
 
 CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
   if (thorough) return tested_thoroughly(*asked(without), products_of(c), c);
-  return tested(absorbing(without), products_of(c), c.least_surviving, nullptr);
+  return tested(absorbing(without), products_of(c), c.how.least_surviving, nullptr);
 }
 
 std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c,
@@ -240,48 +235,53 @@ std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c,
 CandidateTest JointModel::tested_thoroughly(const Asked& asked, CandidateProducts products,
                                             const CandidateColumns& c) const {
   MatrixXd absorbed;
-  CandidateTest out = tested(asked.by, std::move(products), c.least_surviving, &absorbed);
+  CandidateTest out = tested(asked.by, std::move(products), c.how.least_surviving, &absorbed);
   if (out.statistic <= 0.0) return out;
+  const ScoreByBatches by_batches = score_by_batches(asked, c, out, absorbed);
+  if (by_batches.u.empty()) return out;
+  const double prior = c.how.scatters_as_its_like ? batches_believed_white() : kFewestBatchesBelieved;
+  out.inflation = by_batches.inflation(prior);
+  out.batches = prior + by_batches.count;
+  // A single kick of a castor is not fitted on one half and tried on the other.
+  out.cross_validated = by_batches.count < kFewestToValidate ? out.statistic : by_batches.cross_validated();
+  return out;
+}
 
-  // The score along the fitted direction, batch by batch.
-  const VectorXd value = Eigen::Map<const VectorXd>(out.value.data(), c.amplitudes), of_kept = absorbed * value;
+ScoreByBatches JointModel::score_by_batches(const Asked& asked, const CandidateColumns& c, const CandidateTest& test,
+                                            const MatrixXd& absorbed) const {
+  const VectorXd value = Eigen::Map<const VectorXd>(test.value.data(), c.amplitudes), of_kept = absorbed * value;
   VectorXd of_model = VectorXd::Zero(gram_.rows());
   for (std::size_t i = 0; i < asked.by.kept.size(); ++i)
     of_model(asked.by.kept[i]) = of_kept(static_cast<Eigen::Index>(i));
-  std::vector<double> u, i;
-  double square_all = 0.0;
+  ScoreByBatches out;
+  const int batch = batch_samples();
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const VectorXd column = beside_model(static_cast<int>(r), c, value, of_model);
     const int n = now_->runs[r].samples();
-    for (int from = 0; from < n; from += asked.batch) {
-      const int rows = 3 * (std::min(n, from + asked.batch) - from);
-      u.push_back(column.segment(3 * from, rows).dot(asked.residual[r].segment(3 * from, rows)));
-      i.push_back(column.segment(3 * from, rows).squaredNorm());
-      square_all += i.back() * i.back();
+    for (int from = 0; from < n; from += batch) {
+      const int rows = 3 * (std::min(n, from + batch) - from);
+      out.add(column.segment(3 * from, rows).dot(asked.residual[r].segment(3 * from, rows)),
+              column.segment(3 * from, rows).squaredNorm());
     }
   }
-  double sum_u = 0.0, sum_i = 0.0;
-  for (std::size_t n = 0; n < u.size(); ++n) sum_u += u[n], sum_i += i[n];
-  if (sum_i <= 0.0) return out;
-  const double a = sum_u / sum_i;
-  double scatter = 0.0;
-  for (std::size_t n = 0; n < u.size(); ++n) scatter += (u[n] - a * i[n]) * (u[n] - a * i[n]);
-  const double count = sum_i * sum_i / std::max(square_all, 1e-300);  // batches that matter
-  out.inflation = shrunk_inflation(scatter / sum_i, count);
-  out.batches = kPriorBatches + count;
-  if (count < kFewestToValidate) {  // a single kick of a castor is not fitted on one half and tried on the other
-    out.cross_validated = out.statistic;
-    return out;
-  }
-  for (int half = 0; half < 2; ++half) {
-    double fu = 0.0, fi = 0.0, tu = 0.0, ti = 0.0;
-    for (std::size_t n = 0; n < u.size(); ++n)
-      (static_cast<int>(n % 2) == half ? fu : tu) += u[n], (static_cast<int>(n % 2) == half ? fi : ti) += i[n];
-    if (fi <= 0.0) continue;
-    const double fitted = fu / fi;
-    out.cross_validated += 2.0 * fitted * tu - fitted * fitted * ti;
-  }
+  out.finish();
   return out;
+}
+
+double JointModel::batches_believed_white() const {
+  std::call_once(white_->once, [&] {
+    std::vector<ScoreByBatches> scores;
+    const std::shared_ptr<const Asked> asked_now = asked();
+    for (const Effect& e : catalogue()) {
+      if (e.local || e.only_commands || e.scan || e.forms.size() > 1) continue;
+      const CandidateColumns c = columns_of(e, {});
+      MatrixXd absorbed;
+      const CandidateTest test = tested(asked_now->by, products_of(c), c.how.least_surviving, &absorbed);
+      if (test.statistic > 0.0) scores.push_back(score_by_batches(*asked_now, c, test, absorbed));
+    }
+    white_->batches = batches_of_prior(scores);
+  });
+  return white_->batches;
 }
 
 VectorXd JointModel::beside_model(int run, const CandidateColumns& c, const VectorXd& value,

@@ -80,6 +80,7 @@ double JointModel::fit(int iterations) {
       go();
       for (std::size_t r = 0; r < runs_.size(); ++r) residual_[r] -= now_->z[r] * now_->acting(r, gone);
       scanned_.reset();
+      white_ = std::make_shared<BelievedWhite>();
       zr_ -= gram_ * gone;
       gained += gone.dot(score + zr_);
       chi2_ -= gone.dot(score + zr_);

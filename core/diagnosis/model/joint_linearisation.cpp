@@ -72,6 +72,7 @@ void JointModel::linearise(bool with_columns) {
   next->z.resize(n);
   residual_.resize(n);
   scanned_.reset();
+  white_ = std::make_shared<BelievedWhite>();
   std::vector<std::vector<LinearisedRun>> made(n);
   const int q = columns();
   parallel_for(n, [&](int r) {

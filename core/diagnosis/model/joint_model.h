@@ -4,12 +4,14 @@
 #include <Eigen/Dense>
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/model/linearised.h"
+#include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/model/shared_clock.h"
 
 namespace odolab {
@@ -34,6 +36,13 @@ struct CandidateTest {
   double judged() const { return statistic / inflation; }
 };
 
+struct AskedHow {
+  double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
+  // How the scores of all that is listed scatter tells how far this one may be believed: not of a term that was made to
+  // find what they do not see.
+  bool scatters_as_its_like = true;
+};
+
 // Columns of a candidate over all runs, of each run those that act in it: rows as the whitened innovations.
 struct CandidateColumns {
   struct OfRun {
@@ -43,7 +52,7 @@ struct CandidateColumns {
   };
   int amplitudes = 0;
   std::vector<OfRun> of_run;
-  double least_surviving = 1e-3;  // directions of which calibration leaves less are not tested
+  AskedHow how;
 };
 
 // The same of one candidate: products of its columns with each other, with those of the model, and with what is left.
@@ -199,6 +208,12 @@ class JointModel {
   static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
                               Eigen::MatrixXd* absorbed);
   CandidateTest tested_thoroughly(const Asked& by, CandidateProducts products, const CandidateColumns& c) const;
+  int batch_samples() const;
+  // Of a candidate that was tested, `absorbed` by the kept columns.
+  ScoreByBatches score_by_batches(const Asked& by, const CandidateColumns& c, const CandidateTest& test,
+                                  const Eigen::MatrixXd& absorbed) const;
+  // From the scores of all effects that have no shape to look for. Of the linearisation as it is.
+  double batches_believed_white() const;
   // Of the model's columns, what makes up an accepted effect with all else projected off.
   Eigen::VectorXd beside_all_else(int accepted) const;
   CandidateProducts products_of(const CandidateColumns& columns) const;
@@ -244,7 +259,12 @@ class JointModel {
   bool has_columns_ = false;
   std::vector<Eigen::VectorXd> residual_;             // of each run, whitened
   mutable std::shared_ptr<ScannedProducts> scanned_;  // made when the first asks
-  Eigen::MatrixXd gram_;                              // with priors
+  struct BelievedWhite {
+    std::once_flag once;
+    double batches = 0.0;
+  };
+  std::shared_ptr<BelievedWhite> white_;  // the same
+  Eigen::MatrixXd gram_;                  // with priors
   Eigen::VectorXd zr_;
   double chi2_ = 0.0, log_determinant_ = 0.0;
   int scalars_ = 0;

@@ -4,12 +4,11 @@
 
 namespace odolab {
 
-CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
-                                     double least_surviving) {
+CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough, const AskedHow& how) {
   with.fit_noise_and_all();
   const AcceptedEffect& term = with.accepted.back();
   CandidateColumns columns = with.columns_of(*term.effect, term.shape);
-  columns.least_surviving = least_surviving;
+  columns.how = how;
   CandidateTest test = with.test(columns, static_cast<int>(with.accepted.size()) - 1, thorough);
   test.shape = term.shape;
   test.statistic = std::min(test.statistic, without.minus_two_log_likelihood() - with.minus_two_log_likelihood());

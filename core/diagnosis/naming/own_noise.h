@@ -14,6 +14,6 @@ namespace odolab {
 // the smaller of the score's under the new noise and of what the likelihood gains from the one model to the other:
 // where nothing is missing the first alone would be too large, by what the noise loses to any term.
 CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
-                                     double least_surviving = CandidateColumns{}.least_surviving);
+                                     const AskedHow& how = {});
 
 }  // namespace odolab
