@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
@@ -67,7 +68,10 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   InnovationRun run;
   const std::optional<EvenedRecording> even = evened(as_logged, drive);
   if (even) run.warnings = even->said;
-  const Recording& recording = even ? even->recording : as_logged;
+  const Recording& as_taken = even ? even->recording : as_logged;
+  const std::optional<MeasuredRecording> measured = without_carried_truth(as_taken);
+  if (measured) run.warnings.push_back(measured->said);
+  const Recording& recording = measured ? measured->recording : as_taken;
   run.name = where;
   const std::vector<WheelSample> read = wheel_samples(recording, drive);
   for (const WheelSample& w : read)

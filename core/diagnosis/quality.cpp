@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
 #include "core/diagnosis/encoder_jumps.h"
@@ -92,6 +93,10 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     frozen.sentence = "the truth repeats itself with new stamps while the wheels turn, " +
                       std::to_string(frozen.time_s.size()) + " time(s); left out";
     out.faults.push_back(frozen);
+  }
+  if (std::optional<MeasuredRecording> measured = without_carried_truth(out.recording)) {
+    out.recording = std::move(measured->recording);
+    out.warnings.push_back(std::move(measured->said));
   }
   if (out.from_commands) {
     const auto leave_out = [&](const TimeStretches& times, const std::string& what) {
