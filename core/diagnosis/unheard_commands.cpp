@@ -15,13 +15,16 @@ struct Moved {
   double way_m = 0.0, turn_rad = 0.0;
 };
 
-// What the commands between two times add up to, without turns of the way.
+// What the commands between two times add up to.
 Moved told(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive, double from_s, double to_s) {
   const WheelSample a = wheels_at(obeyed, from_s), b = wheels_at(obeyed, to_s);
   const double left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad),
                right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
-  return {std::abs(0.5 * (left_m + right_m)), std::abs(right_m - left_m) / drive.wheelbase_m};
+  return {0.5 * (left_m + right_m), (right_m - left_m) / drive.wheelbase_m};
 }
+
+// The smaller of both, whichever way; none where one goes back on the other.
+double at_least(double a, double b) { return a * b > 0.0 ? std::min(std::abs(a), std::abs(b)) : 0.0; }
 
 }  // namespace
 
@@ -71,19 +74,29 @@ TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const Differe
     const double to_s = from_s + kLasts_s;
     const auto a = pose_about(from_s), b = pose_about(to_s);
     if (!a || !b) continue;
-    const double moved_m = length(b->position() - a->position());
-    const double moved_rad = std::abs(wrapped(b->heading_rad - a->heading_rad));
+    const auto moved_to = [&](const Pose& other) {
+      return Moved{length(other.position() - a->position()), std::abs(wrapped(other.heading_rad - a->heading_rad))};
+    };
+    const Moved moved = moved_to(*b);
+    Moved furthest = moved;  // on the way: who went and came back did as he was told
+    for (double time_s = from_s + kStride_s; time_s < to_s; time_s += kStride_s)
+      if (const auto then = pose_about(time_s)) {
+        const Moved by = moved_to(*then);
+        furthest = {std::max(furthest.way_m, by.way_m), std::max(furthest.turn_rad, by.turn_rad)};
+      }
     const Moved now = told(obeyed, drive, from_s, to_s),
                 before = told(obeyed, drive, from_s - kSooner_s, to_s - kSooner_s);
-    const double way_m = std::min(now.way_m, before.way_m), turn_rad = std::min(now.turn_rad, before.turn_rad);
-    if ((way_m > kLeast_m || turn_rad > kLeast_rad) && moved_m < std::max(kHardly_m, kHardly * way_m) &&
-        moved_rad < std::max(kHardly_rad, kHardly * turn_rad)) {
+    const double way_m = at_least(now.way_m, before.way_m), turn_rad = at_least(now.turn_rad, before.turn_rad);
+    if ((way_m > kLeast_m || turn_rad > kLeast_rad) && furthest.way_m < std::max(kHardly_m, kHardly * way_m) &&
+        furthest.turn_rad < std::max(kHardly_rad, kHardly * turn_rad)) {
       unmoved.emplace_back(from_s - kSooner_s, to_s);
       ++deaf;
     }
-    const double most_m = std::max(now.way_m, before.way_m), most_rad = std::max(now.turn_rad, before.turn_rad);
-    if ((moved_m > kLeast_m || moved_rad > kLeast_rad) && most_m < std::max(kHardly_m, kHardly * moved_m) &&
-        most_rad < std::max(kHardly_rad, kHardly * moved_rad))
+    const double most_m = std::max(std::abs(now.way_m), std::abs(before.way_m)),
+                 most_rad = std::max(std::abs(now.turn_rad), std::abs(before.turn_rad));
+    if ((moved.way_m > kLeast_m || moved.turn_rad > kLeast_rad) &&
+        most_m < std::max(kHardly_m, kHardly * moved.way_m) &&
+        most_rad < std::max(kHardly_rad, kHardly * moved.turn_rad))
       ++unbidden;
   }
   if (2 * unbidden > deaf) return {};

@@ -87,5 +87,13 @@ TEST(UnheardCommands, AreNoneWhereTheTruthsClockIsOff) {
     EXPECT_TRUE(unmoved_base(obeyed(commands), kDrive, followed(commands, 0.0, 0.0, late_s)).empty()) << late_s;
 }
 
+// Two seconds about the moment at which it turns back begin and end at one place.
+TEST(UnheardCommands, AreNoneWhereTheBaseGoesBackWhereItCameFrom) {
+  std::vector<HeldCommand> commands;
+  for (int i = 0; i < 1000; ++i) commands.push_back({0.02 * i, i / 250 % 2 == 0 ? 0.34 : -0.34, 0.0});
+  for (const double late_s : {0.0, 0.1, 0.2, 0.25, 0.3, 0.45})
+    EXPECT_TRUE(unmoved_base(obeyed(commands), kDrive, followed(commands, 100.0, 100.0, late_s)).empty()) << late_s;
+}
+
 }  // namespace
 }  // namespace odolab
