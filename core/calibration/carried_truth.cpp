@@ -35,6 +35,14 @@ class SidewaysSteps {
     off_m_ = without_what_most_share();
   }
 
+  bool are_computed() const {
+    constexpr double kLeastMeasured_m = 1e-5;  // cameras on a bench err by more
+    constexpr int kFewest = 100;
+    int moving = 0;
+    for (Eigen::Index i = 0; i < off_m_.size(); ++i) moving += std::abs(by_(i, 0)) > kLeastMeasured_m;
+    return moving >= kFewest && step_m_ <= kLeastMeasured_m && root_mean_square_m() <= kLeastMeasured_m;
+  }
+
   // Of each step, beyond chance; none of a truth that is measured.
   std::optional<std::vector<char>> corrections() const {
     constexpr double kNothing = 0.02;    // of the root mean square; 2 in 100 steps of a measured truth are less
@@ -42,8 +50,7 @@ class SidewaysSteps {
     constexpr double kBeyond = 3.0;      // that a usual correction is larger than that
     constexpr double kMost = 0.6, kAlone = 0.8;
     constexpr std::ptrdiff_t kFewest = 10;
-    const double rms_m = std::sqrt(off_m_.squaredNorm() / static_cast<double>(off_m_.size()));
-    const double nothing_m = std::max(kNothing * rms_m, kByRounding * step_m_);
+    const double nothing_m = std::max(kNothing * root_mean_square_m(), kByRounding * step_m_);
     const auto n = static_cast<std::size_t>(off_m_.size());
     std::vector<char> corrected(n);
     std::ptrdiff_t moving = 0, carried = 0, alone = 0;
@@ -67,6 +74,8 @@ class SidewaysSteps {
   }
 
  private:
+  double root_mean_square_m() const { return std::sqrt(off_m_.squaredNorm() / static_cast<double>(off_m_.size())); }
+
   // Least absolute deviations, by least squares with weights.
   Eigen::VectorXd without_what_most_share() const {
     constexpr int kRounds = 20;
@@ -89,18 +98,36 @@ class SidewaysSteps {
 
 }  // namespace
 
-std::optional<MeasuredRecording> without_carried_truth(const Recording& recording) {
+namespace {
+
+bool can_be_told(const std::vector<TruthSample>& truth) {
   constexpr std::size_t kFewest = 100;
+  return truth.size() >= kFewest &&
+         std::all_of(truth.begin(), truth.end(), [](const TruthSample& s) { return s.heading_rad.has_value(); });
+}
+
+std::string name_of(const Recording& recording) { return recording.name.empty() ? "the recording" : recording.name; }
+
+}  // namespace
+
+std::optional<std::string> warning_of_computed_truth(const Recording& recording) {
   const std::vector<TruthSample> truth = truth_samples(recording);
-  if (truth.size() < kFewest ||
-      !std::all_of(truth.begin(), truth.end(), [](const TruthSample& s) { return s.heading_rad.has_value(); }))
-    return std::nullopt;
+  if (!can_be_told(truth) || !SidewaysSteps(truth).are_computed()) return std::nullopt;
+  return name_of(recording) +
+         ": the truth never errs sideways, not by a hundredth of a millimetre: it is computed, as a robot's own "
+         "odometry "
+         "is, or simulated without noise, and tells of the floor only what that knows";
+}
+
+std::optional<MeasuredRecording> without_carried_truth(const Recording& recording) {
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  if (!can_be_told(truth)) return std::nullopt;
   const std::optional<std::vector<char>> corrected = SidewaysSteps(truth).corrections();
   if (!corrected) return std::nullopt;
   std::vector<double> carried_s;
   for (std::size_t i = 0; i < corrected->size(); ++i)
     if (!(*corrected)[i]) carried_s.push_back(truth[i + 1].time_s);
-  MeasuredRecording out{recording, recording.name.empty() ? "the recording" : recording.name};
+  MeasuredRecording out{recording, name_of(recording)};
   for (Channel& c : out.recording.channels)
     for (std::size_t i = 0; i < recording.time_s.size(); ++i)
       if (c.name.rfind("truth_", 0) == 0 && std::binary_search(carried_s.begin(), carried_s.end(), recording.time_s[i]))

@@ -20,4 +20,8 @@ struct MeasuredRecording {
 // next and is over. Nothing where that is not so, and of a truth without headings, of which it cannot be told.
 std::optional<MeasuredRecording> without_carried_truth(const Recording& recording);
 
+// A warning, where no step at all goes sideways otherwise than so: the truth is computed and not measured, by odometry
+// or by a simulator without noise. Nothing where its numbers are too coarse to tell.
+std::optional<std::string> warning_of_computed_truth(const Recording& recording);
+
 }  // namespace odolab

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
@@ -68,10 +67,7 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   InnovationRun run;
   const std::optional<EvenedRecording> even = evened(as_logged, drive);
   if (even) run.warnings = even->said;
-  const Recording& as_taken = even ? even->recording : as_logged;
-  const std::optional<MeasuredRecording> measured = without_carried_truth(as_taken);
-  if (measured) run.warnings.push_back(measured->said);
-  const Recording& recording = measured ? measured->recording : as_taken;
+  const Recording& recording = even ? even->recording : as_logged;
   run.name = where;
   const std::vector<WheelSample> read = wheel_samples(recording, drive);
   for (const WheelSample& w : read)

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/cannot_be_told.h"
+#include "core/calibration/carried_truth.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/first_guess.h"
 #include "core/calibration/likelihood_fit.h"
@@ -358,11 +359,10 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
   return clocks;
 }
 
-}  // namespace
-
-Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
-                                                        const Vehicle& nominal, const LeastSquaresOptions& options,
-                                                        const Progress& progress) {
+// Of fewer samples of the truth, where its noise lasts from one to the next.
+Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Recording>& recordings,
+                                                          const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                          const Progress& progress) {
   // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts: then none that are
   // further apart are white.
   constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5, kWhite = 0.06, kWhiter = 0.33;
@@ -415,6 +415,25 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
            "only samples %.2g s apart were used",
            next(*all), apart_s));
   return of_fewer;
+}
+
+}  // namespace
+
+Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Recording>& recordings,
+                                                        const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                        const Progress& progress) {
+  std::vector<Recording> measured = recordings;
+  std::vector<std::string> said;
+  for (Recording& r : measured) {
+    if (std::optional<std::string> computed = warning_of_computed_truth(r)) said.push_back(std::move(*computed));
+    if (std::optional<MeasuredRecording> corrections = without_carried_truth(r)) {
+      said.push_back(std::move(corrections->said));
+      r = std::move(corrections->recording);
+    }
+  }
+  Result<LeastSquaresCalibration> result = calibrated_by_white_truth(measured, nominal, options, progress);
+  if (result) result->warnings.insert(result->warnings.begin(), said.begin(), said.end());
+  return result;
 }
 
 }  // namespace odolab

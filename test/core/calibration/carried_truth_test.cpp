@@ -19,7 +19,7 @@ constexpr std::size_t kEvery = 12;
 
 // As a map's localisation hands on its pose: every twelfth sample is measured, the others go on from it by the robot's
 // own odometry, of a vehicle that is a little another one.
-Recording carried_by_odometry(Recording r, const DifferentialDrive& drive) {
+Recording carried_by_odometry(Recording r, const DifferentialDrive& drive, std::size_t every = kEvery) {
   const DifferentialDrive believed{1.02 * drive.wheel_radius_left_m, 1.015 * drive.wheel_radius_right_m,
                                    0.97 * drive.wheelbase_m};
   const Channel *left = r.channel("left_wheel_rad"), *right = r.channel("right_wheel_rad");
@@ -36,7 +36,7 @@ Recording carried_by_odometry(Recording r, const DifferentialDrive& drive) {
     if (known) pose = dead_reckoned(pose, l[i] - l[last], rt[i] - rt[last], believed);
     last = i;
     if (std::isnan(to[0]->values[i])) continue;
-    if (sample++ % kEvery == 0 || !known)
+    if (sample++ % every == 0 || !known)
       pose = {to[0]->values[i], to[1]->values[i], to[2]->values[i]};
     else
       to[0]->values[i] = pose.x_m, to[1]->values[i] = pose.y_m, to[2]->values[i] = wrapped(pose.heading_rad);
@@ -128,6 +128,17 @@ TEST(CarriedTruth, CannotBeToldWithoutHeadings) {
   Recording r = carried_by_odometry(c.recordings[0], c.actual);
   std::erase_if(r.channels, [](const Channel& channel) { return channel.name == "truth_heading_rad"; });
   EXPECT_FALSE(without_carried_truth(r));
+}
+
+TEST(ComputedTruth, IsSaidOfARobotsOwnOdometryAndOfNothingMeasured) {
+  Case c = a_case();
+  EXPECT_FALSE(warning_of_computed_truth(c.recordings[0]));
+  for (Recording& r : c.recordings) r = carried_by_odometry(std::move(r), c.actual, std::size_t{1} << 30);
+  const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(std::count_if(fit->warnings.begin(), fit->warnings.end(),
+                          [](const std::string& w) { return w.find("never errs sideways") != std::string::npos; }),
+            std::ssize(c.recordings));
 }
 
 }  // namespace
