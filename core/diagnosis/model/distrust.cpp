@@ -64,10 +64,28 @@ std::array<double, 3> products_of_remainders(const InnovationRun& run, const std
   return sum;
 }
 
+// Of a channel of the whitened innovations: one where sums of them scatter as the model says.
+double scatter_of_sums(const std::vector<LinearisedRun>& runs, std::size_t channel) {
+  std::vector<std::vector<double>> innovations;
+  double square = 0.0;
+  int used = 0;
+  for (const LinearisedRun& linear : runs) {
+    const Whitened& r = linear.residual();
+    innovations.emplace_back();
+    for (std::size_t i = channel; i < r.size(); i += 3) {
+      innovations.back().push_back(r[i]);
+      square += r[i] * r[i];
+      used += r[i] != 0.0;  // of what was set aside nothing is left
+    }
+  }
+  return square / std::max(1, used) * sum_widened_by_correlation(innovations);
+}
+
 }  // namespace
 
 // Correlation of each whitened innovation with that before, the largest of the three channels. That of a floor whose
-// unevenness has a length is negative, since the noise was fitted to what adds up. Samples beside the same reading of
+// unevenness has a length is negative, or makes up for samples that scatter less than the model says, since the noise
+// was fitted to what adds up: correlations count as far as sums scatter more. Samples beside the same reading of
 // the encoders share its rounding and say nothing of the model: "before" is two readings ago and more. But what happens
 // at one moment is not told from just that rounding: for it, samples between the same two readings alone do not count.
 // At an even speed of nearly whole counts from reading to reading remainders last longer: what they alone make, twice
@@ -94,24 +112,18 @@ double JointModel::distrust(bool of_a_moment) const {
     for (int k = 0; k < 3; ++k) of_remainders[k] += hidden[static_cast<std::size_t>(k)];
   }
   double most = 0.0;
-  for (int k = 0; k < 3; ++k)
-    if (square[k] > 0.0)
-      most = std::max(most, (product[k] - kOfRemainders * std::max(of_remainders[k], 0.0)) / square[k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (square[k] <= 0.0) continue;
+    const double correlation = (product[k] - kOfRemainders * std::max(of_remainders[k], 0.0)) / square[k];
+    if (correlation > std::max(most, kWhite))
+      most = std::max(most, std::min(correlation, 0.5 * (scatter_of_sums(now_->runs, k) - 1.0)));
+  }
   return std::clamp((most - kWhite) / (kCorrelated - kWhite), 0.0, 1.0);
 }
 
-// The channel's that is widest.
 double JointModel::wider_by_correlation() const {
   double widest = 1.0;
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    std::vector<std::vector<double>> innovations;
-    for (const LinearisedRun& linear : now_->runs) {
-      const Whitened& r = linear.residual();
-      innovations.emplace_back();
-      for (std::size_t i = channel; i < r.size(); i += 3) innovations.back().push_back(r[i]);
-    }
-    widest = std::max(widest, sum_widened_by_correlation(innovations));
-  }
+  for (std::size_t channel = 0; channel < 3; ++channel) widest = std::max(widest, scatter_of_sums(now_->runs, channel));
   return widest;
 }
 

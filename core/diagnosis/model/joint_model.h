@@ -139,7 +139,7 @@ class JointModel {
   // How little the likelihood is to be believed, since innovations are correlated: from 0, white, to 1. `of_a_moment`:
   // of what acts at one moment or place.
   double distrust(bool of_a_moment = false) const;
-  // How much wider a sum of innovations scatters than if they were white: one and more.
+  // How much wider sums of innovations scatter than the model says, in the channel that is widest: one and more.
   double wider_by_correlation() const;
   Track poses(int run) const;  // corrected, at the wheels' times
 

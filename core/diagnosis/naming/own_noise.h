@@ -10,9 +10,10 @@ namespace odolab {
 // thirty standard errors under the true noise five and a half were left. So the noise is fitted with the term in the
 // model.
 //
-// `with`: the model `without` and that term let in last and fitted; the noise is fitted here. The statistic is
-// the smaller of the score's under the new noise and of what the likelihood gains from the one model to the other:
-// where nothing is missing the first alone would be too large, by what the noise loses to any term.
+// `with`: a model with that term let in last and fitted; the noise is fitted here.
+CandidateTest scored_under_own_noise(JointModel& with, bool thorough, const AskedHow& how = {});
+// The same, the statistic no larger than what the likelihood gains from the model `without` to that `with` the term:
+// where nothing is missing the score alone is too large, by what the noise loses to terms of many columns.
 CandidateTest tested_under_own_noise(const JointModel& without, JointModel& with, bool thorough,
                                      const AskedHow& how = {});
 

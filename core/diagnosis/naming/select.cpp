@@ -136,29 +136,31 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 // Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
 constexpr double kFewestForTheirNoise = 100.0;
 
-// Where nothing stands, what comes nearest is asked once more under the noise that it leaves. One moment moves no
-// noise.
+// What comes nearest is asked once more under the noise that it leaves, if nothing is beyond doubt: what is there
+// counts for more then, and what the noise is as good for counts for less. One moment moves no noise.
 void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
-  constexpr std::size_t kMost = 2;
-  constexpr double kWorthALook =
-      8.0;  // of the statistic; and it must then be larger by more than noise loses to any term
-  constexpr double kLarger = 1.25;
-  std::vector<ScoredCandidate*> nearest;
-  for (ScoredCandidate& c : scored)
-    if (!c.effect->of_one_recording && c.beyond_counts && c.test.judged() > kWorthALook && !of_the_same(joint, c))
-      nearest.push_back(&c);
+  constexpr std::size_t kMost = 3;
+  constexpr double kWorthALook = 8.0;     // of the statistic
+  constexpr double kBeyondDoubt = -16.0;  // of the logarithm of its p value
+  constexpr double kGivenToAnyTerm =
+      1.05;  // by which noise makes a term larger where nothing is missing, 19 in 20 times
   const auto tail = [](const ScoredCandidate* c) {
     return std::log(std::max(chi_square_tail(c->test.judged(), c->test.freedom), 1e-300)) + c->log_tests;
   };
+  std::vector<ScoredCandidate*> nearest;
+  for (ScoredCandidate& c : scored) {
+    if (!c.beyond_counts || c.test.judged() <= kWorthALook || of_the_same(joint, c)) continue;
+    if (tail(&c) < kBeyondDoubt) return;
+    if (!c.effect->of_one_recording) nearest.push_back(&c);
+  }
   std::stable_sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) { return tail(a) < tail(b); });
   if (nearest.size() > kMost) nearest.resize(kMost);
   parallel_for(static_cast<int>(nearest.size()), [&](int i) {
     ScoredCandidate& c = *nearest[static_cast<std::size_t>(i)];
     JointModel with = joint;
     let_in(with, c);
-    const CandidateTest again = tested_under_own_noise(joint, with, !c.effect->local);
-    if (again.statistic < kLarger * c.test.statistic) return;
-    c.test.statistic = again.statistic;
+    const CandidateTest again = scored_under_own_noise(with, !c.effect->local);
+    c.test.statistic = again.statistic / kGivenToAnyTerm;
     if (!c.effect->local) c.test.inflation = again.inflation, c.test.cross_validated = again.cross_validated;
     judge(c);
   });
@@ -310,11 +312,8 @@ class Selection {
     constexpr std::size_t kMostTried = 3;
     constexpr double kLeastKept = 8.0;
     std::vector<ScoredCandidate> scored = scored_candidates(joint_);
+    if (joint_.scalars() > kFewestForTheirNoise) look_again(joint_, scored);
     Standing standing = standing_of(scored);
-    if (standing.empty() && joint_.scalars() > kFewestForTheirNoise) {
-      look_again(joint_, scored);
-      standing = standing_of(scored);
-    }
     if (out_.first_look.empty()) out_.first_look = scored;
     const std::vector<Fitted> fitted = put_best_first(standing);
     // The nonlinear fit must keep what the score promised, and dead reckoning must be the better for it; else the next.

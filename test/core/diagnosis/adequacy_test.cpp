@@ -332,7 +332,7 @@ TEST(Refuted, WeakNameIsWithdrawnWhereItIsNoMoreThanChanceInAllRecordingsTogethe
 
 TEST(Named, IsWhatTheRecordingsOnlyHintAtWhereThoseHeldOutBearItOut) {
   // The same with less of it: too little in two runs by themselves.
-  test::Case scrubs = case_of("turn_scrub", 0.8, 6, 7), sound = case_of("", 1.0, 6, 7);
+  test::Case scrubs = case_of("turn_scrub", 0.7, 6, 7), sound = case_of("", 1.0, 6, 7);
   const auto behind_two = [](const test::Case& c) {
     return std::vector<Recording>(c.recordings.begin() + 2, c.recordings.end());
   };
