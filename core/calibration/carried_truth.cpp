@@ -96,14 +96,13 @@ class SidewaysSteps {
   double step_m_ = 0.0;  // of the numbers
 };
 
-}  // namespace
-
-namespace {
-
-bool can_be_told(const std::vector<TruthSample>& truth) {
+// Of a truth that is long enough and has headings.
+std::optional<SidewaysSteps> steps_of(const std::vector<TruthSample>& truth) {
   constexpr std::size_t kFewest = 100;
-  return truth.size() >= kFewest &&
-         std::all_of(truth.begin(), truth.end(), [](const TruthSample& s) { return s.heading_rad.has_value(); });
+  if (truth.size() < kFewest ||
+      !std::all_of(truth.begin(), truth.end(), [](const TruthSample& s) { return s.heading_rad.has_value(); }))
+    return std::nullopt;
+  return SidewaysSteps(truth);
 }
 
 std::string name_of(const Recording& recording) { return recording.name.empty() ? "the recording" : recording.name; }
@@ -111,18 +110,18 @@ std::string name_of(const Recording& recording) { return recording.name.empty() 
 }  // namespace
 
 std::optional<std::string> warning_of_computed_truth(const Recording& recording) {
-  const std::vector<TruthSample> truth = truth_samples(recording);
-  if (!can_be_told(truth) || !SidewaysSteps(truth).are_computed()) return std::nullopt;
+  const std::optional<SidewaysSteps> steps = steps_of(truth_samples(recording));
+  if (!steps || !steps->are_computed()) return std::nullopt;
   return name_of(recording) +
          ": the truth never errs sideways, not by a hundredth of a millimetre: it is computed, as a robot's own "
-         "odometry "
-         "is, or simulated without noise, and tells of the floor only what that knows";
+         "odometry is, or simulated without noise, and tells of the floor only what that knows";
 }
 
 std::optional<MeasuredRecording> without_carried_truth(const Recording& recording) {
   const std::vector<TruthSample> truth = truth_samples(recording);
-  if (!can_be_told(truth)) return std::nullopt;
-  const std::optional<std::vector<char>> corrected = SidewaysSteps(truth).corrections();
+  const std::optional<SidewaysSteps> steps = steps_of(truth);
+  if (!steps) return std::nullopt;
+  const std::optional<std::vector<char>> corrected = steps->corrections();
   if (!corrected) return std::nullopt;
   std::vector<double> carried_s;
   for (std::size_t i = 0; i < corrected->size(); ++i)

@@ -48,8 +48,7 @@ VectorXd JointModel::inflation_of_columns() const {
   for (int c = 0; c < q; ++c) {
     if (info(c) <= 0.0 || square(c) <= 0.0) continue;
     const double count = info(c) * info(c) / square(c);
-    if (count > 1.5)
-      inflation(c) = shrunk_inflation(scatter(c) / info(c) * count / (count - 1.0), count, batches_believed_white());
+    inflation(c) = shrunk_inflation(unbiased_scatter(scatter(c) / info(c), count), count, batches_believed_white());
   }
   return inflation;
 }

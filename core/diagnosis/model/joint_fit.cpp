@@ -79,8 +79,7 @@ double JointModel::fit(int iterations) {
     if (size < kStraight && !shapes_follow) {
       go();
       for (std::size_t r = 0; r < runs_.size(); ++r) residual_[r] -= now_->z[r] * now_->acting(r, gone);
-      scanned_.reset();
-      white_ = std::make_shared<BelievedWhite>();
+      forget_what_was_asked();
       zr_ -= gram_ * gone;
       gained += gone.dot(score + zr_);
       chi2_ -= gone.dot(score + zr_);

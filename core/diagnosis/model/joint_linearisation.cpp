@@ -71,8 +71,7 @@ void JointModel::linearise(bool with_columns) {
   next->columns.resize(n);
   next->z.resize(n);
   residual_.resize(n);
-  scanned_.reset();
-  white_ = std::make_shared<BelievedWhite>();
+  forget_what_was_asked();
   std::vector<std::vector<LinearisedRun>> made(n);
   const int q = columns();
   parallel_for(n, [&](int r) {

@@ -214,6 +214,11 @@ class JointModel {
                                   const Eigen::MatrixXd& absorbed) const;
   // From the scores of all effects that have no shape to look for. Of the linearisation as it is.
   double batches_believed_white() const;
+  // The linearisation is another one, or what it leaves.
+  void forget_what_was_asked() {
+    scanned_.reset();
+    white_ = std::make_shared<BelievedWhite>();
+  }
   // Of the model's columns, what makes up an accepted effect with all else projected off.
   Eigen::VectorXd beside_all_else(int accepted) const;
   CandidateProducts products_of(const CandidateColumns& columns) const;

@@ -7,7 +7,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kFewestToTell = 3.0;  // batches that matter
+constexpr double kFewestToScatter = 1.5;  // batches that matter: one is its own fit
+constexpr double kFewestToTell = 3.0;     // batches that matter
 
 // The 95 % quantile of chi-square over its freedom (E. B. Wilson and M. M. Hilferty, Proc. National Academy of Sciences
 // 17(12):684-688, 1931).
@@ -27,10 +28,9 @@ void ScoreByBatches::finish() {
     return;
   }
   count = sum_i * sum_i / std::max(square, 1e-300);
-  if (count <= 1.5) return;
   double about_fit = 0.0;
   for (std::size_t n = 0; n < u.size(); ++n) about_fit += std::pow(u[n] - sum_u / sum_i * i[n], 2);
-  scatter = about_fit / sum_i * count / (count - 1.0);
+  scatter = unbiased_scatter(about_fit / sum_i, count);
 }
 
 double ScoreByBatches::inflation(double batches_believed_white) const {
@@ -50,9 +50,13 @@ double ScoreByBatches::cross_validated() const {
   return gain;
 }
 
+double unbiased_scatter(double about_fit, double count) {
+  return count > kFewestToScatter ? about_fit * count / (count - 1.0) : 1.0;
+}
+
 double shrunk_inflation(double scatter, double count, double batches_believed_white) {
   const double shrunk = (batches_believed_white + count * scatter) / (batches_believed_white + count);
-  const double by_itself = count > 1.5 ? scatter / largest_by_chance(count - 1.0) : 1.0;
+  const double by_itself = count > kFewestToScatter ? scatter / largest_by_chance(count - 1.0) : 1.0;
   return std::max({1.0, shrunk, by_itself});
 }
 

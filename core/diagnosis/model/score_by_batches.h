@@ -23,6 +23,9 @@ struct ScoreByBatches {
   double cross_validated() const;
 };
 
+// From squares about their own fit over so many batches that matter, relative to their information; 1 of one alone.
+double unbiased_scatter(double about_fit, double count);
+
 // An inflation of 1 or more from a scatter that so many batches give, and the belief of so many that there is none.
 double shrunk_inflation(double scatter, double count, double batches_believed_white);
 
