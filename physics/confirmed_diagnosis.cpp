@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/diagnosis/fitted_model.h"
+#include "core/recording/truth_left_out.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
 
@@ -18,18 +18,17 @@ Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnos
   const std::vector<double>& used_s = residuals->time_s;
   const Channel* x = recording.channel("truth_x_m");
   if (!x || used_s.empty()) return recording;
-  std::vector<std::size_t> unused;
-  std::size_t samples = 0;
+  std::vector<char> unused(recording.time_s.size(), 0);
+  std::ptrdiff_t samples = 0;
   for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
     if (std::isnan(x->values[i])) continue;
     ++samples;
     const auto at = std::lower_bound(used_s.begin(), used_s.end(), recording.time_s[i] - kSame_s);
-    if (at == used_s.end() || *at > recording.time_s[i] + kSame_s) unused.push_back(i);
+    if (at == used_s.end() || *at > recording.time_s[i] + kSame_s) unused[i] = 1;
   }
-  if (2 * unused.size() > samples) return recording;  // other stamps, or few samples by choice
-  for (Channel& channel : recording.channels)
-    if (channel.name.rfind("truth_", 0) == 0)
-      for (std::size_t i : unused) channel.values[i] = std::numeric_limits<double>::quiet_NaN();
+  if (2 * std::count(unused.begin(), unused.end(), 1) > samples)
+    return recording;  // other stamps, or few samples by choice
+  leave_truth_out(recording, unused);
   return recording;
 }
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <vector>
 
 #include "core/base/quantile.h"
 #include "core/geometry/small_turn.h"
+#include "core/recording/truth_left_out.h"
 
 namespace odolab {
 
@@ -127,10 +127,9 @@ std::optional<MeasuredRecording> without_carried_truth(const Recording& recordin
   for (std::size_t i = 0; i < corrected->size(); ++i)
     if (!(*corrected)[i]) carried_s.push_back(truth[i + 1].time_s);
   MeasuredRecording out{recording, name_of(recording)};
-  for (Channel& c : out.recording.channels)
-    for (std::size_t i = 0; i < recording.time_s.size(); ++i)
-      if (c.name.rfind("truth_", 0) == 0 && std::binary_search(carried_s.begin(), carried_s.end(), recording.time_s[i]))
-        c.values[i] = std::numeric_limits<double>::quiet_NaN();
+  std::vector<char> carried;
+  for (const double t : recording.time_s) carried.push_back(std::binary_search(carried_s.begin(), carried_s.end(), t));
+  leave_truth_out(out.recording, carried);
   char text[320];
   std::snprintf(text, sizeof text,
                 ": %.0f %% of the truth's samples go on from the one before along a circle, to a hundredth of what the "

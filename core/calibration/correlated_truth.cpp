@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/recording/truth_left_out.h"
+
 namespace odolab {
 
 Recording with_truth_apart(const Recording& recording, double apart_s) {
@@ -18,10 +20,7 @@ Recording with_truth_apart(const Recording& recording, double apart_s) {
     else
       next_s = recording.time_s[i] + apart_s;
   }
-  for (Channel& channel : out.channels)
-    if (channel.name.rfind("truth_", 0) == 0)
-      for (std::size_t i = 0; i < dropped.size(); ++i)
-        if (dropped[i]) channel.values[i] = std::numeric_limits<double>::quiet_NaN();
+  leave_truth_out(out, dropped);
   return out;
 }
 

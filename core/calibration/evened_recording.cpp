@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/calibration/even_stamps.h"
+#include "core/recording/truth_left_out.h"
 
 namespace odolab {
 
@@ -15,7 +16,6 @@ namespace {
 bool of_wheels(const std::string& name) {
   return name == "left_wheel_rad" || name == "right_wheel_rad" || name == "left_ticks" || name == "right_ticks";
 }
-bool of_truth(const std::string& name) { return name.rfind("truth_", 0) == 0; }
 
 // Every computer's stamps tremble a little.
 bool is_worth_a_word(const EvenStamps& even) {
@@ -125,7 +125,7 @@ std::optional<EvenedRecording> evened(const Recording& recording, const Differen
     }
     if (const auto even = even_stamps(time_s, {x, y}, true)) {
       if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "truth", *even));
-      parts.push_back({of_truth, row_times(*seen, *even)});
+      parts.push_back({is_of_truth, row_times(*seen, *even)});
     }
   }
   if (parts.empty()) return std::nullopt;

@@ -13,6 +13,7 @@
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/standing_encoder.h"
 #include "core/diagnosis/unheard_commands.h"
+#include "core/recording/truth_left_out.h"
 
 namespace odolab {
 
@@ -80,16 +81,13 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
 
   DataFault frozen{"truth_frozen", "truth", recording.name, frozen_truth(truth, wheels, drive), ""};
   if (!frozen.time_s.empty()) {
-    for (Channel& c : out.recording.channels) {
-      if (c.name.rfind("truth_", 0) != 0) continue;
-      std::size_t k = 0;
-      for (std::size_t i = 0; i < out.recording.time_s.size(); ++i) {
-        const double t = out.recording.time_s[i];
-        while (k < frozen.time_s.size() && t > frozen.time_s[k].second) ++k;
-        if (k < frozen.time_s.size() && t > frozen.time_s[k].first)
-          c.values[i] = std::numeric_limits<double>::quiet_NaN();
-      }
+    std::vector<char> repeated;
+    std::size_t k = 0;
+    for (const double t : out.recording.time_s) {
+      while (k < frozen.time_s.size() && t > frozen.time_s[k].second) ++k;
+      repeated.push_back(k < frozen.time_s.size() && t > frozen.time_s[k].first);
     }
+    leave_truth_out(out.recording, repeated);
     frozen.sentence = "the truth repeats itself with new stamps while the wheels turn, " +
                       std::to_string(frozen.time_s.size()) + " time(s); left out";
     out.faults.push_back(frozen);

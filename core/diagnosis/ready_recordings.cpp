@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "core/base/parallel.h"
 #include "core/calibration/correlated_truth.h"
@@ -14,6 +13,7 @@
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/truth_elsewhere.h"
 #include "core/diagnosis/truth_jumps.h"
+#include "core/recording/truth_left_out.h"
 
 namespace odolab {
 
@@ -65,10 +65,9 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
   for (std::size_t r = 0; r < each.size(); ++r)
     for (const auto& [from_s, to_s] : of_each[r]) {
       Recording& recording = each[r]->recording;
-      for (Channel& c : recording.channels)
-        for (std::size_t i = 0; i < recording.time_s.size(); ++i)
-          if (c.name.rfind("truth_", 0) == 0 && recording.time_s[i] >= from_s && recording.time_s[i] <= to_s)
-            c.values[i] = std::numeric_limits<double>::quiet_NaN();
+      std::vector<char> elsewhere;
+      for (const double t : recording.time_s) elsewhere.push_back(t >= from_s && t <= to_s);
+      leave_truth_out(recording, elsewhere);
       char text[200];
       std::snprintf(text, sizeof text,
                     ": from %.2f to %.2f s the truth is elsewhere, and then back where the wheels went; left out",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/recording/truth_left_out.h"
 #include "physics/experiments/concealed/own_effects.h"
 #include "physics/simulation.h"
 
@@ -52,7 +53,7 @@ Recording with_trembling_stamps(const Recording& clean, double jitter_s, std::ui
   out.provenance = clean.provenance;
   for (const Row& row : rows) out.time_s.push_back(row.time_s);
   for (const Channel& channel : clean.channels) {
-    const bool of_truth = channel.name.rfind("truth_", 0) == 0;
+    const bool of_truth = is_of_truth(channel.name);
     std::vector<double> values;
     for (const Row& row : rows) values.push_back(row.truth == of_truth ? channel.values[row.from] : none);
     out.channels.push_back({channel.name, std::move(values)});
