@@ -13,6 +13,23 @@
 
 namespace odolab {
 
+namespace {
+
+// Of a track with a pose for each reading of wheels that obey commands, those that have a command.
+Track at_commands(const Track& track, const Recording& obeying) {
+  const Channel &left = *obeying.channel("left_wheel_rad"), &speed = *obeying.channel("command_speed_mps");
+  Track kept;
+  std::size_t reading = 0;
+  for (std::size_t row = 0; row < obeying.time_s.size(); ++row) {
+    if (std::isnan(left.values[row])) continue;
+    if (!std::isnan(speed.values[row])) kept.push_back(track[reading]);
+    ++reading;
+  }
+  return kept;
+}
+
+}  // namespace
+
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle,
                               const std::vector<ActiveEffect>& effects) {
   if (effects.empty()) return predicted_track(recording, vehicle);
@@ -70,7 +87,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     for (TimedPose& p : track) p.pose = start * between(there, p.pose);
   }
   for (TimedPose& p : track) p = {p.time_s + with.truth.time_offset_s, p.pose * mounting};
-  return track;
+  return from_commands ? at_commands(track, ready.recording) : track;
 }
 
 }  // namespace odolab

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
 
 #include "core/calibration/carried_truth.h"
@@ -11,6 +10,7 @@
 #include "core/calibration/left_out.h"
 #include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/frozen_truth.h"
+#include "core/diagnosis/obeying_wheels.h"
 #include "core/diagnosis/standing_encoder.h"
 #include "core/diagnosis/unheard_commands.h"
 #include "core/recording/truth_left_out.h"
@@ -18,39 +18,6 @@
 namespace odolab {
 
 namespace {
-
-// Wheels that would have done what was commanded: the calibration of radii and wheelbase is then that of the commands'
-// scales.
-void add_wheels_from_commands(Recording& recording, const DifferentialDrive& drive) {
-  Channel left{"left_wheel_rad", {}}, right{"right_wheel_rad", {}};
-  const Channel* v = recording.channel("command_speed_mps");
-  const Channel* w = recording.channel("command_yaw_rate_radps");
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  left.values.assign(recording.time_s.size(), none);
-  right.values = left.values;
-  double l = 0.0, r = 0.0, speed = 0.0, turn = 0.0, last_s = 0.0;
-  bool any = false;
-  for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
-    if (!std::isfinite(v->values[i]) || !std::isfinite(w->values[i])) continue;
-    if (any) {
-      const double dt = recording.time_s[i] - last_s;
-      l += (speed - 0.5 * drive.wheelbase_m * turn) * dt / drive.wheel_radius_left_m;
-      r += (speed + 0.5 * drive.wheelbase_m * turn) * dt / drive.wheel_radius_right_m;
-    }
-    any = true;
-    last_s = recording.time_s[i];
-    speed = v->values[i];
-    turn = w->values[i];
-    left.values[i] = l;
-    right.values[i] = r;
-  }
-  std::vector<Channel> others;
-  for (Channel& c : recording.channels)
-    if (c.name != left.name && c.name != right.name) others.push_back(std::move(c));
-  others.push_back(std::move(left));
-  others.push_back(std::move(right));
-  recording.channels = std::move(others);
-}
 
 // "15.0 to 15.5 s", and how many more.
 std::string times_text(const TimeStretches& times) {
@@ -73,8 +40,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   std::vector<WheelSample> wheels = wheel_samples(recording, drive);
   if (wheels.size() < 2 && recording.channel("command_speed_mps") && recording.channel("command_yaw_rate_radps")) {
     out.from_commands = true;
-    add_wheels_from_commands(out.recording, drive);
-    wheels = wheel_samples(out.recording, drive);
+    out.recording = with_obeying_wheels(recording, drive);
+    wheels = obeying_wheels(command_samples(recording), drive);
   }
   const std::vector<TruthSample> truth = truth_samples(recording);
   if (wheels.size() < 4 || truth.size() < 4) return out;
@@ -102,7 +69,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       out.warnings.push_back(recording.name + ": " + what + " " + times_text(times) + ": left out");
       out.left_out_s.insert(out.left_out_s.end(), times.begin(), times.end());
     };
-    leave_out(holes_in_commands(wheels), "no commands were logged");
+    leave_out(holes_in_commands(wheels, drive, truth), "no commands were logged");
     leave_out(unmoved_base(wheels, drive, truth), "the base hardly moved though it was told to drive");
     out.left_out_s = joined(std::move(out.left_out_s));
     return out;

@@ -26,10 +26,63 @@ Moved told(const std::vector<WheelSample>& obeyed, const DifferentialDrive& driv
 // The smaller of both, whichever way; none where one goes back on the other.
 double at_least(double a, double b) { return a * b > 0.0 ? std::min(std::abs(a), std::abs(b)) : 0.0; }
 
+// Where the truth is about a time, of the samples of a tenth of a second to either side; none where it has a gap.
+std::optional<Pose> pose_about(const std::vector<TruthSample>& truth, double time_s) {
+  constexpr double kMean_s = 0.1;
+  const auto from = std::lower_bound(truth.begin(), truth.end(), time_s - kMean_s,
+                                     [](const TruthSample& t, double s) { return t.time_s < s; });
+  Vec2 sum;
+  double turned = 0.0;
+  int n = 0;
+  std::optional<double> first;
+  for (auto i = from; i != truth.end() && i->time_s <= time_s + kMean_s; ++i) {
+    sum = sum + i->position;
+    if (i->heading_rad) turned += wrapped(*i->heading_rad - first.value_or(*i->heading_rad));
+    if (i->heading_rad && !first) first = *i->heading_rad;
+    ++n;
+  }
+  if (n == 0) return {};
+  return Pose{sum.x_m / n, sum.y_m / n, first.value_or(0.0) + turned / n};
+}
+
+// Whether it does, from half a second on, what it was told before; nothing where that is too little to tell, or the
+// truth has a gap there.
+std::optional<bool> goes_on_as_told(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive,
+                                    const std::vector<TruthSample>& truth, double from_s, double to_s) {
+  constexpr double kSooner_s = 0.5, kOff = 0.2, kOff_m = 0.03, kOff_rad = 0.1;
+  from_s += std::min(kSooner_s, 0.5 * (to_s - from_s));
+  const auto a = pose_about(truth, from_s), b = pose_about(truth, to_s);
+  if (!a || !b) return std::nullopt;
+  const Moved by_commands = told(obeyed, drive, from_s, to_s);
+  const double half_turn = 0.5 * by_commands.turn_rad,
+               chord_m =
+                   std::abs(by_commands.way_m) * (half_turn == 0.0 ? 1.0 : std::abs(std::sin(half_turn) / half_turn));
+  const bool has_headings = truth.front().heading_rad.has_value();
+  if (chord_m < kOff_m && (!has_headings || std::abs(by_commands.turn_rad) < kOff_rad)) return std::nullopt;
+  const double off_m = std::abs(length(b->position() - a->position()) - chord_m),
+               off_rad = std::abs(wrapped(b->heading_rad - a->heading_rad - by_commands.turn_rad));
+  return off_m < std::max(kOff_m, kOff * chord_m) &&
+         (!has_headings || off_rad < std::max(kOff_rad, kOff * std::abs(by_commands.turn_rad)));
+}
+
+// Of intervals between commands, those in which the base was told the same as in the one before.
+std::ptrdiff_t repeated(const std::vector<WheelSample>& obeyed) {
+  constexpr double kSame = 1e-6;
+  const auto speed = [&](std::size_t i, double WheelSample::*wheel) {
+    return (obeyed[i + 1].*wheel - obeyed[i].*wheel) / (obeyed[i + 1].time_s - obeyed[i].time_s);
+  };
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 1; i + 1 < obeyed.size(); ++i)
+    count += std::abs(speed(i, &WheelSample::left_rad) - speed(i - 1, &WheelSample::left_rad)) < kSame &&
+             std::abs(speed(i, &WheelSample::right_rad) - speed(i - 1, &WheelSample::right_rad)) < kSame;
+  return count;
+}
+
 }  // namespace
 
-TimeStretches holes_in_commands(const std::vector<WheelSample>& obeyed) {
-  constexpr double kEven = 6.0, kNearlyAll = 0.9;
+TimeStretches holes_in_commands(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive,
+                                const std::vector<TruthSample>& truth) {
+  constexpr double kEven = 6.0, kNearlyAll = 0.9, kRepeats = 0.02;
   const std::vector<std::size_t> intervals = long_intervals(obeyed);
   if (intervals.empty()) return {};
   std::vector<double> lasts_s;
@@ -42,37 +95,26 @@ TimeStretches holes_in_commands(const std::vector<WheelSample>& obeyed) {
   TimeStretches holes;
   for (const std::size_t i : intervals)
     if (!rests(i) || !rests(i + 1)) holes.emplace_back(obeyed[i].time_s, obeyed[i + 1].time_s);
-  return holes;
+  if (truth.empty() || static_cast<double>(repeated(obeyed)) > kRepeats * static_cast<double>(obeyed.size()))
+    return holes;
+  int as_told = 0, otherwise = 0;
+  for (const auto& [from_s, to_s] : holes)
+    if (const std::optional<bool> goes_on = goes_on_as_told(obeyed, drive, truth, from_s, to_s))
+      ++(*goes_on ? as_told : otherwise);
+  return as_told > otherwise ? TimeStretches{} : holes;
 }
 
 TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive,
                            const std::vector<TruthSample>& truth) {
-  constexpr double kLasts_s = 2.0, kStride_s = 0.25, kSooner_s = 0.5, kMean_s = 0.1;
+  constexpr double kLasts_s = 2.0, kStride_s = 0.25, kSooner_s = 0.5;
   constexpr double kLeast_m = 0.1, kLeast_rad = 0.5, kHardly = 0.15, kHardly_m = 0.015, kHardly_rad = 0.03;
   TimeStretches unmoved;
   if (obeyed.size() < 2 || truth.size() < 2) return unmoved;
-  // Where the truth is about a time, of the samples of a tenth of a second to either side; none where it has a gap.
-  const auto pose_about = [&](double time_s) -> std::optional<Pose> {
-    const auto from = std::lower_bound(truth.begin(), truth.end(), time_s - kMean_s,
-                                       [](const TruthSample& t, double s) { return t.time_s < s; });
-    Vec2 sum;
-    double turned = 0.0;
-    int n = 0;
-    std::optional<double> first;
-    for (auto i = from; i != truth.end() && i->time_s <= time_s + kMean_s; ++i) {
-      sum = sum + i->position;
-      if (i->heading_rad) turned += wrapped(*i->heading_rad - first.value_or(*i->heading_rad));
-      if (i->heading_rad && !first) first = *i->heading_rad;
-      ++n;
-    }
-    if (n == 0) return {};
-    return Pose{sum.x_m / n, sum.y_m / n, first.value_or(0.0) + turned / n};
-  };
   int unbidden = 0, deaf = 0;
   for (double from_s = obeyed.front().time_s + kSooner_s; from_s + kLasts_s < obeyed.back().time_s;
        from_s += kStride_s) {
     const double to_s = from_s + kLasts_s;
-    const auto a = pose_about(from_s), b = pose_about(to_s);
+    const auto a = pose_about(truth, from_s), b = pose_about(truth, to_s);
     if (!a || !b) continue;
     const auto moved_to = [&](const Pose& other) {
       return Moved{length(other.position() - a->position()), std::abs(wrapped(other.heading_rad - a->heading_rad))};
@@ -80,7 +122,7 @@ TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const Differe
     const Moved moved = moved_to(*b);
     Moved furthest = moved;  // on the way: who went and came back did as he was told
     for (double time_s = from_s + kStride_s; time_s < to_s; time_s += kStride_s)
-      if (const auto then = pose_about(time_s)) {
+      if (const auto then = pose_about(truth, time_s)) {
         const Moved by = moved_to(*then);
         furthest = {std::max(furthest.way_m, by.way_m), std::max(furthest.turn_rad, by.turn_rad)};
       }

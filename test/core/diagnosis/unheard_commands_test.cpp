@@ -56,17 +56,32 @@ TEST(UnheardCommands, AreWhereRowsAreMissingWhileTheBaseDrives) {
   std::vector<HeldCommand> commands = driven();
   commands.erase(commands.begin() + 450, commands.begin() + 490);  // from 9 to 9.8 s
   commands.erase(commands.begin() + 20, commands.begin() + 60);    // while it rests
-  const TimeStretches holes = holes_in_commands(obeyed(commands));
+  const TimeStretches holes = holes_in_commands(obeyed(commands), kDrive, {});
   ASSERT_EQ(holes.size(), 1u);
   EXPECT_NEAR(holes[0].first, 8.98, 1e-9);
   EXPECT_NEAR(holes[0].second, 9.8, 1e-9);
-  EXPECT_TRUE(holes_in_commands(obeyed(driven())).empty());
+  EXPECT_TRUE(holes_in_commands(obeyed(driven()), kDrive, {}).empty());
 }
 
 TEST(UnheardCommands, AreNotMissingInALogThatHasARowForEachChange) {
   std::vector<HeldCommand> commands;
   for (int i = 0; i < 60; ++i) commands.push_back({0.05 * i * i, 0.1 + 0.001 * i, 0.0});
-  EXPECT_TRUE(holes_in_commands(obeyed(commands)).empty());
+  EXPECT_TRUE(holes_in_commands(obeyed(commands), kDrive, {}).empty());
+}
+
+// A stick that is let go and held still by turns: few of its rows are far apart.
+TEST(UnheardCommands, AreNotMissingWhereTheBaseGoesOnAsItWasToldLast) {
+  std::vector<HeldCommand> commands = driven(), changes;
+  for (HeldCommand& c : commands)
+    if (c.time_s > 10.0 && c.time_s < 12.0) c.speed_mps = 0.2, c.yaw_rate_radps = 0.4;
+  for (const HeldCommand& c : commands)
+    if (changes.empty() || c.speed_mps != changes.back().speed_mps || c.yaw_rate_radps != changes.back().yaw_rate_radps)
+      changes.push_back(c);
+  EXPECT_TRUE(holes_in_commands(obeyed(changes), kDrive, followed(commands, 100.0, 100.0)).empty());
+  const TimeStretches holes = holes_in_commands(obeyed(changes), kDrive, followed(commands, 10.5, 12.0));
+  ASSERT_FALSE(holes.empty());
+  EXPECT_NEAR(holes.back().first, 10.0, 0.03);
+  EXPECT_NEAR(holes.back().second, 12.0, 0.03);
 }
 
 TEST(UnheardCommands, AreWhereTheBaseIsBlocked) {

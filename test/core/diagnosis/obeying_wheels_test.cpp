@@ -1,0 +1,65 @@
+#include "core/diagnosis/obeying_wheels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/angles.h"
+#include "core/odometry/differential_drive.h"
+
+namespace odolab {
+namespace {
+
+const double kEmpty = std::nan("");
+constexpr DifferentialDrive kDrive{0.07, 0.08, 0.4};
+
+// A quarter of a circle of 1 m that is told once, and a truth in between.
+Recording quarter_turn() {
+  Recording r;
+  r.time_s = {0.0, 0.7, 2.0, 2.0};
+  r.channels = {{"command_speed_mps", {0.25 * kPi, kEmpty, 0.0, kEmpty}},
+                {"command_yaw_rate_radps", {0.25 * kPi, kEmpty, 0.0, kEmpty}},
+                {"truth_x_m", {kEmpty, 0.5, kEmpty, 1.0}}};
+  return r;
+}
+
+TEST(ObeyingWheels, DriveAlongTheArcThatIsToldAndNotAlongItsChord) {
+  const Recording obeying = with_obeying_wheels(quarter_turn(), kDrive);
+  ASSERT_TRUE(problems_in(obeying).empty());
+  const Track track = dead_reckoned(wheel_samples(obeying, kDrive), kDrive, Pose{}, HeadingRule::arc);
+  ASSERT_GE(track.size(), 41u);  // 2 s in steps of 0.05 s
+  for (const TimedPose& p : track) {
+    const double turned = 0.25 * kPi * p.time_s;
+    EXPECT_NEAR(p.pose.x_m, std::sin(turned), 1e-12);
+    EXPECT_NEAR(p.pose.y_m, 1.0 - std::cos(turned), 1e-12);
+  }
+}
+
+TEST(ObeyingWheels, LeaveWhatWasRecordedAsItWas) {
+  const Recording given = quarter_turn(), obeying = with_obeying_wheels(given, kDrive);
+  EXPECT_EQ(command_samples(obeying).size(), 2u);
+  const Channel& truth = *obeying.channel("truth_x_m");
+  std::vector<std::pair<double, double>> samples;
+  for (std::size_t i = 0; i < truth.values.size(); ++i)
+    if (!std::isnan(truth.values[i])) samples.emplace_back(obeying.time_s[i], truth.values[i]);
+  EXPECT_EQ(samples, (std::vector<std::pair<double, double>>{{0.7, 0.5}, {2.0, 1.0}}));
+}
+
+TEST(ObeyingWheels, AreReadAtEachCommandAloneWhereTheseComeOftenEnough) {
+  Recording often;
+  for (int i = 0; i < 50; ++i) often.time_s.push_back(0.05 * i);
+  often.channels = {{"command_speed_mps", std::vector<double>(50, 0.3)},
+                    {"command_yaw_rate_radps", std::vector<double>(50, 0.1)}};
+  EXPECT_EQ(with_obeying_wheels(often, kDrive).time_s, often.time_s);
+}
+
+// A row that claims to hold for a day makes no day of rows.
+TEST(ObeyingWheels, StayFewWhereACommandIsHeldForVeryLong) {
+  Recording day;
+  day.time_s = {0.0, 86400.0};
+  day.channels = {{"command_speed_mps", {0.1, 0.0}}, {"command_yaw_rate_radps", {0.0, 0.0}}};
+  EXPECT_LE(with_obeying_wheels(day, kDrive).time_s.size(), 2001u);
+}
+
+}  // namespace
+}  // namespace odolab
