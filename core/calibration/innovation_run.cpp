@@ -65,7 +65,8 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   if (const std::vector<std::string> problems = problems_in(as_logged); !problems.empty())
     return Error{where, "", problems.front()};
   InnovationRun run;
-  const std::optional<EvenedRecording> even = evened(as_logged, drive);
+  std::optional<EvenedRecording> even;
+  if (!given_left_out) even = evened(as_logged, drive);
   if (even) run.warnings = even->said;
   const Recording& recording = even ? even->recording : as_logged;
   run.name = where;

@@ -12,6 +12,7 @@
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/first_guess.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/likelihood_fit.h"
 #include "core/calibration/recording_fault.h"
 #include "core/calibration/restamped.h"
@@ -85,6 +86,11 @@ std::vector<InnovationRun> by_the_wheels_clock(std::vector<InnovationRun> runs, 
   return runs;
 }
 
+std::optional<TimeStretches> left_out_of(std::size_t recording, const LeastSquaresOptions& options) {
+  if (recording >= options.left_out.size()) return std::nullopt;
+  return options.left_out[recording];
+}
+
 // All truth samples that are there.
 Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                   const LeastSquaresOptions& options, const Progress& progress) {
@@ -99,9 +105,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   std::vector<std::optional<Result<InnovationRun>>> read(recordings.size());
   parallel_for(static_cast<int>(recordings.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    std::optional<std::vector<std::pair<double, double>>> left_out;
-    if (r < options.left_out.size()) left_out = options.left_out[r];
-    read[r] = innovation_run(recordings[r], nominal, left_out);
+    read[r] = innovation_run(recordings[r], nominal, left_out_of(r, options));
   });
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     Result<InnovationRun>& run = *read[r];
@@ -341,8 +345,8 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
   const auto* drive = std::get_if<DifferentialDrive>(&fit.vehicle.kind);
   if (!drive || fit.time_offset_s.size() != recordings.size() || options.one_truth_clock) return {};
   std::vector<InnovationRun> runs;
-  for (const Recording& recording : recordings) {
-    Result<InnovationRun> run = innovation_run(recording, fit.vehicle);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    Result<InnovationRun> run = innovation_run(recordings[r], fit.vehicle, left_out_of(r, options));
     if (!run) return {};
     runs.push_back(std::move(*run));
   }

@@ -24,7 +24,7 @@ struct LeastSquaresOptions {
   bool one_truth_clock = false;  // the same offset in all recordings, instead of one for each
   int most_iterations = 30;
   // Of each recording, on the wheels' clock, from one reading to another: no motion across these is used. Without it
-  // the gaps between readings.
+  // the gaps between readings. Whoever gives it has put stamps of arrival right.
   std::vector<std::vector<std::pair<double, double>>> left_out;
   // Of each recording, where they are known: held as they are, and stamps put right by the rates.
   std::vector<AlignedClock> clocks;
