@@ -152,6 +152,50 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
   return found;
 }
 
+TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
+  constexpr std::size_t kPace = 5, kFewest = 3;
+  constexpr double kEven = 0.35, kSame = 0.3;  // of the pace
+  constexpr double kCounts = 4.0;              // that a pace has in each interval
+  constexpr double kWheel_mps2 = 5.0;          // more than a motor and what it drives are stopped and sped up by
+  TimeStretches found;
+  const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
+  const double least_rad = kCounts * least_count_rad(wheels, wheel);
+  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
+  // Per interval, of so many; nothing where they are not alike. The first may be in part of the halt.
+  const auto even_pace_rad = [&](std::size_t begin, std::size_t end, bool but_the_first) -> std::optional<double> {
+    const std::size_t from = begin + (but_the_first ? 1 : 0);
+    const double mean =
+        (rotation(wheels[end], wheel) - rotation(wheels[from], wheel)) / static_cast<double>(end - from);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double by = rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel);
+      const bool may_be_less = but_the_first && i == begin && by * mean >= 0.0 && std::abs(by) < std::abs(mean);
+      if (!may_be_less && std::abs(by - mean) > kEven * std::abs(mean)) return std::nullopt;
+    }
+    return mean;
+  };
+  const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
+    return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
+  };
+  for (std::size_t i = kPace; i + 1 < wheels.size();) {
+    std::size_t j = i;
+    while (j + 1 < wheels.size() && rotation(wheels[j + 1], wheel) == rotation(wheels[i], wheel)) ++j;
+    const std::size_t first = i;
+    i = j + 1;
+    if (j < first + kFewest || j + kPace >= wheels.size()) continue;
+    const std::optional<double> before = even_pace_rad(first - kPace, first, false),
+                                after = even_pace_rad(j, j + kPace, true);
+    if (!before || !after || std::abs(*before) < least_rad || std::abs(*after - *before) > kSame * std::abs(*before))
+      continue;
+    const double interval_s =
+        (wheels[j + kPace].time_s - wheels[first - kPace].time_s) / static_cast<double>(j + 2 * kPace - first);
+    const double other_rad = step_of_other_rad(first - kPace, first);
+    if (std::abs(*before) * radius_m > kWheel_mps2 * interval_s * interval_s &&
+        step_of_other_rad(first, j) > (1.0 - kSame) * other_rad)
+      found.push_back({wheels[first].time_s, wheels[j + 1].time_s});
+  }
+  return found;
+}
+
 double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel) {
   double least = 1e9;
   for (std::size_t i = 0; i + 1 < wheels.size(); ++i)

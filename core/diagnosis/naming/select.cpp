@@ -92,6 +92,14 @@ double more_by_tries(const ScoredCandidate& c, const ScoredCandidate& other) {
   return 2.0 * std::max(0.0, c.log_tests - other.log_tests);
 }
 
+// Whether it does, by their own scatters and by one: that of others while a name is missing has nothing to do with
+// which of two is right.
+bool beats(const ScoredCandidate& c, const ScoredCandidate& other) {
+  const double by = 2.0 * kClearlyBeaten + more_by_tries(c, other);
+  return c.test.judged() > other.test.judged() + by &&
+         c.test.statistic > other.test.statistic + by * std::max(1.0, c.test.inflation);
+}
+
 // Whether a candidate in a name's place says beside the name as much: then it is something else, and no other name for
 // it.
 bool says_as_much_beside(const ScoredCandidate& instead, const std::vector<ScoredCandidate>& with_all) {
@@ -322,9 +330,12 @@ class Selection {
           std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
       Fitted with = known != fitted.end() ? *known : fitted_with(standing[tried]);
       with.model.fit_noise_and_all();
+      // What whitens the innovations was what correlated them.
+      const double distrust = std::min(distrust_of(joint_, *standing[tried], family_wise_error_),
+                                       with.model.distrust(standing[tried]->effect->local));
       if (with.gained > kLeastKept && !is_at_its_bound(with.model.accepted.back()) &&
-          is_material(distrust_of(joint_, *standing[tried], family_wise_error_), joint_.truth_noise_lasts,
-                      joint_.gathered_error(), with.model.gathered_error(), standing[tried]->test.value.size())) {
+          is_material(distrust, joint_.truth_noise_lasts, joint_.gathered_error(), with.model.gathered_error(),
+                      standing[tried]->test.value.size())) {
         if (asks_what_is_undone_) out_.undone = undone(joint_, *standing[tried]);
         joint_ = std::move(with.model);
         return true;
@@ -385,8 +396,7 @@ class Selection {
                                     [&](const ScoredCandidate& c) { return c.effect == joint_.accepted[k].effect; });
       const ScoredCandidate& top = instead.front();
       if (own == instead.end() || is_taken(top) || is_refuted(top) || !stands(top, family_wise_error_) ||
-          top.test.judged() < own->test.judged() + 2.0 * kClearlyBeaten + more_by_tries(top, *own) ||
-          is_simpler(*own, top))
+          !beats(top, *own) || is_simpler(*own, top))
         continue;
       joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
       let_in(joint_, top);

@@ -1,0 +1,59 @@
+#include "core/diagnosis/standing_encoder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/geometry/angles.h"
+
+namespace odolab {
+namespace {
+
+constexpr DifferentialDrive kDrive{0.07, 0.07, 0.3};
+constexpr double kCount_rad = 2.0 * kPi / 2000.0;
+
+// At 50 Hz for 4 s, after a first count both wheels at 14 in each interval; the left one as `left` makes it, in counts.
+template <typename Left>
+std::vector<WheelSample> driven(const Left& left) {
+  std::vector<WheelSample> wheels{{-0.02, -kCount_rad, -kCount_rad}};
+  for (int i = 0; i < 200; ++i) wheels.push_back({0.02 * i, kCount_rad * left(i), kCount_rad * 14.0 * i});
+  return wheels;
+}
+
+// Seven intervals of which the counts never come back.
+double halts(int i) { return 14.0 * (i < 100 ? i : i < 107 ? 100 : i - 7); }
+
+TEST(HaltingEncoder, IsFoundThoughItStandsForAMomentAlone) {
+  const TimeStretches found = halting_encoder(driven(halts), Wheel::left, kDrive);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].first, 2.0, 1e-9);
+  EXPECT_NEAR(found[0].second, 2.16, 1e-9);
+  EXPECT_TRUE(halting_encoder(driven(halts), Wheel::right, kDrive).empty());
+}
+
+// 0.16 m/s is gone and back within a quarter of a second each, at 0.6 m/s2.
+TEST(HaltingEncoder, IsNoneWhereAWheelIsBrakedAndSpedUpAgain) {
+  double at = 0.0;
+  std::vector<double> counts;
+  for (int i = 0; i < 200; ++i) {
+    const double from_halt = std::abs(i - 103.5) - 3.5;
+    at += std::round(14.0 * std::clamp(from_halt / 12.0, 0.0, 1.0));
+    counts.push_back(at);
+  }
+  EXPECT_TRUE(
+      halting_encoder(driven([&](int i) { return counts[static_cast<std::size_t>(i)]; }), Wheel::left, kDrive).empty());
+}
+
+TEST(HaltingEncoder, IsNoneWhereTheOtherWheelHaltsAsWell) {
+  std::vector<WheelSample> wheels = driven(halts);
+  for (WheelSample& w : wheels) w.right_rad = w.left_rad;
+  EXPECT_TRUE(halting_encoder(wheels, Wheel::left, kDrive).empty());
+}
+
+// A driver that asks more often than the encoder answers: each count is read five times and then comes at once.
+TEST(HaltingEncoder, IsNoneWhereReadingsAreRepeated) {
+  EXPECT_TRUE(halting_encoder(driven([](int i) { return 14.0 * (i - i % 5); }), Wheel::left, kDrive).empty());
+}
+
+}  // namespace
+}  // namespace odolab
