@@ -16,8 +16,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kMostLeft = 0.15;        // of the evidence may stay without a name beside names that stand
-constexpr double kMostLeftOfError = 0.3;  // the same, of the error of dead reckoning, where innovations are correlated
+constexpr double kMostLeftOfError =
+    0.3;  // of the evidence, that of the error of dead reckoning, where innovations are correlated
 // A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
 constexpr double kFormOfAName = 0.5;
 constexpr double kTwoExplain = 0.85;  // share of the evidence that the two strongest of three names must have
@@ -270,7 +270,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
     if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
-    else if (gain > kMostLeft * explained || is_in_pieces(of_vehicle))
+    else if (gain > left.group->most_left * explained || is_in_pieces(of_vehicle))
       out.unnamed = unnamed_by(*left.group, left.shape, gain);
   }
   const double fair = beyond_chance(of_vehicle);

@@ -10,6 +10,7 @@
 #include "core/diagnosis/generic/bent_truth.h"
 #include "core/diagnosis/generic/floor.h"
 #include "core/diagnosis/generic/lagging.h"
+#include "core/diagnosis/generic/step_response.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
 
@@ -266,7 +267,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) asked.push_back({&g, {wheel}});
   }
   const auto count = static_cast<int>(asked.size());
-  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests;
+  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -301,8 +302,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     term->component = tests[i].channel;
     ask(tests[i], asked_model, std::move(term), n);
   });
-  for (const std::vector<GenericTest>& more : {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n),
-                                               bent_truth_tests(asked_model, n), wave_tests(asked_model, n)})
+  for (const std::vector<GenericTest>& more :
+       {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
+        step_response_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

@@ -23,6 +23,9 @@ struct GenericCurve {
   std::vector<std::vector<double>> basis;  // of each point by each value of the group
 };
 
+// Of the evidence of names that stand, what may stay without a name beside them.
+constexpr double kMostLeft = 0.15;
+
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
   CandidateTest test;             // beside all that was let in
@@ -40,7 +43,8 @@ struct GenericTest {
     double to_either_side_m = 0.0, p_value = 1.0;
   };
   std::optional<Sway> sway;
-  double times_a_turn = 0.0;  // of a wheel, where it goes with its angle: a cosine and a sine for each recording
+  double most_left = kMostLeft;  // more where a name is but its simplest form
+  double times_a_turn = 0.0;     // of a wheel, where it goes with its angle: a cosine and a sine for each recording
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is

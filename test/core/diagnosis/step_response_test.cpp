@@ -1,0 +1,60 @@
+#include "core/diagnosis/generic/step_response.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/commanded_base.h"
+
+namespace odolab {
+namespace {
+
+// A stick that is pushed to somewhere else every second and a half; the base follows as an oscillator of second order,
+// of 20 rad/s and that damping.
+Recording driven(int number, double damping) {
+  constexpr double kOwn_radps = 20.0;
+  Random random(static_cast<std::uint64_t>(170 + number));
+  double speed_up_mps2 = 0.0, turn_up_radps2 = 0.0;
+  return test::commanded("run_" + std::to_string(number), 80000, random, [&](int i, test::CommandedBase& b) {
+    if (i > 0 && i % 3000 == 0) b.command_mps = random.uniform(-0.3, 0.6), b.command_radps = random.uniform(-0.9, 0.9);
+    const auto follow = [&](double& pace, double& change, double command) {
+      change += b.kStep_s * (kOwn_radps * kOwn_radps * (command - pace) - 2.0 * damping * kOwn_radps * change);
+      pace += b.kStep_s * change;
+    };
+    follow(b.speed_mps, speed_up_mps2, b.command_mps);
+    follow(b.yaw_rate_radps, turn_up_radps2, b.command_radps);
+  });
+}
+
+std::vector<Recording> driven_by(double damping) {
+  std::vector<Recording> recordings;
+  for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, damping));
+  return recordings;
+}
+
+// It overshoots by exp(-pi damping / sqrt(1 - damping^2)) = 44 % of each change, half a period after it, 0.16 s.
+TEST(StepResponse, ShowsABaseThatOvershootsWhichIsNoLag) {
+  const Diagnosis d = diagnose(driven_by(0.25), {}, Vehicle{}).value();
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect);
+  const auto response = std::find_if(d.responses.begin(), d.responses.end(), [](const Response& r) {
+    return r.variable == "time since its command changed [s]";
+  });
+  ASSERT_NE(response, d.responses.end());
+  const auto most = std::max_element(response->value.begin(), response->value.end());
+  EXPECT_GT(*most, 0.1);
+  EXPECT_NEAR(response->at[static_cast<std::size_t>(most - response->value.begin())], 0.16, 0.06);
+}
+
+// Damped by half as much again as is critical it is two lags in a row, of 0.13 and 0.019 s: a lag that is a little
+// late.
+TEST(StepResponse, LeavesABaseThatCreepsUpToItsCommandsToItsLag) {
+  const Diagnosis d = diagnose(driven_by(1.5), {}, Vehicle{}).value();
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings.front().effect, "actuator_lag");
+  EXPECT_NE(d.verdict, Verdict::unknown_effect);
+}
+
+}  // namespace
+}  // namespace odolab
