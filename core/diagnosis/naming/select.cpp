@@ -6,6 +6,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/naming/clocks_first.h"
+#include "core/diagnosis/naming/compared_names.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
@@ -24,8 +25,6 @@ constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03, kLeastShareBesi
 // everywhere in the way of the effect.
 constexpr double kLeastShareWhereBothShow = 0.5;  // of the shares above
 
-// Share of the evidence that a right name may lose since its form is not quite the world's.
-constexpr double kFormError = 0.15;
 // Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
 constexpr double kComparable = 0.5;
 
@@ -85,29 +84,6 @@ bool is_at_its_bound(const AcceptedEffect& a) {
     if (a.value[k] != 0.0 && (a.value[k] <= of.low || a.value[k] >= of.high)) return true;
   }
   return false;
-}
-
-// What was looked for in more places and at more times than another must say so much more, in twice the log-likelihood.
-double more_by_tries(const ScoredCandidate& c, const ScoredCandidate& other) {
-  return 2.0 * std::max(0.0, c.log_tests - other.log_tests);
-}
-
-// Whether it does, by their own scatters and by one: that of others while a name is missing has nothing to do with
-// which of two is right.
-bool beats(const ScoredCandidate& c, const ScoredCandidate& other) {
-  const double by = 2.0 * kClearlyBeaten + more_by_tries(c, other);
-  return c.test.judged() > other.test.judged() + by &&
-         c.test.statistic > other.test.statistic + by * std::max(1.0, c.test.inflation);
-}
-
-// Whether a candidate in a name's place says beside the name as much: then it is something else, and no other name for
-// it.
-bool says_as_much_beside(const ScoredCandidate& instead, const std::vector<ScoredCandidate>& with_all) {
-  constexpr double kAsMuch = 0.8;
-  return std::any_of(with_all.begin(), with_all.end(), [&](const ScoredCandidate& c) {
-    return c.effect == instead.effect && c.test.statistic > kAsMuch * instead.test.statistic &&
-           (!c.effect->of_one_recording || of_one_moment(c, instead));
-  });
 }
 
 // Twice what the log-likelihood gains by it under the noise as it is; of a lag with the noise that it leaves, since how
@@ -172,15 +148,6 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
     if (!c.effect->local) c.test.inflation = again.inflation, c.test.cross_validated = again.cross_validated;
     judge(c);
   });
-}
-
-// A push of three numbers fits whatever a bump of one does, and its form is exact: where one number says nearly as much
-// it is the better name. So it is beside a patch, whose place and size were looked for in three directions.
-bool is_simpler(const ScoredCandidate& c, const ScoredCandidate& other) {
-  if (c.test.judged() < (1.0 - kFormError) * other.test.judged()) return false;
-  if (of_one_moment(c, other) || other.effect->name == "collision") return c.test.freedom < other.test.freedom;
-  return of_one_small_place(c, other) ||
-         (c.effect->name == "bump" && c.effect->of_one_recording && other.effect->name == "slip_zone");
 }
 
 // One name after the other, then what each of them is worth beside the others.
@@ -413,8 +380,8 @@ class Selection {
       for (const ScoredCandidate& c : instead)
         if (c.effect == joint_.accepted[k].effect) own = c;
       const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
-      const bool stands_here =
-          own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) && share_of(k) >= least;
+      const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
+                               share_of(k) >= least && keeps_its_place(k, own);
       if (!stands_here && !keep_needed(k, least, own)) {
         with_all_.clear();
         out_.evidence.clear();
@@ -426,6 +393,14 @@ class Selection {
       add_evidence(own, instead);
       ++k;
     }
+  }
+
+  // A patch whose rim a wheel but grazes is off the way once it is let in, and on it again once it is taken out: its
+  // score then promises what no fit keeps.
+  bool keeps_its_place(std::size_t k, const ScoredCandidate& own) const {
+    constexpr double kKept = 0.2;
+    if (!own.effect->local || own.effect->of_one_recording) return true;
+    return joint_.lost_without(static_cast<int>(k)) > kKept * own.test.statistic;
   }
 
   std::vector<ScoredCandidate> instead_of(std::size_t k) const {
