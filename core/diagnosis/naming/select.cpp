@@ -298,8 +298,9 @@ class Selection {
       Fitted with = known != fitted.end() ? *known : fitted_with(standing[tried]);
       with.model.fit_noise_and_all();
       // What whitens the innovations was what correlated them.
-      const double distrust = std::min(distrust_of(joint_, *standing[tried], family_wise_error_),
-                                       with.model.distrust(standing[tried]->effect->local));
+      const double distrust = with.model.distrust(standing[tried]->effect->local) == 0.0
+                                  ? 0.0
+                                  : distrust_of(joint_, *standing[tried], family_wise_error_);
       if (with.gained > kLeastKept && !is_at_its_bound(with.model.accepted.back()) &&
           is_material(distrust, joint_.truth_noise_lasts, joint_.gathered_error(), with.model.gathered_error(),
                       standing[tried]->test.value.size())) {
