@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/diagnosis/diagnosis.h"
 #include "core/geometry/angles.h"
 #include "core/odometry/differential_drive.h"
 
@@ -51,6 +52,19 @@ TEST(ObeyingWheels, AreReadAtEachCommandAloneWhereTheseComeOftenEnough) {
   often.channels = {{"command_speed_mps", std::vector<double>(50, 0.3)},
                     {"command_yaw_rate_radps", std::vector<double>(50, 0.1)}};
   EXPECT_EQ(with_obeying_wheels(often, kDrive).time_s, often.time_s);
+}
+
+// With an effect that does nothing the prediction goes along that arc, too, and has a row for each command.
+TEST(ObeyingWheels, PredictARowForEachCommandAlongTheArc) {
+  Recording told = quarter_turn();
+  told.channels.pop_back();
+  Vehicle vehicle;
+  vehicle.kind = kDrive;
+  const Track track = predicted_track(told, vehicle, {{"one_sided_drag", "vehicle", {{"rad_per_m", 0.0}}}}).value();
+  ASSERT_EQ(track.size(), 2u);
+  EXPECT_EQ(track[1].time_s, 2.0);
+  EXPECT_NEAR(track[1].pose.x_m, 1.0, 1e-9);
+  EXPECT_NEAR(track[1].pose.y_m, 1.0, 1e-9);
 }
 
 // A row that claims to hold for a day makes no day of rows.
