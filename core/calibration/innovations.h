@@ -108,8 +108,8 @@ struct InnovationRun {
 };
 
 // Reads a recording; says what is missing. The vehicle gives the counts and the truth's clock. `left_out`: from one
-// reading to another, in order and apart; no motion across these is used, nor across the readings beside them, which
-// would show what the wheels did within. Without it the gaps between readings.
+// reading to another, in order and apart; no motion across these is used, nor across the readings beside them; whoever
+// knows them has put stamps of arrival right (evened_recording.h). Without it the gaps between readings, once evened.
 Result<InnovationRun> innovation_run(const Recording& recording, const Vehicle& vehicle,
                                      const std::optional<std::vector<std::pair<double, double>>>& left_out = {});
 

@@ -12,6 +12,21 @@ namespace {
 
 double rotation(const WheelSample& s, Wheel wheel) { return wheel == Wheel::left ? s.left_rad : s.right_rad; }
 
+// Readings of a wheel that are alike: the first and the last of each two and more, from that reading on.
+struct Hold {
+  std::size_t first, last;
+};
+std::vector<Hold> holds_of(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t from = 0) {
+  std::vector<Hold> holds;
+  for (std::size_t i = from; i + 1 < wheels.size();) {
+    std::size_t j = i;
+    while (j + 1 < wheels.size() && rotation(wheels[j + 1], wheel) == rotation(wheels[i], wheel)) ++j;
+    if (j > i) holds.push_back({i, j});
+    i = j + 1;
+  }
+  return holds;
+}
+
 // The truth at a time, by the median of three samples: one of them may err by anything.
 class SteadyTruth {
  public:
@@ -77,9 +92,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
   const double fixed_m = kLeast_m + 2.0 * least_count_rad(wheels, wheel) * radius_m(wheel);
   const double by_place_m = fixed_m + kTimesTheNoise * steady.noise_m(),
                by_turn_m = fixed_m + kTimesTheNoise * drive.wheelbase_m * steady.noise_rad();
-  for (std::size_t i = 0; i + 1 < wheels.size();) {
-    std::size_t j = i;
-    while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
+  for (const auto& [i, j] : holds_of(wheels, wheel)) {
     const double from_s = wheels[i].time_s, span_s = wheels[j].time_s - from_s;
     const bool both_hold = rotation(wheels[i], other) == rotation(wheels[j], other);
     const auto of_other_m = [&](std::size_t begin, std::size_t end) {
@@ -122,7 +135,6 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
           way_m(i + quarter, j - quarter) > kInTheMiddle * all_m)
         stands.push_back({from_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
     }
-    i = j > i ? j : i + 1;
   }
   return stands;
 }
@@ -134,9 +146,7 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
   TimeStretches found;
   const double count_rad = least_count_rad(wheels, wheel);
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
-  for (std::size_t i = kPace; i + 1 < wheels.size();) {
-    std::size_t j = i;
-    while (j + 1 < wheels.size() && rad(j + 1) == rad(i)) ++j;
+  for (const auto& [i, j] : holds_of(wheels, wheel, kPace))
     if (j >= i + 3 && j + 1 < wheels.size()) {
       const std::size_t end = std::min(j + 1 + kPace, wheels.size() - 1);
       const double before = (rad(i) - rad(i - kPace)) / static_cast<double>(kPace), next = rad(j + 1) - rad(j),
@@ -147,8 +157,6 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
         found.push_back({wheels[i].time_s, wheels[j + 1].time_s});
     }
-    i = j + 1;
-  }
   return found;
 }
 
@@ -176,22 +184,18 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
     return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
   };
-  for (std::size_t i = kPace; i + 1 < wheels.size();) {
-    std::size_t j = i;
-    while (j + 1 < wheels.size() && rotation(wheels[j + 1], wheel) == rotation(wheels[i], wheel)) ++j;
-    const std::size_t first = i;
-    i = j + 1;
-    if (j < first + kFewest || j + kPace >= wheels.size()) continue;
+  for (const auto& [first, last] : holds_of(wheels, wheel, kPace)) {
+    if (last < first + kFewest || last + kPace >= wheels.size()) continue;
     const std::optional<double> before = even_pace_rad(first - kPace, first, false),
-                                after = even_pace_rad(j, j + kPace, true);
+                                after = even_pace_rad(last, last + kPace, true);
     if (!before || !after || std::abs(*before) < least_rad || std::abs(*after - *before) > kSame * std::abs(*before))
       continue;
     const double interval_s =
-        (wheels[j + kPace].time_s - wheels[first - kPace].time_s) / static_cast<double>(j + 2 * kPace - first);
+        (wheels[last + kPace].time_s - wheels[first - kPace].time_s) / static_cast<double>(last + 2 * kPace - first);
     const double other_rad = step_of_other_rad(first - kPace, first);
     if (std::abs(*before) * radius_m > kWheel_mps2 * interval_s * interval_s &&
-        step_of_other_rad(first, j) > (1.0 - kSame) * other_rad)
-      found.push_back({wheels[first].time_s, wheels[j + 1].time_s});
+        step_of_other_rad(first, last) > (1.0 - kSame) * other_rad)
+      found.push_back({wheels[first].time_s, wheels[last + 1].time_s});
   }
   return found;
 }

@@ -6,6 +6,7 @@
 #include "core/base/quantile.h"
 #include "core/calibration/wheels_at.h"
 #include "core/geometry/angles.h"
+#include "core/geometry/small_turn.h"
 
 namespace odolab {
 
@@ -54,9 +55,7 @@ std::optional<bool> goes_on_as_told(const std::vector<WheelSample>& obeyed, cons
   const auto a = pose_about(truth, from_s), b = pose_about(truth, to_s);
   if (!a || !b) return std::nullopt;
   const Moved by_commands = told(obeyed, drive, from_s, to_s);
-  const double half_turn = 0.5 * by_commands.turn_rad,
-               chord_m =
-                   std::abs(by_commands.way_m) * (half_turn == 0.0 ? 1.0 : std::abs(std::sin(half_turn) / half_turn));
+  const double chord_m = std::abs(by_commands.way_m * chord_share(by_commands.turn_rad));
   const bool has_headings = truth.front().heading_rad.has_value();
   if (chord_m < kOff_m && (!has_headings || std::abs(by_commands.turn_rad) < kOff_rad)) return std::nullopt;
   const double off_m = std::abs(length(b->position() - a->position()) - chord_m),

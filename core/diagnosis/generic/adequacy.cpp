@@ -16,8 +16,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kMostLeftOfError =
-    0.3;  // of the evidence, that of the error of dead reckoning, where innovations are correlated
+// Of the error of dead reckoning, what may stay without a name where innovations are correlated.
+constexpr double kMostLeftOfError = 0.3;
 // A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
 constexpr double kFormOfAName = 0.5;
 constexpr double kTwoExplain = 0.85;  // share of the evidence that the two strongest of three names must have

@@ -98,15 +98,17 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
   constexpr double kTwice = 4.0, kHalf = 0.5;  // of squares
   const JointModel::GatheredError error = named.gathered_error(first_run);
   if (error.windows < kFewestWindows || is_nothing(error)) return std::nullopt;
+  const bool place_is_off = error.position_m2 >= kTwice * error.noise_position_m2,
+             heading_is_off = error.heading_rad2 >= kTwice * error.noise_heading_rad2;
+  if (!place_is_off && !heading_is_off) return std::nullopt;
   const bool names_physics =
       std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
-  const JointModel::GatheredError before = calibrated.gathered_error(first_run);
-  const auto is_unforeseen = [&](double of_error, double of_noise, double of_before) {
-    return of_error >= kTwice * of_noise && !(names_physics && of_error < kHalf * of_before);
-  };
-  if (!is_unforeseen(error.position_m2, error.noise_position_m2, before.position_m2) &&
-      !is_unforeseen(error.heading_rad2, error.noise_heading_rad2, before.heading_rad2))
-    return std::nullopt;
+  if (names_physics) {
+    const JointModel::GatheredError before = calibrated.gathered_error(first_run);
+    if ((!place_is_off || error.position_m2 < kHalf * before.position_m2) &&
+        (!heading_is_off || error.heading_rad2 < kHalf * before.heading_rad2))
+      return std::nullopt;
+  }
   char text[200];
   std::snprintf(
       text, sizeof text,

@@ -297,10 +297,9 @@ class Selection {
           std::find_if(fitted.begin(), fitted.end(), [&](const Fitted& f) { return f.candidate == standing[tried]; });
       Fitted with = known != fitted.end() ? *known : fitted_with(standing[tried]);
       with.model.fit_noise_and_all();
+      double distrust = distrust_of(joint_, *standing[tried], family_wise_error_);
       // What whitens the innovations was what correlated them.
-      const double distrust = with.model.distrust(standing[tried]->effect->local) == 0.0
-                                  ? 0.0
-                                  : distrust_of(joint_, *standing[tried], family_wise_error_);
+      if (distrust > 0.0 && with.model.distrust(standing[tried]->effect->local) == 0.0) distrust = 0.0;
       if (with.gained > kLeastKept && !is_at_its_bound(with.model.accepted.back()) &&
           is_material(distrust, joint_.truth_noise_lasts, joint_.gathered_error(), with.model.gathered_error(),
                       standing[tried]->test.value.size())) {
