@@ -33,6 +33,7 @@ std::string evidence_words(const Finding& f) {
             (f.p_value < 1e-15 ? "by chance below 1e-15" : number_text("by chance %.1g", f.p_value));
   if (f.share_of_mismatch > 0.0)
     words += (words.empty() ? "" : "; ") + number_text("%.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
+  if (f.moves) words += (words.empty() ? "" : "; ") + ("moves a metre or radian by " + moved_text(*f.moves));
   return words;
 }
 

@@ -12,6 +12,7 @@
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/mismatch.h"
+#include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
@@ -269,6 +270,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     found.push_back(
         finding_of(joint, joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k]));
+    found.back().moves = moved_by(joint, k);
     explained += selected.evidence[k].test.statistic;
   }
   add_mounting(found, joint, intervals, d.calibration_alone, nominal);

@@ -44,6 +44,12 @@ struct Alternative {
   std::string told_apart_by;  // the drive that would decide
 };
 
+// How far a finding moves dead reckoning, gathered over a metre of way or a radian: what calibration alone would leave
+// of it. Root mean square over the stretches in which it acts, those that it moves by a tenth of the most and more.
+struct MovedTrack {
+  double position_rms_m = 0.0, heading_rms_rad = 0.0;
+};
+
 struct Finding {
   std::string effect, component;  // effect is "unknown" where no name fits
   std::vector<FoundParameter> parameters;
@@ -51,9 +57,10 @@ struct Finding {
   double log_likelihood_gain = 0.0;
   double p_value = 1.0;  // family-wise over all candidates and scans
   std::vector<Alternative> alternatives;
-  double share_of_mismatch = 0.0;  // of the chi-square above noise that calibration leaves
-  std::string sentence;            // the finding in plain words
-  int form = 0;                    // which of the ways in which the effect shows, and in words where there are several
+  double share_of_mismatch = 0.0;   // of the chi-square above noise that calibration leaves
+  std::optional<MovedTrack> moves;  // unset where it is none of the vehicle's motion
+  std::string sentence;             // the finding in plain words
+  int form = 0;                     // which of the ways in which the effect shows, and in words where there are several
   std::string form_in_words;
 
   ActiveEffect as_active() const;

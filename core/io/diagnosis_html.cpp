@@ -58,6 +58,7 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
     if (f.share_of_mismatch > 0.0)
       rows.push_back(
           {"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});
+    if (f.moves) rows.push_back({"moves each metre or radian in which it acts by", moved_text(*f.moves)});
     if (f.log_likelihood_gain > 0.0)
       rows.push_back({"chance of such evidence if nothing were there",
                       f.p_value < 1e-15 ? "below 1e-15" : number_text("%.1g", f.p_value)});

@@ -65,6 +65,10 @@ Json finding_json(const Finding& finding) {
     entry["told_apart_by"] = a.told_apart_by;
   }
   json["share_of_mismatch"] = finding.share_of_mismatch;
+  if (finding.moves) {
+    json["moves"]["position_rms_m"] = finding.moves->position_rms_m;
+    json["moves"]["heading_rms_rad"] = finding.moves->heading_rms_rad;
+  }
   if (!finding.sentence.empty()) json["sentence"] = finding.sentence;
   return json;
 }

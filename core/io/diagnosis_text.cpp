@@ -128,7 +128,24 @@ std::string finding_line(const Finding& f) {
   if (f.log_likelihood_gain > 0.0)
     line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
   if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
+  if (f.moves) line += "; where it acts it moves each metre or radian by " + moved_text(*f.moves);
   return line;
+}
+
+// What all names together do to a stretch, where that is little: after ten metres a thousandth of the way. Else empty.
+std::string little_sentence(const Diagnosis& d) {
+  constexpr double kLittle_m = 1e-4, kLittle_rad = 2e-4;
+  double moved_m2 = 0.0, moved_rad2 = 0.0;
+  for (const Finding& f : d.findings) {
+    if (is_fault(f) || is_of_the_measurement(f)) continue;
+    if (!f.moves) return "";
+    moved_m2 += f.moves->position_rms_m * f.moves->position_rms_m;
+    moved_rad2 += f.moves->heading_rms_rad * f.moves->heading_rms_rad;
+  }
+  const MovedTrack all{std::sqrt(moved_m2), std::sqrt(moved_rad2)};
+  if (all.position_rms_m > kLittle_m || all.heading_rms_rad > kLittle_rad) return "";
+  return " It matters little: where it acts it moves each metre or radian by " + moved_text(all) +
+         (d.train.noise_floor ? ", in noise of " + figures_text(*d.train.noise_floor) : "") + ".";
 }
 
 // "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
@@ -200,7 +217,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       const bool any = !physics.empty() || !measured.empty();
       if (!any && open.empty()) return "The data are at fault: " + list_of(faults, "and") + ".";
       if (!physics.empty())
-        sentence = "What the model lacks: " + list_of(physics, "and") + ".";
+        sentence = "What the model lacks: " + list_of(physics, "and") + "." + little_sentence(diagnosis);
       else if (any)
         sentence =
             !open.empty() ? ""
@@ -260,6 +277,10 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 std::string size_text(double value, const std::string& unit) {
   const Shown shown = shown_as(unit);
   return number_text("%.2g", value * shown.factor) + shown.unit;
+}
+
+std::string moved_text(const MovedTrack& moved) {
+  return size_text(moved.position_rms_m, "m") + ", " + size_text(moved.heading_rms_rad, "rad");
 }
 
 std::string where_text(const WhereFound& where) {

@@ -24,6 +24,9 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 // "0.17 %": two digits of a size that is known no better.
 std::string size_text(double value, const std::string& unit);
 
+// "0.17 mm, 0.021 degrees".
+std::string moved_text(const MovedTrack& moved);
+
 // "in run_3.csv, 3.75 to 7.25 s; within 0.70 m of (2.20, 0.10) m; in turns"; empty where nothing applies.
 std::string where_text(const WhereFound& where);
 

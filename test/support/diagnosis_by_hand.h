@@ -47,6 +47,7 @@ inline Diagnosis diagnosis_by_hand() {
   eccentric.p_value = 1e-12;
   eccentric.alternatives = {{"wheel_eccentricity", "right_wheel", 3.1, "arcs, which de-phase the wheels"}};
   eccentric.share_of_mismatch = 0.83;
+  eccentric.moves = MovedTrack{0.0021, 0.0087};
   eccentric.sentence = "The left wheel rolls 0.6 % too far and too short in turn, once in each of its revolutions.";
   Finding zone;
   zone.effect = "slip_zone";

@@ -109,6 +109,31 @@ void stand_longer(Track& track) {
 
 }  // namespace
 
+Track JointModel::dead_reckoned(const InnovationRun& run, double truth_late_s) const {
+  Track track;
+  Pose pose;
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    track.push_back({run.wheels[i].time_s + truth_late_s, pose * model.truth.axle_T_tracked});
+    if (i + 1 == run.wheels.size()) break;
+    const double left = model.drive.wheel_radius_left_m * (run.wheels[i + 1].left_rad - run.wheels[i].left_rad);
+    const double right = model.drive.wheel_radius_right_m * (run.wheels[i + 1].right_rad - run.wheels[i].right_rad);
+    double f = 0.5 * (left + right), l = 0.0, w = (right - left) / model.drive.wheelbase_m;
+    for (const ExtraColumn& e : run.extra) {
+      f += e.per_step[i].forward_m;
+      l += e.per_step[i].sideways_m;
+      w += e.per_step[i].turn_rad;
+    }
+    const double h = pose.heading_rad + 0.5 * w, chord = chord_share(w), c = chord * std::cos(h),
+                 s = chord * std::sin(h);
+    pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
+  }
+  return track;
+}
+
+Track JointModel::dead_reckoned(int run) const {
+  return dead_reckoned(recorded(run), clock_s[static_cast<std::size_t>(run)]);
+}
+
 JointModel::GatheredError JointModel::gathered(
     int first_run, const std::function<std::vector<double>(int, const InnovationRun&)>& headings_of) const {
   std::vector<GatheredError> of(runs_.size());
@@ -117,24 +142,8 @@ JointModel::GatheredError JointModel::gathered(
     if (r < first_run) return;
     const InnovationRun run = recorded(r);
     const std::vector<double> headings = headings_of(r, run);
-    Track guess, truth;
+    Track guess = dead_reckoned(run, clock_s[r]), truth;
     std::vector<char> anew;
-    Pose pose;
-    for (std::size_t i = 0; i < run.wheels.size(); ++i) {
-      guess.push_back({run.wheels[i].time_s + clock_s[r], pose * model.truth.axle_T_tracked});
-      if (i + 1 == run.wheels.size()) break;
-      const double left = model.drive.wheel_radius_left_m * (run.wheels[i + 1].left_rad - run.wheels[i].left_rad);
-      const double right = model.drive.wheel_radius_right_m * (run.wheels[i + 1].right_rad - run.wheels[i].right_rad);
-      double f = 0.5 * (left + right), l = 0.0, w = (right - left) / model.drive.wheelbase_m;
-      for (const ExtraColumn& e : run.extra) {
-        f += e.per_step[i].forward_m;
-        l += e.per_step[i].sideways_m;
-        w += e.per_step[i].turn_rad;
-      }
-      const double h = pose.heading_rad + 0.5 * w, chord = chord_share(w), c = chord * std::cos(h),
-                   s = chord * std::sin(h);
-      pose = {pose.x_m + f * c - l * s, pose.y_m + f * s + l * c, pose.heading_rad + w};
-    }
     constexpr std::size_t kFew = 5;
     if (run.truth.size() < kFew) stand_longer(guess);
     bool cut = false;

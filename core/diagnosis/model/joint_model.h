@@ -142,6 +142,8 @@ class JointModel {
   // How much wider sums of innovations scatter than the model says, in the channel that is widest: one and more.
   double wider_by_correlation() const;
   Track poses(int run) const;  // corrected, at the wheels' times
+  // Of the tracked point by the wheels and the accepted effects alone, from the axle's pose zero, on the truth's clock.
+  Track dead_reckoned(int run) const;
 
   CandidateColumns columns_of(const Effect& effect, const std::vector<double>& shape) const;
   // `without`: an accepted effect that is taken out for the question. `thorough`: inflation and cross-validation too.
@@ -239,6 +241,7 @@ class JointModel {
   // `headings_of` the truth's samples of a run; NaN where none is known.
   GatheredError gathered(int first_run,
                          const std::function<std::vector<double>(int, const InnovationRun&)>& headings_of) const;
+  Track dead_reckoned(const InnovationRun& run, double truth_late_s) const;
   void cut();  // the runs anew, where the clocks have them left out now
   InnovationRun prepared(int run, const InnovationRun& of, const DriveView& view) const;
   // At the speeds that the accepted effects leave.

@@ -31,6 +31,8 @@ TEST(DiagnosisJson, SaysWhatTheSchemasExampleSays) {
   EXPECT_EQ(eccentric["alternatives"][0]["effect"], "wheel_eccentricity");
   EXPECT_EQ(eccentric["alternatives"][0]["told_apart_by"], "arcs, which de-phase the wheels");
   EXPECT_EQ(eccentric["share_of_mismatch"], 0.83);
+  EXPECT_EQ(eccentric["moves"], (nlohmann::json{{"position_rms_m", 0.0021}, {"heading_rms_rad", 0.0087}}));
+  EXPECT_FALSE(json["findings"][1].contains("moves"));
   for (const char* part : {"train", "held_out"})
     for (const char* step : {"nominal", "calibrated", "with_findings", "noise_floor"})
       for (const char* figure : {"position_rms_m", "heading_rms_rad", "normalised_chi2"})

@@ -46,6 +46,18 @@ TEST(VerdictSentence, NamesWhatWasFound) {
   EXPECT_EQ(verdict_sentence(d), "The data are at fault: truth frozen.");
 }
 
+TEST(VerdictSentence, SaysWhereWhatIsMissingMattersLittle) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.findings.resize(1);
+  d.findings[0].moves = MovedTrack{4.2e-5, 1e-4};
+  EXPECT_EQ(
+      verdict_sentence(d),
+      "What the model lacks: wheel eccentricity of the left wheel. It matters little: where it acts it moves each "
+      "metre or radian by 0.042 mm, 0.0057\xC2\xB0, in noise of 1.60 mm, 0.126\xC2\xB0.");
+  d.findings[0].moves = MovedTrack{4.2e-5, 3e-4};  // over ten metres three milliradians, and by these 15 mm
+  EXPECT_EQ(verdict_sentence(d), "What the model lacks: wheel eccentricity of the left wheel.");
+}
+
 TEST(VerdictSentence, DoesNotCallNoiseWhatGoesOnFromSampleToSample) {
   Diagnosis d;
   d.verdict = Verdict::nothing_missing;
