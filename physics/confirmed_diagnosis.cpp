@@ -3,12 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/evened_recording.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/recording/truth_left_out.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
 
 namespace odolab {
+
+namespace {
+
+// Where stamps tremble, wheels that are turned by them are jerked until they slip.
+Recording with_even_stamps(const Recording& recording, const Vehicle& nominal) {
+  const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  std::optional<EvenedRecording> even;
+  if (drive) even = evened(recording, *drive);
+  return even ? std::move(even->recording) : recording;
+}
+
+}  // namespace
 
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
   constexpr double kSame_s = 1e-6;
@@ -39,8 +52,9 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
       diagnose(train, held_out, nominal, {}, [&](double share) { return goes_on(progress, kOfDiagnosis * share); });
   if (!diagnosis) return diagnosis.error();
   std::vector<Recording> all;
-  for (const Recording& recording : train) all.push_back(with_truth_that_was_used(recording, *diagnosis));
-  all.insert(all.end(), held_out.begin(), held_out.end());
+  for (const Recording& recording : train)
+    all.push_back(with_truth_that_was_used(with_even_stamps(recording, nominal), *diagnosis));
+  for (const Recording& recording : held_out) all.push_back(with_even_stamps(recording, nominal));
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
   const Result<ModelReplay> replayed =

@@ -224,6 +224,8 @@ Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,
   const Vehicle vehicle = as_it_sets_off(model.vehicle_in(recording->name), effects, *recording);
   Scenario scenario = replay_scenario(vehicle, *recording);
   scenario.step_s = kStep_s;
+  // How the base follows its commands is known from the fit, and what its motors are is not.
+  scenario.motor.ideal = true;
   for (const ActiveEffect& fitted : effects)
     if (const auto active = effect_for_scenario(fitted, *recording, vehicle)) scenario.effects.push_back(*active);
   return replay(scenario, std::make_shared<const Recording>(with_obeyed_commands(*recording, file, vehicle)), progress);

@@ -29,6 +29,18 @@ double turn_onto(const Track& track, const std::vector<TruthSample>& truth) {
   return std::atan2(across, along);
 }
 
+// Motors as the LabMate's are to its mass and its wheels.
+Motor motor_for(const ActualDrive& machine) {
+  const ActualDrive usual;
+  const double mass = machine.mass_kg / usual.mass_kg, wheel = machine.wheel_radius_left_m / usual.wheel_radius_left_m;
+  Motor motor;
+  motor.torque_limit_nm *= mass * wheel;
+  motor.wheel_inertia_kgm2 *= mass * wheel * wheel;
+  motor.proportional_gain *= mass * wheel * wheel;
+  motor.integral_gain *= mass * wheel * wheel;
+  return motor;
+}
+
 // The first of several names, and how many others there are.
 std::string in_brief(const std::string& names) {
   const auto others = std::count(names.begin(), names.end(), ',');
@@ -40,7 +52,10 @@ std::string in_brief(const std::string& names) {
 Scenario replay_scenario(const Vehicle& vehicle, const Recording& recording) {
   Scenario scenario = with_vehicle(Scenario{}, vehicle);
   scenario.name = "Replay of " + recording.name;
-  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) scenario.actual = as_drawn(*drive);
+  if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
+    scenario.actual = as_drawn(*drive);
+    scenario.motor = motor_for(scenario.actual);
+  }
   ReplayPath path;
   path.recording = recording.name;
   path.by = missing_columns(recording, vehicle).empty() ? ReplayPath::By::wheels : ReplayPath::By::commands;

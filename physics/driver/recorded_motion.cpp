@@ -1,5 +1,8 @@
 #include "physics/driver/recorded_motion.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/recording/aligned_rows.h"
@@ -26,6 +29,40 @@ struct PairOfWheels {
   Drive operator()(const LinkedTrucks&) const { return {}; }
   Drive operator()(const MultiCastor&) const { return {}; }
 };
+
+// The finest step of a wheel: a count, or what the readings were rounded to where that is more.
+double resolution_rad(const std::vector<WheelSample>& wheels, double count_rad) {
+  double least_rad = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    for (const double step_rad :
+         {wheels[i].left_rad - wheels[i - 1].left_rad, wheels[i].right_rad - wheels[i - 1].right_rad})
+      if (step_rad != 0.0) least_rad = std::min(least_rad, std::abs(step_rad));
+  return std::isinf(least_rad) ? count_rad : std::max(count_rad, least_rad);
+}
+
+// Each wheel's mean over a time about each sample, shorter near the ends.
+void smooth(const std::vector<double>& time_s, double over_s, std::vector<std::vector<double>>& rows) {
+  const std::size_t wheels = rows.front().size();
+  std::vector<std::vector<double>> sum = {std::vector<double>(wheels, 0.0)};  // integral up to each sample
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    sum.push_back(sum.back());
+    for (std::size_t w = 0; w < wheels; ++w)
+      sum.back()[w] += 0.5 * (rows[i - 1][w] + rows[i][w]) * (time_s[i] - time_s[i - 1]);
+  }
+  const auto sum_until = [&](double t, std::size_t w) {
+    const auto after = std::upper_bound(time_s.begin() + 1, time_s.end() - 1, t);
+    const std::size_t i = static_cast<std::size_t>(after - time_s.begin()) - 1;
+    const double dt = t - time_s[i], span = time_s[i + 1] - time_s[i];
+    return sum[i][w] + dt * (rows[i][w] + 0.5 * (dt / span) * (rows[i + 1][w] - rows[i][w]));
+  };
+  std::vector<std::vector<double>> smoothed = rows;
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    const double half_s = std::min({0.5 * over_s, time_s[i] - time_s.front(), time_s.back() - time_s[i]});
+    for (std::size_t w = 0; w < wheels; ++w)
+      smoothed[i][w] = (sum_until(time_s[i] + half_s, w) - sum_until(time_s[i] - half_s, w)) / (2.0 * half_s);
+  }
+  rows = std::move(smoothed);
+}
 
 }  // namespace
 
@@ -77,10 +114,20 @@ RecordedRotation recorded_rotation(const Recording& recording, const VehicleKind
   if (const std::optional<DifferentialDrive> drive = std::visit(PairOfWheels{}, kind)) {
     std::vector<double> time_s;
     std::vector<std::vector<double>> rows_rad;
-    for (const WheelSample& sample : wheel_samples(recording, *drive)) {
+    const std::vector<WheelSample> wheels = wheel_samples(recording, *drive);
+    for (const WheelSample& sample : wheels) {
+      if (!time_s.empty() && sample.time_s <= time_s.back()) time_s.pop_back(), rows_rad.pop_back();
       time_s.push_back(sample.time_s);
       rows_rad.push_back({sample.left_rad, sample.right_rad});
     }
+    // A counter goes in jumps that its wheel did not make. One from a reading to the next would be a tenth of what
+    // tyres hold; they are spread over twice the time after which it is no more than that.
+    constexpr double kJerk_mps2 = 0.75;
+    const double count_m =
+        drive->wheel_radius_left_m * resolution_rad(wheels, 2.0 * kPi / drive->counts_per_wheel_turn());
+    const double over_s = std::sqrt(count_m / kJerk_mps2);
+    if (time_s.size() > 2 && over_s * static_cast<double>(time_s.size() - 1) > time_s.back() - time_s.front())
+      smooth(time_s, 2.0 * over_s, rows_rad);
     return {time_s, rows_rad};
   }
   std::vector<AlignedChannel> wheels;

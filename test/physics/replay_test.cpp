@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -93,6 +94,61 @@ TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
   // Motors have inertia and slip while they speed up: behind by some time constants (0.1 s) of travel, never ahead.
   EXPECT_LT(result->simulated.back().pose.x_m, 1.2);
   EXPECT_GT(result->simulated.back().pose.x_m, 1.2 - 0.3 * 0.2);
+}
+
+TEST(Replay, CommandsDriveAHeavyVehicleAsTheyDriveALightOne) {
+  Recording commands;
+  commands.name = "commands";
+  for (int k = 0; k <= 400; ++k) commands.time_s.push_back(0.01 * k);
+  std::vector<double> speed(401, 0.3), rate(401, 0.0);
+  speed.back() = 0.0;
+  commands.channels = {{"command_speed_mps", speed}, {"command_yaw_rate_radps", rate}};
+  // A mower of twenty times the LabMate's weight, whose motors could not move it: it stayed behind by half a metre.
+  Vehicle mower;
+  mower.kind = DifferentialDrive{0.217, 0.217, 0.98};
+  const Result<Replay> result = replay(replay_scenario(mower, commands), std::make_shared<const Recording>(commands));
+  ASSERT_TRUE(result);
+  EXPECT_LT(result->simulated.back().pose.x_m, 1.2);
+  EXPECT_GT(result->simulated.back().pose.x_m, 1.2 - 0.3 * 0.2);  // as of the LabMate, above
+}
+
+TEST(Replay, CoarseCountsAreNoJerksThatWheelsWouldSlipBy) {
+  // Wheels that are read in steps of 1.2 mm a hundred times a second: from one reading to the next that would be 12
+  // m/s2.
+  constexpr double kRadius_m = 0.097, kBase_m = 0.345, kPeriod_s = 0.01;
+  DifferentialDrive drive{kRadius_m, kRadius_m, kBase_m};
+  drive.encoder_counts_per_revolution = 500;
+  const double step_rad = 2.0 * kPi / 500.0;
+  Recording recording;
+  std::vector<double> left, right, x, y, heading;
+  Pose pose;
+  double left_rad = 0.0, right_rad = 0.0;
+  for (int k = 0; k <= 3000; ++k) {
+    const double t = kPeriod_s * k, yaw_rate = 1.2 * std::sin(0.8 * t), speed = 0.15 * (1.0 - std::cos(0.5 * t));
+    recording.time_s.push_back(t);
+    left.push_back(step_rad * std::floor(left_rad / step_rad));
+    right.push_back(step_rad * std::floor(right_rad / step_rad));
+    x.push_back(pose.x_m);
+    y.push_back(pose.y_m);
+    heading.push_back(pose.heading_rad);
+    const double middle_rad = pose.heading_rad + 0.5 * kPeriod_s * yaw_rate;
+    pose = {pose.x_m + kPeriod_s * speed * std::cos(middle_rad), pose.y_m + kPeriod_s * speed * std::sin(middle_rad),
+            pose.heading_rad + kPeriod_s * yaw_rate};
+    left_rad += kPeriod_s * (speed - 0.5 * kBase_m * yaw_rate) / kRadius_m;
+    right_rad += kPeriod_s * (speed + 0.5 * kBase_m * yaw_rate) / kRadius_m;
+  }
+  recording.channels = {{"left_wheel_rad", left},
+                        {"right_wheel_rad", right},
+                        {"truth_x_m", x},
+                        {"truth_y_m", y},
+                        {"truth_heading_rad", heading}};
+  Vehicle vehicle;
+  vehicle.kind = drive;
+  const Result<Replay> result =
+      replay(replay_scenario(vehicle, recording), std::make_shared<const Recording>(recording));
+  ASSERT_TRUE(result);
+  // A count of each wheel at either end, 1.2 mm, is at most two over the axle.
+  EXPECT_LT(result->simulated_error->heading_rms_rad, 2.0 * kRadius_m * step_rad / kBase_m);
 }
 
 TEST(Replay, RealSquareIsFollowedToWithinAFewCentimetres) {
