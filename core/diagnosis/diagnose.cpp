@@ -103,7 +103,7 @@ std::optional<JointModel> beyond_doubt(const JointModel& joint, const std::vecto
 Finding unknown_of(const Unnamed& more, const JointModel& joint, const std::vector<ScoredCandidate>& evidence) {
   Finding unknown;
   unknown.effect = "unknown";
-  unknown.component = "vehicle";
+  unknown.component = more.component;
   unknown.where = more.where;
   unknown.log_likelihood_gain = 0.5 * more.gain;
   unknown.p_value = more.p_value;
@@ -243,6 +243,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
   if (!calibrated_only) return calibrated_only.error();
   JointModel calibrated = *calibrated_only;
+  calibrated.truth_errors = options.truth_errors;
+  calibrated.truth_feigns_m = options.truth_step_m + 0.5 * drive->wheelbase_m * options.truth_step_rad;
   if (!goes_on(progress, 0.3)) return stopped;
 
   Diagnosis d;

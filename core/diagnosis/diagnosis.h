@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -138,8 +139,13 @@ struct Diagnosis {
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
 };
 
+struct TruthError;  // core/diagnosis/generic/truth_errors.h
+
 struct DiagnosisOptions {
   double family_wise_error = 0.02;
+  std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else the truth may err by; null: nothing
+  // What the truth's steps, where it has any, may feign of a vehicle's motion at a place or moment.
+  double truth_step_m = 0.0, truth_step_rad = 0.0;
 };
 
 // Recordings of one vehicle. `held_out` give no name and no number: they are predicted after everything is frozen, and

@@ -39,4 +39,9 @@ TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vec
   return on_the_way ? repeated : TimeStretches{};
 }
 
+std::string in_words_of_frozen(std::size_t times) {
+  return "the truth repeats itself with new stamps while the wheels turn, " + std::to_string(times) +
+         " time(s); left out";
+}
+
 }  // namespace odolab

@@ -1,6 +1,8 @@
 // A truth that repeats itself.
 #pragma once
 
+#include <string>
+
 #include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
 #include "core/vehicle/differential_drive.h"
@@ -12,5 +14,8 @@ namespace odolab {
 // more to be believed.
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
                            const DifferentialDrive& drive);
+
+// What is said of so many of them.
+std::string in_words_of_frozen(std::size_t times);
 
 }  // namespace odolab

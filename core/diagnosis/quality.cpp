@@ -55,8 +55,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       repeated.push_back(k < frozen.time_s.size() && t > frozen.time_s[k].first);
     }
     leave_truth_out(out.recording, repeated);
-    frozen.sentence = "the truth repeats itself with new stamps while the wheels turn, " +
-                      std::to_string(frozen.time_s.size()) + " time(s); left out";
+    frozen.sentence = in_words_of_frozen(frozen.time_s.size());
     out.faults.push_back(frozen);
   }
   if (std::optional<MeasuredRecording> measured = without_carried_truth(out.recording)) {

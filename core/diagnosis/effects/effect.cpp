@@ -82,6 +82,7 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
                      const Track& truth_poses, Way way) {
   DriveView view;
   view.number = number;
+  view.recording = run.name;
   view.drive = drive;
   view.from_commands = from_commands;
   const std::vector<WheelSample>& smooth = run.smooth.empty() ? run.wheels : run.smooth;

@@ -36,6 +36,7 @@ struct EffectStep {
 
 struct DriveView {
   int number = 0;  // of the recording
+  std::string recording;
   DifferentialDrive drive;
   bool from_commands = false;
   std::vector<EffectStep> steps;

@@ -149,6 +149,7 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
 
 Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain) {
   Unnamed u;
+  u.component = group.component;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.gain = gain;
   u.p_value = group.p_value;

@@ -11,6 +11,7 @@
 #include "core/diagnosis/generic/floor.h"
 #include "core/diagnosis/generic/lagging.h"
 #include "core/diagnosis/generic/step_response.h"
+#include "core/diagnosis/generic/truth_errors.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
 
@@ -267,7 +268,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) asked.push_back({&g, {wheel}});
   }
   const auto count = static_cast<int>(asked.size());
-  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests;
+  const double of_the_truth = joint.truth_errors ? static_cast<double>(joint.truth_errors->size()) : 0.0;
+  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests + of_the_truth;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -304,7 +306,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   });
   for (const std::vector<GenericTest>& more :
        {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
-        step_response_tests(asked_model, n), wave_tests(asked_model, n)})
+        step_response_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

@@ -28,11 +28,12 @@ constexpr double kMostLeft = 0.15;
 
 struct GenericTest {
   std::string variable, channel;  // "yaw rate [rad/s]", "turn per metre [rad/m]"
-  CandidateTest test;             // beside all that was let in
-  CandidateTest instead;          // and in its place; the same where nothing was
-  double under_own_noise = 1.0;   // times so much, where `test` was asked under the noise that the group leaves
-  double tests = 1.0;             // that it was chosen from
-  double p_value = 1.0;           // of `test`, over all of them
+  std::string component = "vehicle";
+  CandidateTest test;            // beside all that was let in
+  CandidateTest instead;         // and in its place; the same where nothing was
+  double under_own_noise = 1.0;  // times so much, where `test` was asked under the noise that the group leaves
+  double tests = 1.0;            // that it was chosen from
+  double p_value = 1.0;          // of `test`, over all of them
   double p_value_of(const CandidateTest& of) const;
   std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
   std::vector<GenericWave> waves;  // where it is periodic instead

@@ -1,6 +1,7 @@
 // Something that is missing and has no name.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/diagnosis/diagnosis.h"
@@ -9,6 +10,7 @@ namespace odolab {
 
 // What no name describes.
 struct Unnamed {
+  std::string component = "vehicle";
   WhereFound where;
   double gain = 0.0;  // twice the log-likelihood that it explains beyond the names and beyond chance
   double p_value = 0.0;

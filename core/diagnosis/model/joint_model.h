@@ -16,6 +16,8 @@
 
 namespace odolab {
 
+struct TruthError;  // core/diagnosis/generic/truth_errors.h
+
 struct AcceptedEffect {
   const Effect* effect = nullptr;
   std::vector<double> shape, value;
@@ -104,7 +106,9 @@ class JointModel {
   bool is_foretold = true;
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
   bool truth_noise_lasts = false;
-  bool truth_jumps = false;  // time and again, so that what happens at one moment is not told from these
+  std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else it may err by; null: nothing
+  double truth_feigns_m = 0.0;  // of a wheel's way at a place or moment, by the steps that the truth has
+  bool truth_jumps = false;     // time and again, so that what happens at one moment is not told from these
 
   const std::vector<DriveView>& views() const { return now_->views; }
   const std::vector<InnovationRun>& runs() const { return runs_; }

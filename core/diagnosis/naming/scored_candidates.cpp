@@ -69,12 +69,12 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const double count = count_rad(joint.runs()[r], drive);
     if (e.beyond_counts && !e.beyond_counts(test.value, test.shape, count, joint.views())) return false;
-    if (!e.local || count == 0.0) continue;
+    if (!e.local || (count == 0.0 && joint.truth_feigns_m == 0.0)) continue;
     const DriveView& view = joint.views()[r];
     if (e.of_one_recording && view.number != static_cast<int>(test.shape[0])) continue;
     sum_m2 += carried_m2(e.motions(view, test.shape), test.value, drive.wheelbase_m);
     const bool at_rest = e.of_one_recording && near_a_rest(joint.runs()[r], test.shape[1]);
-    least_m = std::max(least_m, (at_rest ? kCountsAtRest : kCounts) * count * radius_m);
+    least_m = std::max({least_m, (at_rest ? kCountsAtRest : kCounts) * count * radius_m, joint.truth_feigns_m});
   }
   return least_m == 0.0 || sum_m2 > least_m * least_m;
 }

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/diagnosis/frozen_truth.h"
+#include "core/diagnosis/units/biases_from_inside.h"
 #include "core/diagnosis/units/geometry_fit.h"
+#include "core/diagnosis/units/heading_of_way.h"
 #include "core/diagnosis/units/inside.h"
 #include "core/diagnosis/units/joined_clocks.h"
+#include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -37,7 +41,7 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
       return !e.parameter.effect.empty() && e.parameter.component != "truth" && g.effect == e.parameter.effect &&
              g.component == e.parameter.component;
     });
-    if (f == d.findings.end() || runs.size() < 2) continue;
+    if (f == d.findings.end() || runs.size() < 2 || e.is_from_inside) continue;
     const double ratio = left_out_ratio(runs, nominal, e.parameter.name);
     if (ratio < 1.0) {
       char text[120];
@@ -51,38 +55,52 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
   if (dropped && d.findings.empty()) d.verdict = Verdict::nothing_missing;
 }
 
-bool has_findings_of_vehicle(const Diagnosis& d) {
-  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.component != "truth"; });
-}
-
-// Whether a bias that is worth a name may lie hidden in what the truth does not tell.
-bool hides_a_bias(const GeometryFit& geometry) {
-  return std::any_of(geometry.joints.begin(), geometry.joints.end(), [](const JointEstimate& e) {
-    return !e.parameter.effect.empty() && e.parameter.component != "truth" && e.determined &&
-           kSigmasOfBias * e.stderr_value > e.parameter.least;
-  });
-}
-
-// Trucks know better how they stand to each other than a coarse truth knows where they are. False where they say
-// nothing of a joint, or what the truth contradicts.
-bool take_biases_from_inside(GeometryFit& geometry, const Diagnosis& inside) {
-  constexpr double kBetterKnown = 0.5, kContradicted = 3.0;  // times the error by the truth
-  bool taken = false;
+// How the truth's heading is mounted on a vehicle that tows, and whose wheels are not looked at: known by the way it
+// goes, and the hitch's encoder no better than that.
+GeometryFit geometry_of_trailer(const std::vector<JoinedRun>& runs, const Vehicle& nominal) {
+  constexpr double kUnknown_rad = 0.05, kLeast_rad = 0.001;
+  std::vector<Track> tracked;
+  for (const JoinedRun& run : runs) tracked.push_back(run.tracked);
+  const std::optional<HeadingOfWay> way = heading_of_way(tracked);
+  JointEstimate heading;
+  heading.parameter = {"truth_mounting.heading_rad",
+                       "rad",
+                       kUnknown_rad,
+                       [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.heading_rad; },
+                       "truth_mounting_offset",
+                       "truth",
+                       kLeast_rad,
+                       "heading_rad"};
+  heading.nominal = heading.value = nominal.truth.axle_T_tracked.heading_rad;
+  Vehicle turned = nominal;
+  if (way && std::abs(way->mounting_rad - heading.nominal) > std::max(kLeast_rad, kSigmasOfBias * way->stderr_rad)) {
+    heading.value = turned.truth.axle_T_tracked.heading_rad = way->mounting_rad;
+    heading.stderr_value = way->stderr_rad;
+    heading.determined = true;
+  }
+  GeometryFit geometry = fitted_geometry(runs, turned);
   for (JointEstimate& e : geometry.joints)
-    for (const Finding& f : inside.findings) {
-      if (e.parameter.effect.empty() || f.effect != e.parameter.effect || f.component != e.parameter.component)
-        continue;
-      const FoundParameter& bias = f.parameters.front();
-      const double off = bias.value - (e.value - e.nominal);
-      if (!e.determined || bias.stderr_value > kBetterKnown * e.stderr_value ||
-          std::abs(off) > kContradicted * e.stderr_value)
-        continue;
-      e.value = e.nominal + bias.value;
-      e.stderr_value = bias.stderr_value;
-      e.parameter.of(geometry.vehicle) = e.value;
-      taken = true;
-    }
-  return taken;
+    if (e.parameter.name == "hitch_angle_offset_rad")
+      e.stderr_value = std::hypot(e.stderr_value, way ? way->stderr_rad : kUnknown_rad);
+  geometry.joints.push_back(heading);
+  return geometry;
+}
+
+// Of a truth that no unit's own recording has as it was: by the first unit's wheels, whether it repeats itself.
+std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, const std::vector<JoinedRun>& runs,
+                                   const DifferentialDrive& first) {
+  std::vector<Finding> frozen;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    std::vector<WheelSample> wheels;
+    for (const UnitSample& s : runs[r].samples)
+      wheels.push_back({s.time_s, s.wheels[0].left_rad, s.wheels[0].right_rad});
+    DataFault fault{"truth_frozen", "truth", recordings[r].name,
+                    frozen_truth(truth_samples(recordings[r]), wheels, first), ""};
+    if (fault.time_s.empty()) continue;
+    fault.sentence = in_words_of_frozen(fault.time_s.size());
+    frozen.push_back(finding_of(fault));
+  }
+  return frozen;
 }
 
 // Too little outside truth to say where each unit was.
@@ -93,7 +111,7 @@ bool is_poor(const JoinedRun& run) {
 }
 
 JoinedRun joined_run(const Recording& r, const Vehicle& nominal) {
-  return {unit_samples(r, nominal), tracked_poses(r)};
+  return {without_held_counts(unit_samples(r, nominal), nominal), tracked_poses(r)};
 }
 
 }  // namespace
@@ -117,9 +135,11 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     return Error{train.front().name, "no truth with headings, a sample a second or more",
                  "one: the towing vehicle's own wheels are no measure of its way"};
 
-  GeometryFit geometry = fitted_geometry(runs, nominal);
+  const bool is_towed = std::holds_alternative<EncoderTrailer>(nominal.kind);
+  GeometryFit geometry = is_towed ? geometry_of_trailer(runs, nominal) : fitted_geometry(runs, nominal);
   std::vector<ClockRate> clocks;
   if (!carries_truth(units)) clocks = put_clocks_right(runs, nominal, geometry);
+  if (is_towed && !clocks.empty()) geometry = geometry_of_trailer(runs, nominal);
   if (!clocks.empty() && !runs_held_out.empty()) {
     GeometryFit of_held_out = geometry;
     put_clocks_right(runs_held_out, nominal, of_held_out);
@@ -134,17 +154,24 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   std::optional<ErringJoint> erring;
   DiagnosisOptions of_one = options;
   of_one.family_wise_error /= static_cast<double>(units.size());
+  std::vector<std::vector<UnitSample>> samples;
+  std::vector<std::string> names;
+  for (std::size_t r = 0; r < runs.size(); ++r) samples.push_back(runs[r].samples), names.push_back(train[r].name);
+  for (std::size_t r = 0; r < runs_held_out.size(); ++r)
+    samples.push_back(runs_held_out[r].samples), names.push_back(held_out[r].name);
   for (std::size_t u = 0; u < units.size(); ++u) {
     std::vector<Recording> own, own_held_out;
     for (std::size_t r = 0; r < runs.size(); ++r)
-      own.push_back(recording_of_unit(train[r], runs[r].samples, runs[r].tracked, geometry.vehicle, u,
+      own.push_back(recording_of_unit(train[r], unit_samples(train[r], nominal), runs[r].tracked, geometry.vehicle, u,
                                       geometry.clock_s[r], !units[u].carries_truth));
     for (std::size_t r = 0; r < runs_held_out.size(); ++r)
-      own_held_out.push_back(recording_of_unit(held_out[r], runs_held_out[r].samples, runs_held_out[r].tracked,
-                                               geometry.vehicle, u, clock_held_out_s[r], !units[u].carries_truth));
+      own_held_out.push_back(recording_of_unit(held_out[r], unit_samples(held_out[r], nominal),
+                                               runs_held_out[r].tracked, geometry.vehicle, u, clock_held_out_s[r],
+                                               !units[u].carries_truth));
     const Progress part = [&](double share) {
       return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
     };
+    of_one.truth_errors = joint_errors(samples, names, geometry.vehicle, u);
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units[u], nominal), of_one, part);
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, own, units[u].drive);
@@ -157,20 +184,29 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     }
     diagnoses.push_back(std::move(*one));
   }
-  Diagnosis d = merged(diagnoses, geometry, nominal, train);
-  prove_biases(d, runs, geometry, nominal);
   const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
-  if (are_trucks && !has_findings_of_vehicle(d) && hides_a_bias(geometry)) {
-    const Progress nearly_done = [&](double) { return goes_on(progress, 0.95); };
-    const Result<Diagnosis> inside = diagnose_inside(train, held_out, nominal, options, nearly_done);
-    if (!inside && !goes_on(progress, 0.95)) return inside.error();
-    if (inside && take_biases_from_inside(geometry, *inside)) d = merged(diagnoses, geometry, nominal, train);
+  if (are_trucks)
+    put_inside_beside_truth(geometry, train, nominal, diagnoses, [&](double) { return goes_on(progress, 0.95); });
+  if (!goes_on(progress, 0.95)) return Error{"diagnosis", "stopped before its end", ""};
+  Diagnosis d = merged(diagnoses, geometry, nominal, train);
+  Vehicle as_mounted = nominal;
+  if (is_towed) as_mounted.truth.axle_T_tracked.heading_rad = geometry.vehicle.truth.axle_T_tracked.heading_rad;
+  prove_biases(d, runs, geometry, as_mounted);
+  const bool is_said = std::any_of(d.findings.begin(), d.findings.end(),
+                                   [](const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; });
+  if (erring && !is_said) {
+    add_erring_joint(*erring, nominal, d);
+    leave_out_biases_beside_erring_joints(d.findings);
   }
-  if (erring) add_erring_joint(*erring, nominal, d);
   if (!clocks.empty()) {
     std::erase_if(d.findings, [](const Finding& f) { return f.effect == "clock_rate"; });
     d.findings.push_back(finding_of(clocks));
     if (d.verdict == Verdict::nothing_missing || d.verdict == Verdict::cannot_say) d.verdict = Verdict::found;
+  }
+  if (!carries_truth(units)) {
+    const std::vector<Finding> frozen = frozen_truths(train, runs, units[0].drive);
+    d.findings.insert(d.findings.end(), frozen.begin(), frozen.end());
+    if (!frozen.empty() && d.verdict == Verdict::nothing_missing) d.verdict = Verdict::found;
   }
   mark_named(d);
   return d;

@@ -12,8 +12,9 @@ namespace odolab {
 struct JointEstimate {
   JointParameter parameter;
   double nominal = 0.0, value = 0.0, stderr_value = 0.0;
-  bool determined = false;  // else the value is the nominal one
-  double feigned = 0.0;     // how far from the file what these recordings cannot tell may put it
+  bool determined = false;      // else the value is the nominal one
+  bool is_from_inside = false;  // for the most part known by what the units contradict each other
+  double feigned = 0.0;         // how far from the file what these recordings cannot tell may put it
 };
 
 // One recording's samples, and the outside truth or what stands in its place; with headings, on the truth's clock.

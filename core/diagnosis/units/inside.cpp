@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/calibration/smoothed_readings.h"
-#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
@@ -19,23 +17,6 @@ namespace odolab {
 namespace {
 
 constexpr int kMostRounds = 3;  // units to blame, one after the other
-
-// The recordings once the effects of a unit that is to blame are taken off its wheels; what it slips sideways is small
-// beside and stays.
-void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
-              const std::vector<VehicleUnit>& units) {
-  for (Understood& u : all) {
-    InnovationRun run;
-    for (const UnitSample& s : u.samples)
-      run.wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
-    run.smooth = smoothed(run.wheels);
-    run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
-    std::vector<std::vector<BodyMotion>> motions(units.size());
-    motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),
-                               model.effects_in(u.recording->name));
-    u.samples = without_effects(u.samples, units, motions).samples;
-  }
-}
 
 double gain_of(const Diagnosis& d) {
   double gain = 0.0;
@@ -123,11 +104,15 @@ class Judge {
                                  std::size_t u) const {
     Vehicle own = vehicle_of_unit(units_[u], without_mounting(nominal_));
     own.kind = units_[u].drive;
-    Result<Diagnosis> one = diagnose(train, held_out, own, options_, progress_);
+    const JointRounding rounding = rounding_from_inside(nominal_);
+    DiagnosisOptions options = options_;
+    options.truth_step_m = rounding.position_m;
+    options.truth_step_rad = rounding.heading_rad;
+    Result<Diagnosis> one = diagnose(train, held_out, own, options, progress_);
     if (!one) return one;
     leave_out_standing(*one, train, units_[u].drive);
     leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal_.kind));
-    keep_names_of_wheels(*one, units_[u], rounding_from_inside(nominal_));
+    keep_names_of_wheels(*one, units_[u], rounding);
     return one;
   }
 

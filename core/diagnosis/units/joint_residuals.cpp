@@ -7,8 +7,8 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/quantile.h"
+#include "core/diagnosis/units/joint_errors.h"
 #include "core/odometry/differential_drive.h"
-#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr double kStretch_m = 1.0, kStretch_rad = 2.0;  // twice those of the geometry: an encoder errs over longer ways
 constexpr int kWaves = 4;                               // a turn, or half waves over the range of a reading
 constexpr double kLeastSteps = 3.0;                     // a reading that is rounded errs by 0.3 of its step
-constexpr double kMostLeft = 0.9;                       // of the squares of each run, by a fit to the others
+constexpr double kMostOfSquares = 0.9;                  // of the squares of each run, by a fit to the others
 constexpr double kPrior_rad = 0.05, kPrior_m = 0.02;    // as of the biases
 constexpr double kHuber = 3.0;
 constexpr int kShapes = 2 * kWaves + 1;  // the last: which way it went last
@@ -265,7 +265,7 @@ std::optional<ErringJoint> erring_joint(const std::vector<JoinedRun>& runs, cons
     for (std::size_t r = 0; r < problems.size(); ++r) {
       others.push_back(fitted(problems, r, prior));
       const double before = squares(problems[r].left), after = squares(problems[r].left + problems[r].by * others[r]);
-      in_each = in_each && after < kMostLeft * before;
+      in_each = in_each && after < kMostOfSquares * before;
       without += before;
       with += after;
     }
@@ -286,13 +286,8 @@ std::optional<ErringJoint> erring_joint(const std::vector<JoinedRun>& runs, cons
 }
 
 void add_erring_joint(const ErringJoint& erring, const Vehicle& vehicle, Diagnosis& d) {
-  std::vector<JointParameter> biases;  // one for each joint, in their order
-  for (JointParameter& p : joint_parameters(vehicle))
-    if (!p.effect.empty() && p.component != "truth") biases.push_back(std::move(p));
-  const JointParameter& own = biases[erring.joint];
-  const std::string name = own.effect == "pivot_angle_bias"
-                               ? "the pivot of " + part_words(own.component)
-                               : "the " + parameter_words(own.name.substr(0, own.name.rfind("_offset")));
+  const JointName own = name_of_joint(vehicle, erring.joint);
+  const std::string& name = own.words;
   const double thousands = 1e3;
   const bool by_way = erring.play > erring.size;
   char text[300];

@@ -84,9 +84,11 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     add_findings_of(one, units[u], rounding_of_joints(nominal, u), d.findings);
     const std::string of = units[u].name.empty() ? "" : part_words(units[u].name) + ": ";
     for (const std::string& w : one.warnings) d.warnings.push_back(of + w);
+    // What has no name is drawn first.
+    auto next = one.verdict == Verdict::unknown_effect ? d.responses.begin() : d.responses.end();
     for (Response r : one.responses) {
       r.channel = of + r.channel;
-      d.responses.push_back(std::move(r));
+      next = d.responses.insert(next, std::move(r)) + 1;
     }
     for (std::vector<Residuals> Diagnosis::*residuals : {&Diagnosis::residuals_before, &Diagnosis::residuals_after})
       for (Residuals r : one.*residuals) {
@@ -101,7 +103,14 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     }
   }
   d.fitted_vehicle = fitted;
+  // The truth shows a unit's turned axle beside the joints as they were while its recordings were made.
+  for (const JointEstimate& e : geometry.joints)
+    if (e.is_from_inside)
+      std::erase_if(d.findings, [&](const Finding& f) {
+        return f.effect == e.parameter.effect && f.component == e.parameter.component;
+      });
   put_events_into_their_zones(d.findings);
+  put_pushes_together(d.findings, units);
   if (!truth_is_carried && from_outside) {
     add_truth(geometry, nominal, d.findings);
   }
@@ -111,6 +120,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   if (!from_outside)
     d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
   for (std::string& sentence : add_biases(geometry, units, d.findings)) d.warnings.push_back(std::move(sentence));
+  leave_out_biases_beside_erring_joints(d.findings);
   if (leave_out_small_rest(d.findings))
     d.warnings.push_back("beside the names given something small is left that no name describes");
   std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {

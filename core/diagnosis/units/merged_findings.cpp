@@ -20,6 +20,9 @@ bool is_common(const std::string& effect) {
          effect == "slip_zone" || effect == "truth_frozen";
 }
 
+// What has no name and is of an encoder between the units has its component already.
+bool is_of_a_joint(const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; }
+
 const FoundParameter* parameter_of(const Finding& f, const std::string& name) {
   for (const FoundParameter& p : f.parameters)
     if (p.name == name) return &p;
@@ -124,7 +127,7 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
       all.push_back(biased);
       continue;
     }
-    rename(f.component);
+    if (!is_of_a_joint(f)) rename(f.component);
     for (Alternative& a : f.alternatives) rename(a.component);
     if (is_common(f.effect) && f.component != "floor" && f.component != "truth")
       f.component = f.effect == "clock_rate" ? "vehicle" : "floor";
@@ -147,6 +150,34 @@ void put_events_into_their_zones(std::vector<Finding>& all) {
     if (!zone) rest.push_back(f);
   }
   all = std::move(rest);
+}
+
+void put_pushes_together(std::vector<Finding>& all, const std::vector<VehicleUnit>& units) {
+  constexpr double kAtOnce_s = 0.3;  // a push lasts a quarter of a second
+  const auto carries = [&](const Finding& f) {
+    return std::any_of(units.begin(), units.end(), [&](const VehicleUnit& unit) {
+      return unit.carries_truth && f.component == component_of_unit(unit.name, "vehicle");
+    });
+  };
+  std::vector<Finding> together;
+  for (const Finding& f : all) {
+    const FoundParameter* at = f.effect == "collision" ? parameter_of(f, "at_s") : nullptr;
+    const auto same = std::find_if(together.begin(), together.end(), [&](const Finding& g) {
+      return at && g.effect == "collision" && g.where.recording == f.where.recording &&
+             std::abs(parameter_of(g, "at_s")->value - at->value) < kAtOnce_s;
+    });
+    if (same == together.end()) {
+      together.push_back(f);
+      continue;
+    }
+    const double gain = same->log_likelihood_gain + f.log_likelihood_gain;
+    const double p_value = std::min(same->p_value, f.p_value);
+    if (carries(f) || (!carries(*same) && f.log_likelihood_gain > same->log_likelihood_gain)) *same = f;
+    same->component = "vehicle";
+    same->log_likelihood_gain = gain;
+    same->p_value = p_value;
+  }
+  all = std::move(together);
 }
 
 bool leave_out_small_rest(std::vector<Finding>& all) {
@@ -207,6 +238,13 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
                            "a straight edge along the joint: the motion is the same"}};
   }
   return not_told;
+}
+
+void leave_out_biases_beside_erring_joints(std::vector<Finding>& all) {
+  if (std::none_of(all.begin(), all.end(), is_of_a_joint)) return;
+  std::erase_if(all, [](const Finding& f) {
+    return f.effect == "link_angle_bias" || f.effect == "link_length_bias" || f.effect == "pivot_angle_bias";
+  });
 }
 
 void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {

@@ -18,6 +18,10 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
 // A patch of floor that one unit names looks like pushes and bumps to units that only touch it.
 void put_events_into_their_zones(std::vector<Finding>& all);
 
+// A push that several units feel at once is one of the whole vehicle, as the unit that carries the truth felt it, or
+// the one that tells most of it.
+void put_pushes_together(std::vector<Finding>& all, const std::vector<VehicleUnit>& units);
+
 // As with one drive: what is left without a name beside names that stand must be a fair part of the evidence.
 // Whether something was taken out.
 bool leave_out_small_rest(std::vector<Finding>& all);
@@ -26,6 +30,9 @@ bool leave_out_small_rest(std::vector<Finding>& all);
 // returned.
 std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units,
                                     std::vector<Finding>& all);
+
+// Where an encoder of a joint errs in a way that has no name, a bias of that or another is what its mean makes of it.
+void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 
 // Mounting and clock of the truth where no unit carries it.
 void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);

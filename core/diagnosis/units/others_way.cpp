@@ -1,5 +1,7 @@
 #include "core/diagnosis/units/others_way.h"
 
+#include "core/calibration/smoothed_readings.h"
+#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/odometry/cast.h"
 #include "core/odometry/differential_drive.h"
@@ -41,6 +43,21 @@ Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& s
     track[i].pose = track[i].pose * inverse(tracked_T_axle(known.vehicle, by, samples[i].joints));
   unwrap_headings(track);
   return track;
+}
+
+void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
+              const std::vector<VehicleUnit>& units) {
+  for (Understood& u : all) {
+    InnovationRun run;
+    for (const UnitSample& s : u.samples)
+      run.wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+    run.smooth = smoothed(run.wheels);
+    run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
+    std::vector<std::vector<BodyMotion>> motions(units.size());
+    motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),
+                               model.effects_in(u.recording->name));
+    u.samples = without_effects(u.samples, units, motions).samples;
+  }
 }
 
 }  // namespace odolab

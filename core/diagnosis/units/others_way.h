@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {
@@ -19,6 +20,10 @@ struct Known {
   Vehicle vehicle;
   std::vector<DifferentialDrive> drives;
 };
+
+// The recordings once the effects of a unit are taken off its wheels; what it slips sideways is small beside and stays.
+void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
+              const std::vector<VehicleUnit>& units);
 
 Vehicle without_mounting(Vehicle vehicle);
 

@@ -99,6 +99,8 @@ void leave_out_traces(Diagnosis& d, bool castor) {
   const std::size_t before = d.findings.size();
   d.findings.erase(std::remove_if(d.findings.begin(), d.findings.end(),
                                   [&](const Finding& f) {
+                                    // An encoder that errs by more than it rounds is no trace of rounding.
+                                    if (f.effect == "unknown" && f.component != "vehicle" && !castor) return false;
                                     if (f.effect == "unknown" && !rest_predicts) return true;
                                     return f.log_likelihood_gain > 0.0 && f.log_likelihood_gain < least_gain;
                                   }),

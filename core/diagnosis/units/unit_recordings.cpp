@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/diagnosis/standing_encoder.h"
+
 namespace odolab {
 
 namespace {
@@ -92,6 +94,36 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
     }
   }
   return recording_by(std::move(rows), recording);
+}
+
+std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle) {
+  const std::vector<VehicleUnit> units = units_of(vehicle);
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    std::vector<WheelSample> wheels;
+    for (const UnitSample& s : samples) wheels.push_back({s.time_s, s.wheels[u].left_rad, s.wheels[u].right_rad});
+    if (wheels.size() < 4) continue;
+    for (const Wheel wheel : {Wheel::left, Wheel::right}) {
+      TimeStretches held = catching_up_encoder(wheels, wheel);
+      const TimeStretches halted = halting_encoder(wheels, wheel, units[u].drive);
+      held.insert(held.end(), halted.begin(), halted.end());
+      const auto rad = [&](UnitSample& s) -> double& {
+        return wheel == Wheel::left ? s.wheels[u].left_rad : s.wheels[u].right_rad;
+      };
+      const auto first_at = [&](double time_s) {
+        return std::lower_bound(samples.begin(), samples.end(), time_s - 1e-9,
+                                [](const UnitSample& s, double t) { return s.time_s < t; });
+      };
+      for (const auto& [from_s, to_s] : held) {
+        const auto from = first_at(from_s), to = first_at(to_s);
+        if (from == samples.end() || to == samples.end()) continue;
+        for (auto s = from; s != to; ++s) {
+          const double share = (s->time_s - from->time_s) / (to->time_s - from->time_s);
+          rad(*s) = rad(*from) + share * (rad(*to) - rad(*from));
+        }
+      }
+    }
+  }
+  return samples;
 }
 
 }  // namespace odolab

@@ -147,12 +147,18 @@ TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
   EXPECT_EQ(d.findings.front().component, "truck_b.left_wheel");
   EXPECT_NEAR(d.findings.front().parameters[0].value, 0.04, 0.006);
   const FittedModel model = model_of(d);
-  const Recording unseen = linked_run(crooked_clapper(), s, 61);
-  const Result<Track> with = predicted_track(unseen, model.vehicle, model.effects_in("")),
-                      without = predicted_track(unseen, calibrated_model_of(d).vehicle);
-  ASSERT_TRUE(with && without);
-  EXPECT_LT(track_error(*with, truth_track(unseen))->end_position_m,
-            track_error(*without, truth_track(unseen))->end_position_m);
+  // Where one run ends is chance; of eight it is not.
+  double with_m2 = 0.0, without_m2 = 0.0;
+  for (std::uint64_t seed = 61; seed < 69; ++seed) {
+    const Recording unseen = linked_run(crooked_clapper(), s, seed);
+    const Result<Track> with = predicted_track(unseen, model.vehicle, model.effects_in("")),
+                        without = predicted_track(unseen, calibrated_model_of(d).vehicle);
+    ASSERT_TRUE(with && without);
+    const auto end_m = [&](const Track& track) { return track_error(track, truth_track(unseen))->end_position_m; };
+    with_m2 += end_m(*with) * end_m(*with);
+    without_m2 += end_m(*without) * end_m(*without);
+  }
+  EXPECT_LT(with_m2, without_m2);
 }
 
 // An effect is asked for in every unit, a bias in every joint; each is said once, of where it is likeliest.

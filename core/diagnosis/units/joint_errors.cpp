@@ -1,0 +1,246 @@
+#include "core/diagnosis/units/joint_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/vehicle/key_words.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kWaves = 4;  // a turn, or half waves over the range of a reading
+
+// A truth that is off by this much at one time, in the frame of the axle.
+struct Off {
+  double x_m = 0.0, y_m = 0.0, heading_rad = 0.0;
+};
+
+// Of one recording: at each time, what a joint that reads too much by one puts the axle off by, and functions of what
+// happens there.
+struct OfRun {
+  std::vector<double> time_s;
+  std::vector<Off> off;
+  std::vector<std::vector<double>> values;  // [function][sample]
+};
+using OfRuns = std::map<std::string, OfRun>;
+
+std::vector<int> joints_of(const Vehicle& vehicle, std::size_t unit) {
+  if (std::holds_alternative<MultiCastor>(vehicle.kind)) return {static_cast<int>(unit)};
+  std::vector<int> all;
+  for (std::size_t j = 0; j < joint_steps(vehicle).size(); ++j) all.push_back(static_cast<int>(j));
+  return all;
+}
+
+bool is_length(const Vehicle& vehicle, int joint) { return name_of_joint(vehicle, joint).unit == "m"; }
+
+struct Range {
+  double low = 1e300, high = -1e300;
+  bool goes_around = false;
+};
+
+std::vector<double> of_reading(double reading, const Range& range) {
+  std::vector<double> s;
+  const double u = (reading - range.low) / (range.high - range.low);
+  for (int m = 1; m <= kWaves; ++m) {
+    s.push_back(range.goes_around ? std::cos(m * reading) : std::cos((2 * m - 1) * kPi * u));
+    s.push_back(range.goes_around ? std::sin(m * reading) : std::cos(2 * m * kPi * u));
+  }
+  return s;
+}
+
+// Which way a reading went last, by more than it rounds: a half, less a half, 0 where it has not moved yet.
+std::vector<double> ways_of(const std::vector<UnitSample>& samples, std::size_t joint, double step) {
+  std::vector<double> ways;
+  double way = 0.0, turned_at = samples.front().joints[joint];
+  for (const UnitSample& s : samples) {
+    const double reading = s.joints[joint];
+    if (way * (reading - turned_at) > 0.0)
+      turned_at = reading;
+    else if (std::abs(reading - turned_at) > 1.5 * step)
+      way = reading > turned_at ? 0.5 : -0.5, turned_at = reading;
+    ways.push_back(way);
+  }
+  return ways;
+}
+
+// Change for each second of a number of the samples, over a sixth of one to both sides.
+std::vector<double> rates_of(const std::vector<UnitSample>& samples,
+                             const std::function<double(const UnitSample&)>& number) {
+  constexpr double kAside_s = 0.15;
+  std::vector<double> rates;
+  std::size_t a = 0, b = 0;
+  for (const UnitSample& s : samples) {
+    while (samples[a].time_s < s.time_s - kAside_s) ++a;
+    while (b + 1 < samples.size() && samples[b].time_s < s.time_s + kAside_s) ++b;
+    const double lasts_s = samples[b].time_s - samples[a].time_s;
+    rates.push_back(lasts_s > 0.0 ? (number(samples[b]) - number(samples[a])) / lasts_s : 0.0);
+  }
+  return rates;
+}
+
+// v times omega of a unit, m/s2.
+std::vector<double> pulled_aside(const std::vector<UnitSample>& samples, std::size_t unit,
+                                 const DifferentialDrive& drive) {
+  const std::vector<double> left = rates_of(samples, [&](const UnitSample&s) { return s.wheels[unit].left_rad; }),
+                            right = rates_of(samples, [&](const UnitSample&s) { return s.wheels[unit].right_rad; });
+  std::vector<double> pulled;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double l = drive.wheel_radius_left_m * left[i], r = drive.wheel_radius_right_m * right[i];
+    pulled.push_back(0.5 * (l + r) * (r - l) / drive.wheelbase_m);
+  }
+  return pulled;
+}
+
+// From step to step: what stands after it, seen from what stood before.
+std::vector<Motions> motions_in(const DriveView& view, const OfRuns& runs, std::size_t functions) {
+  const auto found = runs.find(view.recording);
+  if (found == runs.end()) return std::vector<Motions>(functions);
+  const OfRun& run = found->second;
+  std::vector<Motions> out(functions, Motions(view.steps.size()));
+  std::size_t k = 0;
+  const auto off_at = [&](std::size_t f, double t) {
+    while (k + 2 < run.time_s.size() && run.time_s[k + 1] <= t) ++k;
+    while (k > 0 && run.time_s[k] > t) --k;
+    const double u = std::clamp((t - run.time_s[k]) / (run.time_s[k + 1] - run.time_s[k]), 0.0, 1.0);
+    const double a = (1.0 - u) * run.values[f][k], b = u * run.values[f][k + 1];
+    const Off &p = run.off[k], &q = run.off[k + 1];
+    return Off{a * p.x_m + b * q.x_m, a * p.y_m + b * q.y_m, a * p.heading_rad + b * q.heading_rad};
+  };
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    for (std::size_t f = 0; f < functions; ++f) {
+      const Off before = off_at(f, s.time_s - 0.5 * s.duration_s), after = off_at(f, s.time_s + 0.5 * s.duration_s);
+      out[f][i] = {after.x_m - s.turn_rad * after.y_m - before.x_m,
+                   after.y_m + s.turn_rad * after.x_m - before.y_m - before.heading_rad * s.forward_m(),
+                   after.heading_rad - before.heading_rad};
+    }
+  }
+  return out;
+}
+
+// Root mean square of what amplitudes come to over all samples, about its mean: that would be a bias.
+double size_of(const OfRuns& runs, const std::vector<double>& value) {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (const auto& [name, run] : runs)
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+      double error = 0.0;
+      for (std::size_t f = 0; f < value.size(); ++f) error += value[f] * run.values[f][i];
+      n += 1.0, sum += error, squares += error * error;
+    }
+  return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+}
+
+TruthError error_of(OfRuns runs, const JointName& joint, const std::string& variable, double least) {
+  const std::size_t functions = runs.begin()->second.values.size();
+  const auto shared = std::make_shared<const OfRuns>(std::move(runs));
+  TruthError error;
+  error.component = joint.component;
+  error.channel = "error of the encoder of " + joint.words;
+  error.variable = variable;
+  auto term = std::make_shared<Effect>();
+  term->name = error.variable;
+  term->component = error.channel;
+  term->amplitudes.resize(functions);
+  term->motions = [shared, functions](const DriveView& view, const std::vector<double>&) {
+    return motions_in(view, *shared, functions);
+  };
+  error.term = std::move(term);
+  error.is_more_than_rounding = [shared, least](const std::vector<double>& value) {
+    return size_of(*shared, value) > least;
+  };
+  return error;
+}
+
+GenericCurve curve_over(const Range& range, const JointName& joint) {
+  constexpr int kPoints = 41;
+  const double low = range.goes_around ? -kPi : range.low, high = range.goes_around ? kPi : range.high;
+  GenericCurve curve;
+  curve.variable = joint.words + " [" + joint.unit + "]";
+  curve.channel = "error of " + joint.words + " [" + joint.unit + "]";
+  for (int i = 0; i < kPoints; ++i) {
+    curve.at.push_back(low + (high - low) * i / (kPoints - 1.0));
+    curve.basis.push_back(of_reading(curve.at.back(), range));
+  }
+  return curve;
+}
+
+}  // namespace
+
+JointName name_of_joint(const Vehicle& vehicle, std::size_t joint) {
+  std::vector<JointParameter> biases;  // one for each joint, in their order
+  for (JointParameter& p : joint_parameters(vehicle))
+    if (!p.effect.empty() && p.component != "truth") biases.push_back(std::move(p));
+  const JointParameter& own = biases[joint];
+  return {own.effect == "pivot_angle_bias" ? "the pivot of " + part_words(own.component)
+                                           : "the " + parameter_words(own.name.substr(0, own.name.rfind("_offset"))),
+          own.component, own.unit};
+}
+
+std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<std::vector<UnitSample>>& samples,
+                                                            const std::vector<std::string>& names,
+                                                            const Vehicle& vehicle, std::size_t unit) {
+  const VehicleUnit own = units_of(vehicle)[unit];
+  if (own.carries_truth || std::set<std::string>(names.begin(), names.end()).size() != names.size()) return nullptr;
+  if (std::any_of(samples.begin(), samples.end(), [](const auto& of_run) { return of_run.size() < 3; })) return nullptr;
+  // An encoder that stands as it stood before, in each bend and after each turn, is rounded as before: by up to 0.29 of
+  // a step.
+  constexpr double kSteps = 0.5;
+  constexpr double kLeastRange = 4.0;  // steps
+  constexpr double kMoved = 1e-5;
+  const std::vector<double> steps = joint_steps(vehicle);
+  auto errors = std::make_shared<std::vector<TruthError>>();
+  for (const int joint : joints_of(vehicle, unit)) {
+    const auto j = static_cast<std::size_t>(joint);
+    Range range;
+    for (const auto& of_run : samples)
+      for (const UnitSample& s : of_run)
+        range.low = std::min(range.low, s.joints[j]), range.high = std::max(range.high, s.joints[j]);
+    if (range.high - range.low < std::max(kLeastRange * steps[j], 1e-4)) continue;
+    range.goes_around = !is_length(vehicle, joint) && range.high - range.low > kPi;
+
+    OfRuns bare;
+    for (std::size_t r = 0; r < samples.size(); ++r) {
+      OfRun& run = bare[names[r]];
+      for (const UnitSample& s : samples[r]) {
+        std::vector<double> moved = s.joints;
+        moved[j] += kMoved;
+        const Pose by = between(tracked_T_axle(vehicle, unit, s.joints), tracked_T_axle(vehicle, unit, moved));
+        run.time_s.push_back(s.time_s);
+        run.off.push_back({by.x_m / kMoved, by.y_m / kMoved, by.heading_rad / kMoved});
+      }
+    }
+    const auto with = [&](const std::function<std::vector<std::vector<double>>(const std::vector<UnitSample>&)>& of) {
+      OfRuns runs = bare;
+      for (std::size_t r = 0; r < samples.size(); ++r) runs[names[r]].values = of(samples[r]);
+      return runs;
+    };
+    const JointName name = name_of_joint(vehicle, j);
+    const OfRuns by_reading = with([&](const std::vector<UnitSample>& of_run) {
+      std::vector<std::vector<double>> values(2 * kWaves);
+      for (const UnitSample& s : of_run) {
+        const std::vector<double> at = of_reading(s.joints[j], range);
+        for (std::size_t k = 0; k < at.size(); ++k) values[k].push_back(at[k]);
+      }
+      return values;
+    });
+    errors->push_back(error_of(by_reading, name, "what it reads", kSteps * steps[j]));
+    errors->back().curves = {curve_over(range, name)};
+    const auto add = [&](const char* variable,
+                         const std::function<std::vector<double>(const std::vector<UnitSample>&)>& of) {
+      const OfRuns runs =
+          with([&](const std::vector<UnitSample>& of_run) { return std::vector<std::vector<double>>{of(of_run)}; });
+      errors->push_back(error_of(runs, name, variable, kSteps * steps[j]));
+    };
+    add("which way it went last", [&](const auto& of_run) { return ways_of(of_run, j, steps[j]); });
+    if (is_length(vehicle, joint)) continue;
+    add("how fast it turns [rad/s]",
+        [&](const auto& of_run) { return rates_of(of_run, [&](const UnitSample& s) { return s.joints[j]; }); });
+    add("lateral acceleration [m/s2]", [&](const auto& of_run) { return pulled_aside(of_run, unit, own.drive); });
+  }
+  return errors;
+}
+
+}  // namespace odolab
