@@ -10,34 +10,45 @@ namespace odolab {
 
 namespace {
 
-constexpr double kStretch_m = 1.0;
-constexpr double kStraight_rad = 0.1;
+constexpr double kStretch_m = 1.0, kShortest_m = 0.3;
+constexpr double kMostTurned_rad = 0.5;
 constexpr std::size_t kFewest = 10;
 constexpr double kHuber = 3.0;
 
 struct Stretch {
-  double off_rad = 0.0;    // of the way, from the tracked heading; the same forward and in reverse
-  double curved_pm = 0.0;  // a point ahead of the axle swings out in a curve
+  double off_rad = 0.0;   // of the way as it was seen, from the way as the tracked headings look along it
+  double swung_pm = 0.0;  // by how much a point ahead of the axle, by a metre, swings that out
+  double weight = 0.0;    // inverse variance by noise of the positions
 };
 
-// The line through the positions from one sample to another, by least squares.
+Vec2 along(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
+
+// The way from one sample to another, seen and by its headings, the one laid on the other about their means.
 std::optional<Stretch> stretch_of(const Track& track, std::size_t first, std::size_t last) {
+  std::vector<Vec2> seen, looked, ahead;
+  Vec2 way, mean_seen, mean_looked, mean_ahead;
   const double n = static_cast<double>(last - first + 1);
-  Vec2 mean;
-  double heading = 0.0;
   for (std::size_t i = first; i <= last; ++i) {
-    mean = mean + (1.0 / n) * track[i].pose.position();
-    heading += track[i].pose.heading_rad / n;
+    if (i > first) {
+      const Vec2 ahead_now = along(0.5 * (track[i - 1].pose.heading_rad + track[i].pose.heading_rad));
+      way = way + dot(track[i].pose.position() - track[i - 1].pose.position(), ahead_now) * ahead_now;
+    }
+    seen.push_back(track[i].pose.position());
+    looked.push_back(way);
+    ahead.push_back(along(track[i].pose.heading_rad));
+    mean_seen = mean_seen + (1.0 / n) * seen.back();
+    mean_looked = mean_looked + (1.0 / n) * looked.back();
+    mean_ahead = mean_ahead + (1.0 / n) * ahead.back();
   }
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
-    const Vec2 d = rotated(track[i].pose.position() - mean, -heading);
-    xx += d.x_m * d.x_m, xy += d.x_m * d.y_m, yy += d.y_m * d.y_m;
+  if (length(way) < kShortest_m) return std::nullopt;
+  double off = 0.0, swung = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const Vec2 by = looked[k] - mean_looked;
+    off += cross(by, seen[k] - mean_seen);
+    swung += cross(by, ahead[k] - mean_ahead);
+    squares += dot(by, by);
   }
-  const Vec2 way = rotated(track[last].pose.position() - track[first].pose.position(), -heading);
-  const double turn = track[last].pose.heading_rad - track[first].pose.heading_rad;
-  if (std::abs(turn) > kStraight_rad || std::abs(way.x_m) < 0.5 * kStretch_m) return std::nullopt;
-  return Stretch{0.5 * std::atan2(2.0 * xy, xx - yy), turn / way.x_m};
+  return Stretch{off / squares, swung / squares, squares};
 }
 
 std::vector<Stretch> stretches_of(const Track& track) {
@@ -45,12 +56,10 @@ std::vector<Stretch> stretches_of(const Track& track) {
   std::size_t first = 0;
   for (std::size_t i = 1; i < track.size(); ++i) {
     const Vec2 way = track[i].pose.position() - track[first].pose.position();
-    if (std::abs(track[i].pose.heading_rad - track[first].pose.heading_rad) > kStraight_rad) {
-      first = i;
-    } else if (length(way) >= kStretch_m) {
-      if (const std::optional<Stretch> s = stretch_of(track, first, i)) all.push_back(*s);
-      first = i;
-    }
+    const double turn = track[i].pose.heading_rad - track[first].pose.heading_rad;
+    if (length(way) < kStretch_m && std::abs(turn) < kMostTurned_rad) continue;
+    if (const std::optional<Stretch> s = stretch_of(track, first, i)) all.push_back(*s);
+    first = i;
   }
   return all;
 }
@@ -64,18 +73,19 @@ std::optional<HeadingOfWay> heading_of_way(const std::vector<Track>& tracked) {
     all.insert(all.end(), of_run.begin(), of_run.end());
   }
   if (all.size() < kFewest) return std::nullopt;
-  // off = -mounting + (how far ahead of the axle) * curvature, robust against what was pushed aside.
+  // off = -mounting + (how far ahead of the axle) * swung, robust against what was pushed aside.
   double mounting_rad = 0.0, ahead_m = 0.0, deviation = 0.0, stderr_rad = 0.0;
-  const auto rest = [&](const Stretch& s) { return s.off_rad + mounting_rad - ahead_m * s.curved_pm; };
+  const auto rest = [&](const Stretch& s) { return s.off_rad + mounting_rad - ahead_m * s.swung_pm; };
   for (int iteration = 0; iteration < 10; ++iteration) {
     std::vector<double> sizes;
-    for (const Stretch& s : all) sizes.push_back(std::abs(rest(s)));
+    for (const Stretch& s : all) sizes.push_back(std::sqrt(s.weight) * std::abs(rest(s)));
     deviation = std::max(1.4826 * median(std::move(sizes)), 1e-6);
     double w = 0.0, c = 0.0, cc = 1e-9, r = 0.0, cr = 0.0;
     for (const Stretch& s : all) {
-      const double e = rest(s), weight = std::min(1.0, kHuber * deviation / std::max(std::abs(e), 1e-12));
-      w += weight, c += weight * s.curved_pm, cc += weight * s.curved_pm * s.curved_pm;
-      r += weight * e, cr += weight * s.curved_pm * e;
+      const double e = rest(s), size = std::sqrt(s.weight) * std::abs(e);
+      const double weight = s.weight * std::min(1.0, kHuber * deviation / std::max(size, 1e-12));
+      w += weight, c += weight * s.swung_pm, cc += weight * s.swung_pm * s.swung_pm;
+      r += weight * e, cr += weight * s.swung_pm * e;
     }
     const double det = w * cc - c * c;
     if (!(det > 1e-12 * w * cc)) return std::nullopt;

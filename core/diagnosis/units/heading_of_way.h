@@ -15,7 +15,7 @@ struct HeadingOfWay {
   double stderr_rad = 0.0;
 };
 
-// By stretches of a metre that are nearly straight; none where these are few.
+// By stretches of a metre, or of half a radian and 0.3 m; none where these are few.
 std::optional<HeadingOfWay> heading_of_way(const std::vector<Track>& tracked);
 
 }  // namespace odolab

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/diagnosis/measurement_findings.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -238,6 +239,11 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     if (is_length(vehicle, joint)) continue;
     add("how fast it turns [rad/s]",
         [&](const auto& of_run) { return rates_of(of_run, [&](const UnitSample& s) { return s.joints[j]; }); });
+    // By so many seconds it is read late; where the truth's clock is fitted a little off, so is every joint.
+    errors->back().is_more_than_rounding =
+        [rounding = errors->back().is_more_than_rounding](const std::vector<double>& value) {
+          return std::abs(value[0]) > kLeastClock_s && rounding(value);
+        };
     add("lateral acceleration [m/s2]", [&](const auto& of_run) { return pulled_aside(of_run, unit, own.drive); });
   }
   return errors;

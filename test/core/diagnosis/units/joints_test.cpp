@@ -1,0 +1,164 @@
+// What lies between the units: the encoders of joints, the truth's mounting on a vehicle that tows, pushes of the
+// whole.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/heading_of_way.h"
+#include "core/diagnosis/units/merged_findings.h"
+#include "core/diagnosis/units/unit_recordings.h"
+#include "test/support/linked_runs.h"
+
+namespace odolab::test {
+namespace {
+
+Vehicle vehicle_of(const VehicleKind& kind) {
+  Vehicle v;
+  v.kind = kind;
+  return v;
+}
+
+EncoderTrailer trailer_with_a_fine_hitch() {
+  EncoderTrailer train;
+  train.hitch_angle_resolution_rad = 0.0005;
+  return train;
+}
+
+std::vector<Recording> trailer_runs(const EncoderTrailer& actual, std::uint64_t seed) {
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    runs.push_back(trailer_run(actual, {}, seed + k));
+    runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
+  }
+  return runs;
+}
+
+void turn_truth(std::vector<Recording>& runs, double by_rad) {
+  for (Recording& r : runs)
+    for (Channel& c : r.channels)
+      if (c.name == "truth_heading_rad")
+        for (double& heading : c.values) heading += by_rad;
+}
+
+void wobble(std::vector<Recording>& runs, double amplitude_rad) {
+  for (Recording& r : runs)
+    for (Channel& c : r.channels)
+      if (c.name == "hitch_angle_rad")
+        for (double& reading : c.values) reading += amplitude_rad * std::sin(3.0 * reading);
+}
+
+TEST(JointErrors, OfAHitchThatWobblesByFourMilliradiansHaveNoNameAndAShape) {
+  std::vector<Recording> runs = trailer_runs(trailer_with_a_fine_hitch(), 311);
+  EXPECT_EQ(diagnose(runs, {}, vehicle_of(trailer_with_a_fine_hitch()))->verdict, Verdict::nothing_missing);
+  constexpr double kWobble_rad = 0.004;
+  wobble(runs, kWobble_rad);
+  const Diagnosis d = diagnose(runs, {}, vehicle_of(trailer_with_a_fine_hitch())).value();
+  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d.findings.front().component, "trailer");
+  EXPECT_NE(d.findings.front().where.regime.find("what it reads"), std::string::npos);
+  ASSERT_FALSE(d.responses.empty());
+  const Response& shape = d.responses.front();
+  ASSERT_EQ(shape.variable, "the hitch angle [rad]");
+  // The wave that was put in, but for what a constant takes of it, which is a bias, and a slope, which is the
+  // drawbar's: half of the points within the band that nineteen in twenty should be in where nothing had been taken.
+  int inside = 0;
+  for (std::size_t i = 0; i < shape.at.size(); ++i) {
+    const double put_in = kWobble_rad * std::sin(3.0 * shape.at[i]);
+    inside += shape.low[i] - 0.5 * kWobble_rad < put_in && put_in < shape.high[i] + 0.5 * kWobble_rad;
+  }
+  EXPECT_GT(2 * inside, static_cast<int>(shape.at.size()));
+}
+
+TEST(HeadingOfWay, TellsHowATruthIsTurnedOnAVehicleWhoseWheelsSayNothing) {
+  // A point 0.2 m ahead of the axle and 0.1 m to its left, on straights and wide bends, forward and in reverse.
+  constexpr double kTurned_rad = 0.031;
+  Random random(5);
+  std::vector<Track> tracked;
+  for (int run = 0; run < 4; ++run) {
+    Track track;
+    Pose axle{0.0, 0.0, random.uniform(-3.0, 3.0)};
+    for (int i = 0; i < 1500; ++i) {
+      const double t = 0.02 * i, speed = run == 3 ? -0.4 : 0.5, rate = 0.06 * std::sin(0.3 * t + run);
+      axle = axle * Pose{0.02 * speed, 0.0, 0.02 * rate};
+      const Pose seen = axle * Pose{0.2, 0.1, kTurned_rad};
+      track.push_back({t,
+                       {seen.x_m + 0.003 * random.normal(), seen.y_m + 0.003 * random.normal(),
+                        seen.heading_rad + 0.004 * random.normal()}});
+    }
+    tracked.push_back(track);
+  }
+  const std::optional<HeadingOfWay> found = heading_of_way(tracked);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->stderr_rad, 0.001);  // 3 mm over a metre are 3 mrad at most, and there are fifty metres
+  EXPECT_NEAR(found->mounting_rad, kTurned_rad, 4.0 * found->stderr_rad);
+  EXPECT_FALSE(heading_of_way({Track(tracked[0].begin(), tracked[0].begin() + 300)}));  // three metres
+}
+
+TEST(DiagnoseUnits, TakeATruthThatIsTurnedOnATowForNoBiasOfTheHitch) {
+  std::vector<Recording> runs = trailer_runs(trailer_with_a_fine_hitch(), 411);
+  turn_truth(runs, 0.03);
+  const Diagnosis d = diagnose(runs, {}, vehicle_of(trailer_with_a_fine_hitch())).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "truth_mounting_offset");
+  const auto heading = std::find_if(d.findings[0].parameters.begin(), d.findings[0].parameters.end(),
+                                    [](const FoundParameter& p) { return p.name == "heading_rad"; });
+  ASSERT_NE(heading, d.findings[0].parameters.end());
+  EXPECT_NEAR(heading->value, 0.03, 4.0 * heading->stderr_value);
+}
+
+TEST(DiagnoseUnits, FindATruthThatFreezesThoughNoCastorCarriesIt) {
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    runs.push_back(castor_run(three_castor_vehicle(), {}, 331 + k));
+    runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
+  }
+  constexpr std::size_t kFrom = 300, kTo = 312;
+  for (Channel& c : runs[1].channels)
+    if (c.name.rfind("truth_", 0) == 0) std::fill(c.values.begin() + kFrom, c.values.begin() + kTo, c.values[kFrom]);
+  const Diagnosis d = diagnose(runs, {}, vehicle_of(three_castor_vehicle())).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "truth_frozen");
+  EXPECT_EQ(d.findings[0].where.recording, "run_2.csv");
+  ASSERT_EQ(d.findings[0].where.time_s.size(), 1u);
+  EXPECT_EQ(d.findings[0].where.time_s[0].first, runs[1].time_s[kFrom]);
+  EXPECT_EQ(d.findings[0].where.time_s[0].second, runs[1].time_s[kTo - 1]);
+}
+
+TEST(PutPushesTogether, IsOnePushOfTheVehicleAsTheTruckWithTheTruthFeltIt) {
+  Finding a, b, later;
+  a.effect = b.effect = later.effect = "collision";
+  a.component = "truck_a", b.component = "truck_b", later.component = "truck_b";
+  a.where.recording = b.where.recording = later.where.recording = "run_1.csv";
+  a.parameters = {{"dx_m", 0.01, 0.001, "m"}, {"at_s", 10.20, 0.05, "s"}};
+  b.parameters = {{"dx_m", -0.02, 0.001, "m"}, {"at_s", 10.29, 0.05, "s"}};
+  later.parameters = {{"dx_m", 0.03, 0.001, "m"}, {"at_s", 20.0, 0.05, "s"}};
+  a.log_likelihood_gain = 10.0, b.log_likelihood_gain = 40.0, later.log_likelihood_gain = 30.0;
+  std::vector<Finding> all = {b, a, later};
+  put_pushes_together(all, units_of(vehicle_of(Clapper{})));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].component, "vehicle");
+  EXPECT_EQ(all[0].parameters[0].value, 0.01);
+  EXPECT_EQ(all[0].log_likelihood_gain, 50.0);
+  EXPECT_EQ(all[1].component, "truck_b");
+}
+
+TEST(WithoutHeldCounts, GoEvenlyWhereACountHeldAndCaughtUp) {
+  const MultiCastor platform = three_castor_vehicle();
+  Recording run = castor_run(platform, {}, 341);
+  const std::vector<UnitSample> true_samples = unit_samples(run, vehicle_of(platform));
+  for (Channel& c : run.channels)
+    if (c.name == "castor2_left_wheel_rad") std::fill(c.values.begin() + 400, c.values.begin() + 410, c.values[400]);
+  const std::vector<UnitSample> mended =
+      without_held_counts(unit_samples(run, vehicle_of(platform)), vehicle_of(platform));
+  // 0.4 s at an even pace but for what it gains or loses meanwhile: a tenth of the way, where the count stood.
+  const double way = std::abs(true_samples[410].wheels[1].left_rad - true_samples[400].wheels[1].left_rad);
+  ASSERT_GT(way, 0.5);
+  for (std::size_t i = 395; i < 415; ++i)
+    EXPECT_NEAR(mended[i].wheels[1].left_rad, true_samples[i].wheels[1].left_rad, 0.1 * way) << i;
+  EXPECT_EQ(mended[405].wheels[1].right_rad, true_samples[405].wheels[1].right_rad);
+}
+
+}  // namespace
+}  // namespace odolab::test
