@@ -311,7 +311,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   std::sort(found.begin(), found.end(), comes_first);
   if (adequacy.as_likely && !found.empty())
     found.front().alternatives.push_back(
-        {"unknown", "vehicle", 0.5 * std::max(0.0, adequacy.as_likely->gain + explained),
+        {"unknown", "vehicle", 0.5 * adequacy.as_likely->gain,
          "the same ways driven in another order (it may be " + adequacy.as_likely->where.regime + ")"});
   bool ambiguous = false;
   for (const Finding& f : found) ambiguous = ambiguous || !f.alternatives.empty();

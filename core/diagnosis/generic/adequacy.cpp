@@ -214,7 +214,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<Scor
     if (!says_more && !is_as_much(*g, kept)) continue;
     if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
-    const double more = beyond(kept, kMostLeft);
+    const double more = says_more ? beyond(kept, kMostLeft) : kept;
     if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more);
   }
   return out;

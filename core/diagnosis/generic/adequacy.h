@@ -14,7 +14,8 @@ namespace odolab {
 struct Adequacy {
   std::vector<GenericTest> generic;  // of what the names leave, best first
   std::optional<Unnamed> unnamed;    // where the names are not enough
-  std::optional<Unnamed> as_likely;  // where they may be, but something without a name is not beaten by them either
+  std::optional<Unnamed> as_likely;  // where they may be, but something without a name is not beaten by them either;
+                                     // its gain is what it explains in their place
   bool something_small_is_left = false;
   // What comes and goes with time and may as well be a truth that sways; its wave in words.
   struct Sway {

@@ -379,6 +379,11 @@ class Selection {
       ScoredCandidate own;
       for (const ScoredCandidate& c : instead)
         if (c.effect == joint_.accepted[k].effect) own = c;
+      // Near where it stands a lag looks like a clock, and far from there it does not.
+      if (own.effect && own.effect->shape_follows_amplitude && !stands(own, family_wise_error_)) {
+        own.test.statistic = std::max(own.test.statistic, joint_.lost_without(static_cast<int>(k)));
+        judge(own);
+      }
       const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
       const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
                                share_of(k) >= least && keeps_its_place(k, own);
