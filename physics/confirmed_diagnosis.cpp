@@ -21,6 +21,19 @@ Recording with_even_stamps(const Recording& recording, const Vehicle& nominal) {
   return even ? std::move(even->recording) : recording;
 }
 
+// On the truth's clock, and a reading wider at either end.
+WaysUnknown ways_unknown(const Diagnosis& diagnosis, const FittedModel& model) {
+  constexpr double kWider_s = 0.1;
+  WaysUnknown unknown;
+  for (const Finding& f : diagnosis.findings)
+    if (f.effect == "encoder_data_fault")
+      for (const auto& [from_s, to_s] : f.where.time_s) {
+        const double late_s = model.vehicle_in(f.where.recording).truth.time_offset_s;
+        unknown[f.where.recording].emplace_back(from_s + late_s - kWider_s, to_s + late_s + kWider_s);
+      }
+  return unknown;
+}
+
 }  // namespace
 
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
@@ -57,9 +70,11 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   for (const Recording& recording : held_out) all.push_back(with_even_stamps(recording, nominal));
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
-  const Result<ModelReplay> replayed =
-      replay_model(all, nominal, calibrated_model_of(*diagnosis), model_of(*diagnosis), noise_floor,
-                   [&](double share) { return goes_on(progress, kOfDiagnosis + (1.0 - kOfDiagnosis) * share); });
+  const FittedModel before = calibrated_model_of(*diagnosis);
+  const Result<ModelReplay> replayed = replay_model(
+      all, nominal, before, model_of(*diagnosis), noise_floor,
+      [&](double share) { return goes_on(progress, kOfDiagnosis + (1.0 - kOfDiagnosis) * share); },
+      ways_unknown(*diagnosis, before));
   if (!replayed) return replayed.error();
   diagnosis->simulation = replayed->fit;
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);

@@ -77,6 +77,18 @@ Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects
   return vehicle;
 }
 
+// Of the truth's samples, those behind a time in which the way is not known begin anew.
+std::optional<TrackError> error_of(const Replay& replay, const WaysUnknown& unknown, const std::string& name) {
+  if (!replay.truth_has_headings) return std::nullopt;
+  const auto of_recording = unknown.find(name);
+  if (of_recording == unknown.end()) return replay.simulated_error;
+  std::vector<char> anew(replay.truth.size(), 0);
+  for (const auto& [from_s, to_s] : of_recording->second)
+    for (std::size_t i = 1; i < replay.truth.size(); ++i)
+      if (replay.truth[i].time_s > from_s && replay.truth[i - 1].time_s < to_s) anew[i] = 1;
+  return track_error(replay.simulated, replay.truth, anew);
+}
+
 }  // namespace
 
 std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
@@ -166,7 +178,8 @@ static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings
 
 Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const Vehicle& file,
                                  const FittedModel& before, const FittedModel& after,
-                                 const std::optional<FitFigures>& noise_floor, const Progress& progress) {
+                                 const std::optional<FitFigures>& noise_floor, const Progress& progress,
+                                 const WaysUnknown& unknown) {
   if (has_units(after.vehicle)) return replay_units(recordings, file, before, after, noise_floor, progress);
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
@@ -200,7 +213,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const Result<Replay> replayed =
         replay_with(model, file, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
-      errors[static_cast<std::size_t>(job)] = replayed->truth_has_headings ? replayed->simulated_error : std::nullopt;
+      errors[static_cast<std::size_t>(job)] = error_of(*replayed, unknown, recording.name);
     else
       failures[static_cast<std::size_t>(job)] = replayed.error();
   };

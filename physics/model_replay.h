@@ -1,9 +1,11 @@
 // A fitted model in the planar world: recordings driven with and without what was found, as a proof from other physics.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -22,12 +24,17 @@ struct ModelReplay {
   std::vector<std::string> not_switched_on;  // effects that the planar world does not have, a sentence each
 };
 
+// By a recording's name, when its encoders did not tell the way.
+using WaysUnknown = std::map<std::string, std::vector<std::pair<double, double>>>;
+
 // Drives the planar vehicle by each recording's own wheels or commands. The normalised chi2 of a replay is its squared
 // error, mean over the two coordinates and the heading, over that which `noise_floor` leaves; not a number without one.
-// `file`: the vehicle that the models were fitted on, by which a base without encoders obeys its commands.
+// `file`: the vehicle that the models were fitted on, by which a base without encoders obeys its commands. No error is
+// gathered across `unknown`.
 Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const Vehicle& file,
                                  const FittedModel& before, const FittedModel& after,
-                                 const std::optional<FitFigures>& noise_floor, const Progress& progress = {});
+                                 const std::optional<FitFigures>& noise_floor, const Progress& progress = {},
+                                 const WaysUnknown& unknown = {});
 
 // One recording driven by its own inputs with what of the model acts in it; of a linked vehicle the whole of it.
 Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -43,6 +45,27 @@ TEST(ModelReplay, AnEventOfAnotherRecordingDoesNotActHere) {
 
 TEST(ModelReplay, StopsWhenTold) {
   EXPECT_FALSE(replay_model({eccentric_eight()}, {}, {}, {}, std::nullopt, [](double) { return false; }));
+}
+
+TEST(ModelReplay, IsNotHeldToTheWayThatAnEncoderDidNotTell) {
+  Scenario scenario;
+  scenario.path = FigureEightPath{0.8, 1};
+  Simulation simulation(scenario, 1);
+  run_to_end(simulation);
+  Recording recording = simulation.recording();
+  // In the second after that the left wheel counts 0.3 rad too little.
+  constexpr double kAt_s = 10.0;
+  for (Channel& c : recording.channels)
+    if (c.name == "left_wheel_rad")
+      for (std::size_t i = 0; i < c.values.size(); ++i)
+        c.values[i] -= 0.3 * std::clamp(recording.time_s[i] - kAt_s, 0.0, 1.0);
+  const FitFigures noise{1e-4, 1e-4, 1.0};
+  const auto fit = [&](const WaysUnknown& unknown) {
+    return replay_model({recording}, {}, {}, {}, noise, {}, unknown)->fit.calibrated->heading_rms_rad;
+  };
+  // 0.3 rad of a wheel of 0.075 m over an axle of 0.34 m, in one of some ten windows.
+  EXPECT_GT(fit({}), 0.01);
+  EXPECT_LT(fit({{recording.name, {{kAt_s, kAt_s + 1.0}}}}), 1e-3);  // half a count of each wheel
 }
 
 }  // namespace
