@@ -202,17 +202,23 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
   for (const JointEstimate& e : geometry.joints) {
     if (e.parameter.effect.empty() || e.parameter.component == "truth" || !e.determined) continue;
     const double off = e.value - e.nominal, z = off / e.stderr_value;
-    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.parameter.least) continue;
-    if (e.feigned > 0.0 && std::abs(off) < e.feigned + kSigmasOfBias * e.stderr_value) {
-      not_told.push_back(or_scale_in_words(e));
-      continue;
-    }
     const auto same = std::find_if(all.begin(), all.end(), [&](const Finding& f) {
       return f.effect == e.parameter.effect && f.component == e.parameter.component;
     });
-    if (same != all.end()) {  // what the fit left of it
-      same->parameters.front().value += off;
-      same->log_likelihood_gain += 0.5 * z * z;
+    // What the unit's own fit left of it stands beside what the geometry put into its truth, be that beyond chance or
+    // not.
+    if (same != all.end()) {
+      FoundParameter& bias = same->parameters.front();
+      bias.value += off;
+      if (std::abs(bias.value) < std::max(e.parameter.least, kSigmasOfBias * bias.stderr_value))
+        all.erase(same);
+      else if (std::abs(z) > kSigmasOfBias)
+        same->log_likelihood_gain += 0.5 * z * z;
+      continue;
+    }
+    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.parameter.least) continue;
+    if (e.feigned > 0.0 && std::abs(off) < e.feigned + kSigmasOfBias * e.stderr_value) {
+      not_told.push_back(or_scale_in_words(e));
       continue;
     }
     Finding f;

@@ -144,6 +144,29 @@ TEST(PutPushesTogether, IsOnePushOfTheVehicleAsTheTruckWithTheTruthFeltIt) {
   EXPECT_EQ(all[1].component, "truck_b");
 }
 
+// What the geometry made of chance, the unit's own fit takes back.
+TEST(AddBiases, SayTheSumOfWhatGeometryAndUnitSay) {
+  const Vehicle vehicle = vehicle_of(EncoderTrailer{});
+  GeometryFit geometry;
+  for (const JointParameter& p : joint_parameters(vehicle))
+    if (p.name == "hitch_angle_offset_rad") geometry.joints.push_back({p, 0.0, 0.0032, 0.0014, true});
+  ASSERT_EQ(geometry.joints.size(), 1u);
+  const auto left_by_unit = [](double bias_rad) {
+    Finding f;
+    f.effect = "link_angle_bias";
+    f.component = "trailer";
+    f.parameters = {{"bias_rad", bias_rad, 0.0005, "rad"}};
+    return f;
+  };
+  std::vector<Finding> all = {left_by_unit(-0.0035)};
+  add_biases(geometry, units_of(vehicle), all);
+  EXPECT_TRUE(all.empty());
+  all = {left_by_unit(0.02)};
+  add_biases(geometry, units_of(vehicle), all);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(all[0].parameters[0].value, 0.0232, 1e-12);
+}
+
 TEST(WithoutHeldCounts, GoEvenlyWhereACountHeldAndCaughtUp) {
   const MultiCastor platform = three_castor_vehicle();
   Recording run = castor_run(platform, {}, 341);
