@@ -272,7 +272,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     found.push_back(
         finding_of(joint, joint.accepted[k], intervals.of_effect[k], selected.evidence[k], selected.alternatives[k]));
-    found.back().moves = moved_by(joint, k);
     explained += selected.evidence[k].test.statistic;
   }
   add_mounting(found, joint, intervals, d.calibration_alone, nominal);
@@ -306,8 +305,10 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   d.responses = responses_of(adequacy.generic, !joint.accepted.empty());
 
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
-  for (std::size_t k = 0; k < joint.accepted.size(); ++k)
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     found[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
+    if (!adequacy.unnamed) found[k].moves = moved_by(joint, k);
+  }
   std::sort(found.begin(), found.end(), comes_first);
   if (adequacy.as_likely && !found.empty())
     found.front().alternatives.push_back(

@@ -79,13 +79,19 @@ TEST(Replay, TruthWithoutHeadingsIsLaidOntoByItsFirstMetres) {
   EXPECT_LT(result->simulated_error->largest_position_m, 5e-3);
 }
 
-TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
+// At 0.3 m/s, and then to a stop.
+Recording four_seconds_ahead() {
   Recording commands;
   commands.name = "commands";
   for (int k = 0; k <= 400; ++k) commands.time_s.push_back(0.01 * k);
   std::vector<double> speed(401, 0.3), rate(401, 0.0);
   speed.back() = 0.0;
   commands.channels = {{"command_speed_mps", speed}, {"command_yaw_rate_radps", rate}};
+  return commands;
+}
+
+TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
+  const Recording commands = four_seconds_ahead();
   const auto recording = std::make_shared<const Recording>(commands);
   const Scenario scenario = replay_scenario(Vehicle{}, commands);
   const Result<Replay> result = replay(scenario, recording);
@@ -97,12 +103,7 @@ TEST(Replay, CommandsDriveTheSimulatedVehicleWithItsMotors) {
 }
 
 TEST(Replay, CommandsDriveAHeavyVehicleAsTheyDriveALightOne) {
-  Recording commands;
-  commands.name = "commands";
-  for (int k = 0; k <= 400; ++k) commands.time_s.push_back(0.01 * k);
-  std::vector<double> speed(401, 0.3), rate(401, 0.0);
-  speed.back() = 0.0;
-  commands.channels = {{"command_speed_mps", speed}, {"command_yaw_rate_radps", rate}};
+  const Recording commands = four_seconds_ahead();
   // A mower of twenty times the LabMate's weight, whose motors could not move it: it stayed behind by half a metre.
   Vehicle mower;
   mower.kind = DifferentialDrive{0.217, 0.217, 0.98};

@@ -16,6 +16,12 @@ namespace odolab::test {
 // What a wheel counts too much in a step, from its rotation so far and what it turns now.
 using Miscount = std::function<double(double time_s, double rotation_rad, double by_rad)>;
 
+inline Vehicle vehicle_of(const VehicleKind& kind) {
+  Vehicle v;
+  v.kind = kind;
+  return v;
+}
+
 struct LinkedRunSettings {
   double duration_s = 30.0;
   double step_s = 0.01;

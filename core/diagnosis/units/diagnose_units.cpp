@@ -91,11 +91,8 @@ std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, con
                                    const DifferentialDrive& first) {
   std::vector<Finding> frozen;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    std::vector<WheelSample> wheels;
-    for (const UnitSample& s : runs[r].samples)
-      wheels.push_back({s.time_s, s.wheels[0].left_rad, s.wheels[0].right_rad});
     DataFault fault{"truth_frozen", "truth", recordings[r].name,
-                    frozen_truth(truth_samples(recordings[r]), wheels, first), ""};
+                    frozen_truth(truth_samples(recordings[r]), wheels_of(runs[r].samples, 0), first), ""};
     if (fault.time_s.empty()) continue;
     fault.sentence = in_words_of_frozen(fault.time_s.size());
     frozen.push_back(finding_of(fault));
@@ -154,20 +151,24 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   std::optional<ErringJoint> erring;
   DiagnosisOptions of_one = options;
   of_one.family_wise_error /= static_cast<double>(units.size());
-  std::vector<std::vector<UnitSample>> samples;
+  std::vector<std::vector<UnitSample>> samples, as_read, held_out_as_read;
   std::vector<std::string> names;
-  for (std::size_t r = 0; r < runs.size(); ++r) samples.push_back(runs[r].samples), names.push_back(train[r].name);
-  for (std::size_t r = 0; r < runs_held_out.size(); ++r)
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    samples.push_back(runs[r].samples), names.push_back(train[r].name);
+    as_read.push_back(unit_samples(train[r], nominal));
+  }
+  for (std::size_t r = 0; r < runs_held_out.size(); ++r) {
     samples.push_back(runs_held_out[r].samples), names.push_back(held_out[r].name);
+    held_out_as_read.push_back(unit_samples(held_out[r], nominal));
+  }
   for (std::size_t u = 0; u < units.size(); ++u) {
     std::vector<Recording> own, own_held_out;
     for (std::size_t r = 0; r < runs.size(); ++r)
-      own.push_back(recording_of_unit(train[r], unit_samples(train[r], nominal), runs[r].tracked, geometry.vehicle, u,
-                                      geometry.clock_s[r], !units[u].carries_truth));
+      own.push_back(recording_of_unit(train[r], as_read[r], runs[r].tracked, geometry.vehicle, u, geometry.clock_s[r],
+                                      !units[u].carries_truth));
     for (std::size_t r = 0; r < runs_held_out.size(); ++r)
-      own_held_out.push_back(recording_of_unit(held_out[r], unit_samples(held_out[r], nominal),
-                                               runs_held_out[r].tracked, geometry.vehicle, u, clock_held_out_s[r],
-                                               !units[u].carries_truth));
+      own_held_out.push_back(recording_of_unit(held_out[r], held_out_as_read[r], runs_held_out[r].tracked,
+                                               geometry.vehicle, u, clock_held_out_s[r], !units[u].carries_truth));
     const Progress part = [&](double share) {
       return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
     };
@@ -192,9 +193,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   Vehicle as_mounted = nominal;
   if (is_towed) as_mounted.truth.axle_T_tracked.heading_rad = geometry.vehicle.truth.axle_T_tracked.heading_rad;
   prove_biases(d, runs, geometry, as_mounted);
-  const bool is_said = std::any_of(d.findings.begin(), d.findings.end(),
-                                   [](const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; });
-  if (erring && !is_said) {
+  if (erring && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
     add_erring_joint(*erring, nominal, d);
     leave_out_biases_beside_erring_joints(d.findings);
   }

@@ -6,13 +6,12 @@
 #include <set>
 
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/units/joint_shapes.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
 
 namespace {
-
-constexpr int kWaves = 4;  // a turn, or half waves over the range of a reading
 
 // A truth that is off by this much at one time, in the frame of the axle.
 struct Off {
@@ -33,38 +32,6 @@ std::vector<int> joints_of(const Vehicle& vehicle, std::size_t unit) {
   std::vector<int> all;
   for (std::size_t j = 0; j < joint_steps(vehicle).size(); ++j) all.push_back(static_cast<int>(j));
   return all;
-}
-
-bool is_length(const Vehicle& vehicle, int joint) { return name_of_joint(vehicle, joint).unit == "m"; }
-
-struct Range {
-  double low = 1e300, high = -1e300;
-  bool goes_around = false;
-};
-
-std::vector<double> of_reading(double reading, const Range& range) {
-  std::vector<double> s;
-  const double u = (reading - range.low) / (range.high - range.low);
-  for (int m = 1; m <= kWaves; ++m) {
-    s.push_back(range.goes_around ? std::cos(m * reading) : std::cos((2 * m - 1) * kPi * u));
-    s.push_back(range.goes_around ? std::sin(m * reading) : std::cos(2 * m * kPi * u));
-  }
-  return s;
-}
-
-// Which way a reading went last, by more than it rounds: a half, less a half, 0 where it has not moved yet.
-std::vector<double> ways_of(const std::vector<UnitSample>& samples, std::size_t joint, double step) {
-  std::vector<double> ways;
-  double way = 0.0, turned_at = samples.front().joints[joint];
-  for (const UnitSample& s : samples) {
-    const double reading = s.joints[joint];
-    if (way * (reading - turned_at) > 0.0)
-      turned_at = reading;
-    else if (std::abs(reading - turned_at) > 1.5 * step)
-      way = reading > turned_at ? 0.5 : -0.5, turned_at = reading;
-    ways.push_back(way);
-  }
-  return ways;
 }
 
 // Change for each second of a number of the samples, over a sixth of one to both sides.
@@ -155,20 +122,22 @@ TruthError error_of(OfRuns runs, const JointName& joint, const std::string& vari
   return error;
 }
 
-GenericCurve curve_over(const Range& range, const JointName& joint) {
+GenericCurve curve_over(const ReadingRange& range, const JointName& joint) {
   constexpr int kPoints = 41;
-  const double low = range.goes_around ? -kPi : range.low, high = range.goes_around ? kPi : range.high;
+  const double low = range.first(), high = range.last();
   GenericCurve curve;
   curve.variable = joint.words + " [" + joint.unit + "]";
   curve.channel = "error of " + joint.words + " [" + joint.unit + "]";
   for (int i = 0; i < kPoints; ++i) {
     curve.at.push_back(low + (high - low) * i / (kPoints - 1.0));
-    curve.basis.push_back(of_reading(curve.at.back(), range));
+    curve.basis.push_back(waves_of_reading(curve.at.back(), range));
   }
   return curve;
 }
 
 }  // namespace
+
+bool is_of_a_joint(const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; }
 
 JointName name_of_joint(const Vehicle& vehicle, std::size_t joint) {
   std::vector<JointParameter> biases;  // one for each joint, in their order
@@ -195,12 +164,11 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
   auto errors = std::make_shared<std::vector<TruthError>>();
   for (const int joint : joints_of(vehicle, unit)) {
     const auto j = static_cast<std::size_t>(joint);
-    Range range;
-    for (const auto& of_run : samples)
-      for (const UnitSample& s : of_run)
-        range.low = std::min(range.low, s.joints[j]), range.high = std::max(range.high, s.joints[j]);
+    const JointName name = name_of_joint(vehicle, j);
+    ReadingRange range;
+    range.is_length = name.unit == "m";
+    for (const auto& of_run : samples) range.take_in(of_run, j);
     if (range.high - range.low < std::max(kLeastRange * steps[j], 1e-4)) continue;
-    range.goes_around = !is_length(vehicle, joint) && range.high - range.low > kPi;
 
     OfRuns bare;
     for (std::size_t r = 0; r < samples.size(); ++r) {
@@ -218,11 +186,10 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
       for (std::size_t r = 0; r < samples.size(); ++r) runs[names[r]].values = of(samples[r]);
       return runs;
     };
-    const JointName name = name_of_joint(vehicle, j);
     const OfRuns by_reading = with([&](const std::vector<UnitSample>& of_run) {
-      std::vector<std::vector<double>> values(2 * kWaves);
+      std::vector<std::vector<double>> values(2 * kWavesOfReading);
       for (const UnitSample& s : of_run) {
-        const std::vector<double> at = of_reading(s.joints[j], range);
+        const std::vector<double> at = waves_of_reading(s.joints[j], range);
         for (std::size_t k = 0; k < at.size(); ++k) values[k].push_back(at[k]);
       }
       return values;
@@ -235,8 +202,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
           with([&](const std::vector<UnitSample>& of_run) { return std::vector<std::vector<double>>{of(of_run)}; });
       errors->push_back(error_of(runs, name, variable, kSteps * steps[j]));
     };
-    add("which way it went last", [&](const auto& of_run) { return ways_of(of_run, j, steps[j]); });
-    if (is_length(vehicle, joint)) continue;
+    add("which way it went last", [&](const auto& of_run) { return ways_of_reading(of_run, j, steps[j]); });
+    if (range.is_length) continue;
     add("how fast it turns [rad/s]",
         [&](const auto& of_run) { return rates_of(of_run, [&](const UnitSample& s) { return s.joints[j]; }); });
     // By so many seconds it is read late; where the truth's clock is fitted a little off, so is every joint.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/generic/truth_errors.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
@@ -16,6 +17,9 @@ namespace odolab {
 std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<std::vector<UnitSample>>& samples,
                                                             const std::vector<std::string>& names,
                                                             const Vehicle& vehicle, std::size_t unit);
+
+// Whether a finding has no name and is of such an encoder; its component is the vehicle's already.
+bool is_of_a_joint(const Finding& f);
 
 // "the link angle A", "the pivot of castor 2"; and the contract's component of its bias.
 struct JointName {

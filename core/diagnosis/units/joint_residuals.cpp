@@ -8,6 +8,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/quantile.h"
 #include "core/diagnosis/units/joint_errors.h"
+#include "core/diagnosis/units/joint_shapes.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -18,46 +19,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kStretch_m = 1.0, kStretch_rad = 2.0;  // twice those of the geometry: an encoder errs over longer ways
-constexpr int kWaves = 4;                               // a turn, or half waves over the range of a reading
 constexpr double kLeastSteps = 3.0;                     // a reading that is rounded errs by 0.3 of its step
 constexpr double kMostOfSquares = 0.9;                  // of the squares of each run, by a fit to the others
 constexpr double kPrior_rad = 0.05, kPrior_m = 0.02;    // as of the biases
 constexpr double kHuber = 3.0;
-constexpr int kShapes = 2 * kWaves + 1;  // the last: which way it went last
+constexpr int kShapes = 2 * kWavesOfReading + 1;  // the last: which way it went last
 
-// The readings of a joint over all runs.
-struct Range {
-  double low = 0.0, high = 0.0;
-  bool is_length = false;
-
-  bool goes_around() const { return !is_length && high - low > kPi; }
-};
-
-VectorXd shapes_at(double reading, double way, const Range& range) {
-  VectorXd s(kShapes);
-  const bool around = range.goes_around();
-  const double u = range.high > range.low ? (reading - range.low) / (range.high - range.low) : 0.0;
-  for (int m = 0; m < kWaves; ++m) {
-    s[2 * m] = around ? std::cos((m + 1) * reading) : std::cos((2 * m + 1) * kPi * u);
-    s[2 * m + 1] = around ? std::sin((m + 1) * reading) : std::cos((2 * m + 2) * kPi * u);
-  }
-  s[kShapes - 1] = 0.5 * way;
-  return s;
-}
-
-// Which way a reading went last, by more than it rounds: 1, -1, 0 where it has not moved yet.
-std::vector<double> ways_of(const std::vector<UnitSample>& samples, std::size_t joint, double step) {
-  std::vector<double> ways;
-  double way = 0.0, turned_at = samples.front().joints[joint];
-  for (const UnitSample& s : samples) {
-    const double reading = s.joints[joint];
-    if (way * (reading - turned_at) > 0.0)
-      turned_at = reading;
-    else if (std::abs(reading - turned_at) > 1.5 * step)
-      way = reading > turned_at ? 1.0 : -1.0, turned_at = reading;
-    ways.push_back(way);
-  }
-  return ways;
+VectorXd shapes_at(double reading, double way, const ReadingRange& range) {
+  std::vector<double> s = waves_of_reading(reading, range);
+  s.push_back(way);
+  return Eigen::Map<const VectorXd>(s.data(), kShapes);
 }
 
 // One run of one unit.
@@ -66,10 +37,7 @@ class Laid {
   Laid(const JoinedRun& run, double clock_s, const Vehicle& vehicle, std::size_t unit)
       : run_(&run), vehicle_(&vehicle), unit_(unit) {
     const DifferentialDrive drive = units_of(vehicle)[unit].drive;
-    std::vector<WheelSample> wheels;
-    for (const UnitSample& s : run.samples)
-      wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
-    const Track track = dead_reckoned(wheels, drive, Pose{});
+    const Track track = dead_reckoned(wheels_of(run.samples, unit), drive, Pose{});
     double travel_m = 0.0, turn_rad = 0.0;
     std::size_t i = 0;
     for (const TimedPose& t : run.tracked) {
@@ -147,10 +115,10 @@ double squares(const VectorXd& v) {
   return sum;
 }
 
-Problem problem_of(const Laid& run, std::size_t joint, double step, const Range& range,
+Problem problem_of(const Laid& run, std::size_t joint, double step, const ReadingRange& range,
                    const Eigen::Vector3d& deviations) {
   Problem p;
-  const std::vector<double> ways = ways_of(run.samples(), joint, step);
+  const std::vector<double> ways = ways_of_reading(run.samples(), joint, step);
   p.shapes.resize(static_cast<Eigen::Index>(ways.size()), kShapes);
   for (std::size_t i = 0; i < ways.size(); ++i)
     p.shapes.row(static_cast<Eigen::Index>(i)) = shapes_at(run.samples()[i].joints[joint], ways[i], range);
@@ -213,9 +181,9 @@ double size_of(const std::vector<Problem>& problems, const VectorXd& x) {
 }
 
 // Over the reading, without the way it went; the band by leaving out each run in turn.
-Response response_of(const VectorXd& x, const std::vector<VectorXd>& others, const Range& range) {
+Response response_of(const VectorXd& x, const std::vector<VectorXd>& others, const ReadingRange& range) {
   constexpr int kPoints = 41;
-  const double low = range.goes_around() ? -kPi : range.low, high = range.goes_around() ? kPi : range.high;
+  const double low = range.first(), high = range.last();
   const double n = static_cast<double>(others.size());
   Response r;
   for (int i = 0; i < kPoints; ++i) {
@@ -250,10 +218,9 @@ std::optional<ErringJoint> erring_joint(const std::vector<JoinedRun>& runs, cons
   std::optional<ErringJoint> most;
   for (std::size_t j = 0; j < steps.size(); ++j) {
     if (std::holds_alternative<MultiCastor>(vehicle.kind) && j != unit) continue;
-    Range range{1e9, -1e9, j == 2 && steps.size() == 3 && !std::holds_alternative<MultiCastor>(vehicle.kind)};
-    for (const JoinedRun& run : runs)
-      for (const UnitSample& s : run.samples)
-        range.low = std::min(range.low, s.joints[j]), range.high = std::max(range.high, s.joints[j]);
+    ReadingRange range;
+    range.is_length = name_of_joint(vehicle, j).unit == "m";
+    for (const JoinedRun& run : runs) range.take_in(run.samples, j);
     if (range.high - range.low < 4.0 * steps[j]) continue;
     std::vector<Problem> problems;
     for (std::size_t r = 0; r < runs.size(); ++r)

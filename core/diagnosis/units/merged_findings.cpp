@@ -7,6 +7,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/vehicle/key_words.h"
 
@@ -19,9 +20,6 @@ bool is_common(const std::string& effect) {
   return effect == "clock_rate" || effect == "truth_smoothing" || effect == "floor_slope_creep" ||
          effect == "slip_zone" || effect == "truth_frozen";
 }
-
-// What has no name and is of an encoder between the units has its component already.
-bool is_of_a_joint(const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; }
 
 const FoundParameter* parameter_of(const Finding& f, const std::string& name) {
   for (const FoundParameter& p : f.parameters)

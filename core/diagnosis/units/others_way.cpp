@@ -11,9 +11,7 @@ namespace odolab {
 namespace {
 
 Track reckoned(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive) {
-  std::vector<WheelSample> wheels;
-  for (const UnitSample& s : samples) wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
-  return dead_reckoned(wheels, drive, Pose{});
+  return dead_reckoned(wheels_of(samples, unit), drive, Pose{});
 }
 
 }  // namespace
@@ -49,8 +47,7 @@ void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel&
               const std::vector<VehicleUnit>& units) {
   for (Understood& u : all) {
     InnovationRun run;
-    for (const UnitSample& s : u.samples)
-      run.wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+    run.wheels = wheels_of(u.samples, unit);
     run.smooth = smoothed(run.wheels);
     run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
     std::vector<std::vector<BodyMotion>> motions(units.size());

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/units/joint_errors.h"
 
 namespace odolab {
 
@@ -108,8 +109,7 @@ void leave_out_traces(Diagnosis& d, bool castor) {
   d.findings.erase(std::remove_if(d.findings.begin(), d.findings.end(),
                                   [&](const Finding& f) {
                                     // An encoder that errs by more than it rounds is no trace of rounding.
-                                    if (f.effect == "unknown" && f.component != "vehicle" && !castor)
-                                      return f.log_likelihood_gain < least_gain;
+                                    if (is_of_a_joint(f) && !castor) return f.log_likelihood_gain < least_gain;
                                     if (f.effect == "unknown" && !rest_predicts) return true;
                                     return f.log_likelihood_gain > 0.0 && f.log_likelihood_gain < least_of(f);
                                   }),

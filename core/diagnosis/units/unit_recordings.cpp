@@ -99,8 +99,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
 std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle) {
   const std::vector<VehicleUnit> units = units_of(vehicle);
   for (std::size_t u = 0; u < units.size(); ++u) {
-    std::vector<WheelSample> wheels;
-    for (const UnitSample& s : samples) wheels.push_back({s.time_s, s.wheels[u].left_rad, s.wheels[u].right_rad});
+    const std::vector<WheelSample> wheels = wheels_of(samples, u);
     if (wheels.size() < 4) continue;
     for (const Wheel wheel : {Wheel::left, Wheel::right}) {
       TimeStretches held = catching_up_encoder(wheels, wheel);

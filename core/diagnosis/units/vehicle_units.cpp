@@ -162,6 +162,12 @@ std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& 
   return samples;
 }
 
+std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::size_t unit) {
+  std::vector<WheelSample> wheels;
+  for (const UnitSample& s : samples) wheels.push_back({s.time_s, s.wheels[unit].left_rad, s.wheels[unit].right_rad});
+  return wheels;
+}
+
 std::vector<double> joint_steps(const Vehicle& v) {
   if (const auto* t = std::get_if<EncoderTrailer>(&v.kind)) return {t->hitch_angle_resolution_rad};
   if (const auto* t = std::get_if<SmartEncoderTrailer>(&v.kind)) return {t->hitch_angle_resolution_rad};

@@ -39,6 +39,9 @@ struct UnitSample {
 };
 std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& vehicle);
 
+// Of one unit.
+std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::size_t unit);
+
 // The step of each joint's encoder in the order of UnitSample::joints; 0: continuous.
 std::vector<double> joint_steps(const Vehicle& vehicle);
 

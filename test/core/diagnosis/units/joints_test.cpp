@@ -14,12 +14,6 @@
 namespace odolab::test {
 namespace {
 
-Vehicle vehicle_of(const VehicleKind& kind) {
-  Vehicle v;
-  v.kind = kind;
-  return v;
-}
-
 EncoderTrailer trailer_with_a_fine_hitch() {
   EncoderTrailer train;
   train.hitch_angle_resolution_rad = 0.0005;

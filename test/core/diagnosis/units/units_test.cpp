@@ -20,12 +20,6 @@
 namespace odolab::test {
 namespace {
 
-Vehicle vehicle_of(const VehicleKind& kind) {
-  Vehicle v;
-  v.kind = kind;
-  return v;
-}
-
 Clapper crooked_clapper() {
   Clapper actual;
   actual.truck_a.wheel_radius_left_m *= 1.003;
