@@ -11,13 +11,33 @@ namespace odolab::effects {
 
 namespace {
 
-constexpr double kLength_m[] = {0.06, 0.02, 0.2, 0.1};  // of the way on which the extra distance is rolled
-
-// What lies at a place: met within so far of it, and climbed over so much of the way; no length: as long as it is met.
-struct Lying {
-  double reach_m, length_m;
+// How the extra distance is rolled: evenly over so much of the way, or as a wheel of radius r climbs something that
+// takes it e further: up and down at angles that are steepest where it meets it and leaves it.
+struct Climb {
+  double evenly_over_m = 0.0, e_m = 0.0;
+  double length_m(double r_m) const;
+  double share_before(double share_of_way) const;  // of the extra distance; of the length
 };
-constexpr Lying kLying[] = {{0.1, 0.06}, {0.05, 0.06}, {0.2, 0.06}, {0.1, 0.1}, {0.1, 0.0}};
+constexpr Climb kOnce[] = {{0.06}, {0.02}, {0.2}, {0.1}, {0.0, 0.004}, {0.0, 0.015}};
+
+// A wheel that turns by the angle a to either side of something's top goes r sin a and rolls r a, so that e = 2 r (a -
+// sin a), which is r a^3 / 3, and its way 2 r a: the cube of that is 24 r^2 e.
+double Climb::length_m(double r_m) const { return e_m > 0.0 ? std::cbrt(24.0 * r_m * r_m * e_m) : evenly_over_m; }
+
+// At u from the top it rolls 1 / cos a - 1 further for each metre, with sin a = u / r: that is u^2 / (2 r^2).
+double Climb::share_before(double share_of_way) const {
+  if (e_m <= 0.0) return share_of_way;
+  const double u = 2.0 * share_of_way - 1.0;
+  return 0.5 * (1.0 + u * u * u);
+}
+
+// What lies at a place: met within so far of it, and climbed so; no length: as long as it is met.
+struct Lying {
+  double reach_m;
+  Climb climb;
+};
+constexpr Lying kLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}}, {0.1, {0.1}},
+                            {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {}}};
 
 double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
@@ -27,15 +47,24 @@ Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
   return {s.position.x_m - half * s.sin_heading, s.position.y_m + half * s.cos_heading};
 }
 
+double radius_m(Wheel wheel, const DriveView& view) {
+  return wheel == Wheel::left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
+}
+
 // An extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
-void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to) {
+void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to, const Climb& climb) {
   double total = 0.0;
   for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
   if (total <= 0.01) return;
+  double gone = 0.0, before = 0.0;
   for (std::size_t i = from; i <= to; ++i) {
-    const BodyMotion by = by_wheel(wheel, -way(wheel, view.steps[i]) / total, view.drive.wheelbase_m);
+    const double goes = way(wheel, view.steps[i]);
+    gone = std::min(gone + std::abs(goes) / total, 1.0);
+    const double now = climb.share_before(gone);
+    const BodyMotion by = by_wheel(wheel, std::copysign(now - before, -goes), view.drive.wheelbase_m);
     m[i].forward_m += by.forward_m;
     m[i].turn_rad += by.turn_rad;
+    before = now;
   }
 }
 
@@ -56,10 +85,11 @@ Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double
   return s;
 }
 
-Motions at_moment(const DriveView& view, Wheel wheel, double at_s, double length_m) {
-  const Steps s = steps_about(view, wheel, std::min(view.step_at(at_s), view.steps.size() - 1), length_m);
+Motions at_moment(const DriveView& view, Wheel wheel, double at_s, const Climb& climb) {
+  const Steps s = steps_about(view, wheel, std::min(view.step_at(at_s), view.steps.size() - 1),
+                              climb.length_m(radius_m(wheel, view)));
   Motions m(s.first, s.last + 1);
-  spread(m, view, wheel, s.first, s.last);
+  spread(m, view, wheel, s.first, s.last, climb);
   return m;
 }
 
@@ -102,11 +132,12 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
   if (visits.empty()) return {};
   std::vector<Motions::Stretch> stretches;
   for (Visit& v : visits) {
-    if (lying.length_m > 0.0) v.met = steps_about(view, v.wheel, v.nearest, lying.length_m);
+    if (const double length_m = lying.climb.length_m(radius_m(v.wheel, view)); length_m > 0.0)
+      v.met = steps_about(view, v.wheel, v.nearest, length_m);
     stretches.push_back({v.met.first, v.met.last + 1});
   }
   Motions m(merged(std::move(stretches)));
-  for (const Visit& v : visits) spread(m, view, v.wheel, v.met.first, v.met.last);
+  for (const Visit& v : visits) spread(m, view, v.wheel, v.met.first, v.met.last, lying.climb);
   return m;
 }
 
@@ -129,11 +160,16 @@ Effect of_wheel(Wheel wheel) {
 Effect once(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
-  e.forms = {"over 6 cm of way", "over 2 cm", "over 20 cm", "over 10 cm"};
+  e.forms = {"over 6 cm of way",
+             "over 2 cm",
+             "over 20 cm",
+             "over 10 cm",
+             "as a wheel climbs what takes 4 mm",
+             "as a wheel climbs what takes 15 mm"};
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};
-    return std::vector<Motions>{at_moment(view, wheel, shape[1], kLength_m[static_cast<int>(shape.back())])};
+    return std::vector<Motions>{at_moment(view, wheel, shape[1], kOnce[static_cast<int>(shape.back())])};
   };
   e.scan = [](const std::vector<DriveView>& views) {
     return moments(views, 0.15,
@@ -179,7 +215,12 @@ std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& 
 Effect each_time(Wheel wheel) {
   Effect e = of_wheel(wheel);
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}};
-  e.forms = {"20 cm wide, climbed in 6 cm", "10 cm wide", "40 cm wide", "20 cm wide, climbed in 10 cm"};
+  e.forms = {"20 cm wide, climbed in 6 cm",
+             "10 cm wide",
+             "40 cm wide",
+             "20 cm wide, climbed in 10 cm",
+             "20 cm wide, climbed as what takes 4 mm",
+             "20 cm wide, climbed as what takes 15 mm"};
   // As long as it is wide, and under either wheel, it would be a patch of floor.
   if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {

@@ -371,8 +371,22 @@ class Selection {
     }
   }
 
+  // What was let in found its place and form since, and what is simpler may say more now that it has its own.
+  bool puts_simpler_name(std::size_t k, const ScoredCandidate& own, const std::vector<ScoredCandidate>& instead) {
+    const auto simpler = std::find_if(instead.begin(), instead.end(), [&](const ScoredCandidate& c) {
+      return c.effect->name != own.effect->name && is_simpler(c, own) && beats(c, own) && !is_taken(c) &&
+             !is_refuted(c) && stands(c, family_wise_error_);
+    });
+    if (simpler == instead.end()) return false;
+    joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+    let_in(joint_, *simpler);
+    joint_.fit_noise_and_all();
+    return true;
+  }
+
   // Backward; what stands keeps what else could have been said in its place.
   void drop_what_does_not_stand() {
+    int exchanged = 0;
     for (std::size_t k = 0; k < joint_.accepted.size();) {
       if (with_all_.empty()) with_all_ = scored_candidates(joint_);
       const std::vector<ScoredCandidate> instead = instead_of(k);
@@ -384,20 +398,30 @@ class Selection {
         own.test.statistic = std::max(own.test.statistic, joint_.lost_without(static_cast<int>(k)));
         judge(own);
       }
+      if (own.effect && own.effect->local && exchanged < kMostEffects && puts_simpler_name(k, own, instead)) {
+        ++exchanged;
+        begin_again();
+        k = 0;
+        continue;
+      }
       const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
       const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
                                share_of(k) >= least && keeps_its_place(k, own);
       if (!stands_here && !keep_needed(k, least, own)) {
-        with_all_.clear();
-        out_.evidence.clear();
-        out_.alternatives.clear();
-        out_.coming_back.clear();
+        begin_again();
         k = 0;
         continue;
       }
       add_evidence(own, instead);
       ++k;
     }
+  }
+
+  void begin_again() {
+    with_all_.clear();
+    out_.evidence.clear();
+    out_.alternatives.clear();
+    out_.coming_back.clear();
   }
 
   // A patch whose rim a wheel but grazes is off the way once it is let in, and on it again once it is taken out: its

@@ -83,7 +83,8 @@ class ShapeSearch {
     out_.shapes = forms_ > 1 ? with_forms(shapes, in_every_form) : std::move(shapes);
     look_at_all();
     if (best().statistic <= 0.0) return std::move(out_);
-    if (forms_ > 1 && !in_every_form) try_other_forms();
+    // At a place that is only near another form may fit because it is longer.
+    if (forms_ > 1 && !in_every_form && places_.empty()) try_other_forms();
     // Refined only where there is something to refine: a place, or a limit of speed, is sharp, and half of what it
     // says, or less, shows beside it.
     if (e_.scan && best().statistic > kWorthRefining) refine();
@@ -203,8 +204,8 @@ class ShapeSearch {
     const CandidateTest top = best();
     best().statistic = 0.0;
     if (take(scan_.test(e_, start), start)) {
-      if (forms_ > 1) try_other_forms();
       climb();
+      if (forms_ > 1) try_other_forms(), climb();
     }
     if (best().statistic <= top.statistic) best() = top;
   }
