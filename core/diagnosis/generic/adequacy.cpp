@@ -95,8 +95,14 @@ std::vector<Response> shape_of(const GenericTest& group, const JointModel& with)
   return shape;
 }
 
-JointModel without_names(JointModel joint) {
-  std::erase_if(joint.accepted, std::mem_fn(&AcceptedEffect::acts_on_motion));
+// A base that is driven by its commands follows them in its own way, whatever else is missing.
+bool is_of_the_base(const Effect& effect) { return effect.only_commands; }
+
+enum class Base { stays, goes };
+JointModel without_names(JointModel joint, Base base) {
+  std::erase_if(joint.accepted, [&](const AcceptedEffect& a) {
+    return a.acts_on_motion() && (base == Base::goes || !is_of_the_base(*a.effect));
+  });
   joint.fit(3);
   return joint;
 }
@@ -111,7 +117,7 @@ Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& gener
     if (p >= error) continue;
     if (g->curves.empty()) return {g, {}};
     // Beside names it would be drawn without what these have taken of it.
-    JointModel alone = without_names(joint);
+    JointModel alone = without_names(joint, Base::stays);
     let_in(alone, *g);
     alone.fit_noise_and_all();
     return {g, shape_of(*g, alone)};
@@ -126,6 +132,10 @@ bool is_worth_saying(const JointModel& joint, const JointModel& calibrated, cons
   if (distrust == 0.0) return !is_nothing(joint.gathered_error());
   JointModel with = joint;
   let_in(with, left);
+  // What whitens the innovations was what correlated them.
+  JointModel whitened = with;
+  whitened.fit_noise_and_all();
+  if (whitened.distrust() == 0.0) return !is_nothing(joint.gathered_error());
   const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
                                   with_more = with.gathered_error();
   if (!is_material(joint, named_only, with_more)) return false;
@@ -184,24 +194,35 @@ struct InPlaceOfNames {
   std::optional<Unnamed> says_more, as_much;
 };
 
-// What groups without a name say in the place of all names. One says more than they, chance and a name's imperfect form
-// allowed for; or so nearly as much that neither beats the other, and is not the same in other words.
-InPlaceOfNames in_place_of_names(const JointModel& joint, const std::vector<ScoredCandidate>& evidence, double error) {
-  const JointModel bare = without_names(joint);
+// What groups without a name say in the place of all names, of which those of the base may stay. One says more than
+// they, chance and a name's imperfect form allowed for; or so nearly as much that neither beats the other, and is not
+// the same in other words.
+InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCandidate> evidence, Base base,
+                                 double error) {
+  const JointModel bare = without_names(joint, base);
   JointModel named = bare;
+  double by_form_of_base = 0.0;
+  if (base == Base::stays)
+    std::erase_if(evidence, [&](const ScoredCandidate& e) {
+      if (!is_of_the_base(*e.effect)) return false;
+      by_form_of_base += kMostLeft * e.test.statistic;
+      return true;
+    });
   for (const AcceptedEffect& a : joint.accepted)
-    if (a.acts_on_motion()) named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
+    if (a.acts_on_motion() && (base == Base::goes || !is_of_the_base(*a.effect)))
+      named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
   double looked_for = 0.0;
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
   const double by_names = std::max(0.0, named.fit(3) - looked_for), fair = beyond_chance(evidence);
   const std::vector<GenericTest> generic = generic_tests(bare);
-  const auto beyond = [&](double gain, double margin) { return gain - (1.0 + margin) * by_names; };
+  const auto beyond = [&](double gain, double margin) { return gain - by_form_of_base - (1.0 + margin) * by_names; };
   const auto is_more = [&](const GenericTest& g, double gain, double margin = kMostLeft) {
     return scaled_chi_square_tail(beyond(gain, margin) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests <
            error;
   };
   const auto is_as_much = [&](const GenericTest& g, double gain) {
-    return gain / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
+    return (gain - by_form_of_base) / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) >
+           fair - 2.0 * kClearlyBeaten;
   };
   const bool correlated = bare.distrust() > 0.0;
   InPlaceOfNames out;
@@ -246,8 +267,16 @@ std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::ve
   return ripples;
 }
 
-std::ptrdiff_t names_of_physics(const JointModel& joint) {
-  return std::count_if(joint.accepted.begin(), joint.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+std::ptrdiff_t names_of_physics(const JointModel& joint, Base base = Base::stays) {
+  return std::count_if(joint.accepted.begin(), joint.accepted.end(), [&](const AcceptedEffect& a) {
+    return a.acts_on_motion() && (base == Base::stays || !is_of_the_base(*a.effect));
+  });
+}
+
+// One cause is simpler than several.
+InPlaceOfNames simpler_first(InPlaceOfNames instead, std::ptrdiff_t names) {
+  if (!instead.says_more && names > 1) instead.says_more = std::exchange(instead.as_much, std::nullopt);
+  return instead;
 }
 
 }  // namespace
@@ -279,11 +308,13 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     return g.test.statistic > kMostLeft * explained ||
            g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
   });
-  if (!out.unnamed && worth_asking && names_of_physics(joint) > 0) {
-    InPlaceOfNames instead = in_place_of_names(joint, of_vehicle, error);
+  // First beside the base's own, where there is such; then in the place of that too.
+  const std::ptrdiff_t names = names_of_physics(joint), others = names_of_physics(joint, Base::goes);
+  if (!out.unnamed && others > 0 && others < names)
+    out.unnamed = simpler_first(in_place_of_names(joint, of_vehicle, Base::stays, error), others).says_more;
+  if (!out.unnamed && worth_asking && names > 0) {
+    InPlaceOfNames instead = simpler_first(in_place_of_names(joint, of_vehicle, Base::goes, error), names);
     out.unnamed = std::move(instead.says_more);
-    // One cause is simpler than several.
-    if (!out.unnamed && names_of_physics(joint) > 1) out.unnamed = std::exchange(instead.as_much, std::nullopt);
     out.as_likely = std::move(instead.as_much);
   }
   return out;

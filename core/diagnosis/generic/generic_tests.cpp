@@ -7,10 +7,13 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/after_changes.h"
 #include "core/diagnosis/generic/bent_truth.h"
 #include "core/diagnosis/generic/floor.h"
 #include "core/diagnosis/generic/lagging.h"
+#include "core/diagnosis/generic/late_truth.h"
 #include "core/diagnosis/generic/step_response.h"
+#include "core/diagnosis/generic/told_speeds.h"
 #include "core/diagnosis/generic/truth_errors.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
@@ -207,21 +210,28 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
   };
   groups.push_back(memory);
-  Group heat;
-  heat.variable = "turning before, forgotten over seconds";
-  heat.is_memory = true;
-  heat.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(2, std::vector<double>(view.steps.size()));
-    for (int k = 0; k < 2; ++k) {
-      const double lasts_s = k == 0 ? 5.0 : 30.0;
-      double m = 0.0;
-      for (std::size_t i = 0; i < view.steps.size(); ++i) {
-        m = m * std::exp(-view.steps[i].duration_s / lasts_s) + std::abs(view.steps[i].turn_rad);
-        out[k][i] = m;
+  // What heats, or empties, as the vehicle works, and recovers.
+  const auto forgotten_over_seconds = [&groups](const char* name, double (*work)(const EffectStep&)) {
+    Group g;
+    g.variable = name;
+    g.is_memory = true;
+    g.values = [work](const DriveView& view, std::vector<std::vector<double>>& out) {
+      out.assign(2, std::vector<double>(view.steps.size()));
+      for (int k = 0; k < 2; ++k) {
+        const double lasts_s = k == 0 ? 5.0 : 30.0;
+        double m = 0.0;
+        for (std::size_t i = 0; i < view.steps.size(); ++i) {
+          m = m * std::exp(-view.steps[i].duration_s / lasts_s) + work(view.steps[i]);
+          out[k][i] = m;
+        }
       }
-    }
+    };
+    groups.push_back(g);
   };
-  groups.push_back(heat);
+  forgotten_over_seconds("turning before, forgotten over seconds",
+                         [](const EffectStep& s) { return std::abs(s.turn_rad); });
+  forgotten_over_seconds("way before, forgotten over seconds",
+                         [](const EffectStep& s) { return 0.5 * (std::abs(s.left_m) + std::abs(s.right_m)); });
   Group rest;
   rest.variable = "way since it stood [m]";
   rest.is_memory = true;
@@ -239,6 +249,29 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
   };
   groups.push_back(rest);
+  Group reversed;
+  reversed.variable = "way since it reversed [m]";
+  reversed.is_memory = true;
+  reversed.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    constexpr double kForgotten_m[] = {0.1, 0.5, 2.0};
+    constexpr double kGoes_m = 0.01;  // the other way, that is no rocking
+    out.assign(std::size(kForgotten_m), std::vector<double>(view.steps.size()));
+    double at_m = 0.0, furthest_m = 0.0, way_m = 1e3, sign = 0.0;  // what was before the run is not known
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const double forward_m = view.steps[i].forward_m();
+      at_m += forward_m;
+      way_m += std::abs(forward_m);
+      if (sign == 0.0 && std::abs(at_m) > kGoes_m) sign = at_m > 0.0 ? 1.0 : -1.0, furthest_m = at_m;
+      if (sign * (at_m - furthest_m) > 0.0) furthest_m = at_m;
+      if (sign != 0.0 && sign * (furthest_m - at_m) > kGoes_m) {
+        sign = -sign;
+        way_m = std::abs(furthest_m - at_m);
+        furthest_m = at_m;
+      }
+      for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
+    }
+  };
+  groups.push_back(reversed);
   Group phases;
   phases.variable = "wheel rotation [rad]";
   phases.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
@@ -269,7 +302,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   }
   const auto count = static_cast<int>(asked.size());
   const double of_the_truth = joint.truth_errors ? static_cast<double>(joint.truth_errors->size()) : 0.0;
-  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests + of_the_truth;
+  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests +
+                   std::max(kToldSpeedTests, kAfterChangeTests) + kLateTruthTests + of_the_truth;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -306,7 +340,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   });
   for (const std::vector<GenericTest>& more :
        {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
-        step_response_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
+        step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
+        late_truth_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

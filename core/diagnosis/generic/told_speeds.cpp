@@ -1,0 +1,129 @@
+#include "core/diagnosis/generic/told_speeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+// Of a motion that is told, its speed and its way in a step.
+using Told = std::function<double(const EffectStep&)>;
+
+// Where hats stand, as shares of the fastest: closer where a base is deaf to what is small.
+constexpr double kAt[] = {0.0, 0.06, 0.12, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0};
+
+std::vector<double> places_of(const std::vector<DriveView>& views, const std::vector<Told>& told) {
+  double fastest = 0.0;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps)
+      for (const Told& way : told)
+        if (s.duration_s > 0.0) fastest = std::max(fastest, std::abs(way(s)) / s.duration_s);
+  std::vector<double> at;
+  if (fastest > 0.0)
+    for (const double share : kAt) at.push_back(share * fastest);
+  return at;
+}
+
+double hat(const std::vector<double>& at, std::size_t k, double x) {
+  if (x <= at[k]) return k == 0 || x <= at[k - 1] ? (k == 0 ? 1.0 : 0.0) : (x - at[k - 1]) / (at[k] - at[k - 1]);
+  if (k + 1 == at.size()) return 1.0;
+  return x >= at[k + 1] ? 0.0 : (at[k + 1] - x) / (at[k + 1] - at[k]);
+}
+
+// What goes further by its own speed: a wheel, or the base in one of its two motions.
+struct Law {
+  Told told;
+  std::function<BodyMotion(double way, const DriveView& view)> motion;
+};
+
+// Laws that share their hats are one.
+std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, std::vector<double>>>& laws) {
+  auto term = std::make_shared<Effect>();
+  std::size_t count = 0;
+  for (const auto& [of, at] : laws) count += at.size();
+  term->amplitudes.resize(count);
+  term->motions = [laws](const DriveView& view, const std::vector<double>&) {
+    std::vector<Motions> out;
+    for (const auto& [of, at] : laws)
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        Motions motions(view.steps.size());
+        for (std::size_t i = 0; i < view.steps.size(); ++i)
+          for (const Law& law : of) {
+            const EffectStep& s = view.steps[i];
+            const double way = law.told(s);
+            if (way == 0.0 || s.duration_s <= 0.0) continue;
+            const BodyMotion m = law.motion(way * hat(at, k, std::abs(way) / s.duration_s), view);
+            motions[i].forward_m += m.forward_m;
+            motions[i].turn_rad += m.turn_rad;
+          }
+        out.push_back(std::move(motions));
+      }
+    return out;
+  };
+  return term;
+}
+
+// What hats that begin with `first` of so many come to.
+GenericCurve curve_over(const std::vector<double>& at, std::size_t first, std::size_t count, const char* variable,
+                        const char* channel) {
+  GenericCurve curve{variable, channel, at, {}};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    curve.basis.emplace_back(count, 0.0);
+    curve.basis.back()[first + k] = 1.0;
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked_at) {
+  const std::vector<DriveView>& views = asked.joint.views();
+  if (!std::all_of(views.begin(), views.end(), [](const DriveView& v) { return v.from_commands; })) return {};
+  const auto of_wheel = [](Wheel wheel) {
+    return [wheel](double way, const DriveView& view) { return by_wheel(wheel, way, view.drive.wheelbase_m); };
+  };
+  const std::vector<Law> wheels = {{[](const EffectStep&s) { return s.left_m; }, of_wheel(Wheel::left)},
+                                   {[](const EffectStep&s) { return s.right_m; }, of_wheel(Wheel::right)}},
+                         forward = {{[](const EffectStep&s) { return s.forward_m(); },
+                                     [](double way, const DriveView&) {
+                                       return BodyMotion{way, 0.0, 0.0};
+                                     }}},
+                         turn = {{[](const EffectStep&s) { return s.turn_rad; },
+                                  [](double way, const DriveView&) {
+                                    return BodyMotion{0.0, 0.0, way};
+                                  }}};
+  const auto hats = [&](const std::vector<Law>& laws) {
+    std::vector<Told> told;
+    for (const Law& law : laws) told.push_back(law.told);
+    return places_of(views, told);
+  };
+  std::vector<GenericTest> tests(kToldSpeedTests);
+  parallel_for(kToldSpeedTests, [&](int i) {
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    const bool of_wheels = i == 0;
+    t.variable = of_wheels ? "the speed that the wheel is told [m/s]" : "the speed and yaw rate that it is told";
+    t.channel = of_wheels ? "way of each wheel per metre [1]" : "forward and turn, as shares of what it is told [1]";
+    const std::vector<double> speeds = hats(of_wheels ? wheels : forward), rates = hats(turn);
+    const std::shared_ptr<Effect> term =
+        of_wheels ? term_of({{wheels, speeds}}) : term_of({{forward, speeds}, {turn, rates}});
+    term->name = t.variable;
+    term->component = t.channel;
+    if (term->amplitudes.empty()) return;
+    ask(t, asked, term, looked_at);
+    const std::size_t count = term->amplitudes.size();
+    t.curves = {curve_over(speeds, 0, count,
+                           of_wheels ? "speed of a wheel as it is told [m/s]" : "speed as it is told [m/s]",
+                           of_wheels ? "way of the wheel, as a share more [1]" : "way forward, as a share more [1]")};
+    if (!of_wheels)
+      t.curves.push_back(
+          curve_over(rates, speeds.size(), count, "yaw rate as it is told [rad/s]", "turn, as a share more [1]"));
+  });
+  return tests;
+}
+
+}  // namespace odolab

@@ -1,0 +1,79 @@
+#include "core/diagnosis/generic/told_speeds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/commanded_base.h"
+
+namespace odolab {
+namespace {
+
+// A stick that is pushed to somewhere else every second and a half, and let back now and then by a little.
+std::vector<Recording> driven_by(const std::function<void(test::CommandedBase&)>& obeys) {
+  std::vector<Recording> recordings;
+  for (int n = 1; n <= 4; ++n) {
+    Random random(static_cast<std::uint64_t>(260 + n));
+    recordings.push_back(test::commanded("run_" + std::to_string(n), 80000, random, [&](int i, test::CommandedBase& b) {
+      if (i % 3000 == 0) {
+        const double slow = random.uniform() < 0.4 ? 0.15 : 1.0;
+        b.command_mps = slow * random.uniform(-0.4, 0.6), b.command_radps = slow * random.uniform(-0.9, 0.9);
+      }
+      b.speed_mps = b.command_mps, b.yaw_rate_radps = b.command_radps;
+      obeys(b);
+    }));
+  }
+  return recordings;
+}
+
+const Response* drawn(const Diagnosis& d, const std::string& variable) {
+  for (const Response& r : d.responses)
+    if (r.variable == variable) return &r;
+  return nullptr;
+}
+
+TEST(ToldSpeeds, ShowThatABaseIsDeafToCommandsThatAreSmall) {
+  const Diagnosis d = diagnose(driven_by([](test::CommandedBase& b) {
+                                 if (std::abs(b.speed_mps) < 0.05) b.speed_mps = 0.0;
+                               }),
+                               {}, Vehicle{})
+                          .value();
+  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
+  const Response* forward = drawn(d, "speed as it is told [m/s]");
+  ASSERT_TRUE(forward);
+  ASSERT_GT(forward->at.size(), 3U);
+  ASSERT_LT(forward->at[1], 0.05);
+  // It loses all of its way there; beyond, the hat that stands next hears some of it still.
+  EXPECT_NEAR(forward->value[1], -1.0, 0.15);
+  EXPECT_NEAR(forward->value[5], 0.0, 0.05);
+}
+
+constexpr double kFastest_mps = 0.55, kWheelbase_m = 0.34;
+
+TEST(ToldSpeeds, ShowThatAWheelGoesNoFasterThanItCan) {
+  const Diagnosis d = diagnose(driven_by([](test::CommandedBase& b) {
+                                 const auto wheel = [&b](double sign) {
+                                   return std::clamp(b.speed_mps + sign * 0.5 * kWheelbase_m * b.yaw_rate_radps,
+                                                     -kFastest_mps, kFastest_mps);
+                                 };
+                                 const double left = wheel(-1.0), right = wheel(1.0);
+                                 b.speed_mps = 0.5 * (left + right), b.yaw_rate_radps = (right - left) / kWheelbase_m;
+                               }),
+                               {}, Vehicle{})
+                          .value();
+  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
+  const Response* wheel = drawn(d, "speed of a wheel as it is told [m/s]");
+  ASSERT_TRUE(wheel);
+  const double fastest_told = wheel->at.back();
+  EXPECT_NEAR(wheel->value.back(), kFastest_mps / fastest_told - 1.0, 0.03);
+}
+
+TEST(ToldSpeeds, SayNothingOfABaseThatObeys) {
+  EXPECT_EQ(diagnose(driven_by([](test::CommandedBase&) {}), {}, Vehicle{})->verdict, Verdict::nothing_missing);
+}
+
+}  // namespace
+}  // namespace odolab
