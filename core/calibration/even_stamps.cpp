@@ -14,7 +14,7 @@ using Series = std::vector<double>;
 
 constexpr int kLeastRows = 100;    // in all
 constexpr int kLeastStretch = 30;  // rows that a line is laid through
-constexpr int kLook = 20;          // rows on either side of a missing one
+constexpr int kLook = 20;          // rows on either side of a missing one, or so many that ticks of a clock are
 constexpr double kKnots_s = 5.0;   // so slowly may the sampling's own clock wander
 constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
@@ -25,25 +25,26 @@ double median_size(Series v) {
   return quantile(std::move(v), 0.5);
 }
 
-// The typical period: twenty rows at a time, so that packets do not hide it.
-double period_of(const Series& time_s) {
+// The typical period: so many rows at a time that packets do not hide it.
+double period_of(const Series& time_s, int look) {
   Series gaps;
-  for (std::size_t i = kLook; i < time_s.size(); ++i) gaps.push_back((time_s[i] - time_s[i - kLook]) / kLook);
+  const auto rows = static_cast<std::size_t>(look);
+  for (std::size_t i = rows; i < time_s.size(); ++i) gaps.push_back((time_s[i] - time_s[i - rows]) / look);
   return quantile(std::move(gaps), 0.5);
 }
 
 // Ends of the stretches in which no row is missing. Lateness has a least value: the lower fifth of the rows before and
 // behind shows a step of the phase far better than their mean does.
-std::vector<int> ends_of_stretches(const Series& time_s, double period_s) {
+std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int look) {
   const int n = static_cast<int>(time_s.size());
   Series early;  // of so many rows behind each, without those of the period
-  for (int i = 0; i + kLook <= n; ++i) {
+  for (int i = 0; i + look <= n; ++i) {
     Series late;
-    for (int k = 0; k < kLook; ++k) late.push_back(time_s[i + k] - time_s[0] - period_s * k);
+    for (int k = 0; k < look; ++k) late.push_back(time_s[i + k] - time_s[0] - period_s * k);
     early.push_back(quantile(std::move(late), 0.2));
   }
   Series step(time_s.size(), 0.0);
-  for (int i = kLook; i + kLook <= n; ++i) step[i] = early[i] - early[i - kLook] - period_s * kLook;
+  for (int i = look; i + look <= n; ++i) step[i] = early[i] - early[i - look] - period_s * look;
   const double limit = std::max(0.4 * period_s, 5.0 * 1.4826 * median_size(step));
   std::vector<int> ends;
   for (int i = 1; i < n; ++i) {
@@ -102,6 +103,15 @@ void lay_line(const Series& time_s, int from, int to, double period_s, Series& e
     const double scale = 2.0 * 1.4826 * median_size(off);
     for (int i = 0; i < n; ++i) weight[i] = std::abs(off[i]) > scale && scale > 0.0 ? scale / std::abs(off[i]) : 1.0;
   }
+}
+
+// Rows that share a stamp, but for what trembles, as where a clock ticks more slowly than rows are taken; 1 where few
+// do.
+double rows_of_a_tick(const Series& time_s, double period_s) {
+  constexpr double kSame = 0.1;  // of a period
+  double ticks = 1.0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) ticks += time_s[i] - time_s[i - 1] > kSame * period_s ? 1.0 : 0.0;
+  return static_cast<double>(time_s.size()) / ticks;
 }
 
 // What stamps are rounded to, the coarsest that all of them are multiples of; 0 where there is none.
@@ -178,11 +188,13 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   const int n = static_cast<int>(time_s.size());
   if (n < kLeastRows || are_even(time_s)) return std::nullopt;
   EvenStamps even;
-  even.period_s = period_of(time_s);
+  const double of_a_tick = rows_of_a_tick(time_s, period_of(time_s, kLook));
+  const int look = std::clamp(static_cast<int>(10.0 * of_a_tick), kLook, n / 4);
+  even.period_s = period_of(time_s, look);
   if (!(even.period_s > 0.0)) return std::nullopt;
   even.time_s = time_s;
   const double grain_s = grain_of(time_s);
-  const std::vector<int> ends = ends_of_stretches(time_s, even.period_s);
+  const std::vector<int> ends = ends_of_stretches(time_s, even.period_s, look);
   std::vector<int> stretch(time_s.size(), -1);
   int from = 0, laid = 0, blocks = 0, wandering = 0;
   for (const int end : ends) {
@@ -193,9 +205,9 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
       laid += end - from;
       // Where whole blocks stay off the line the readings were not taken at one period: those of an encoder that speaks
       // at each count, for one.
-      for (int i = from; i + kLook <= end; i += kLook, ++blocks) {
+      for (int i = from; i + look <= end; i += look, ++blocks) {
         Series off;
-        for (int k = i; k < i + kLook; ++k) off.push_back(time_s[k] - even.time_s[k]);
+        for (int k = i; k < i + look; ++k) off.push_back(time_s[k] - even.time_s[k]);
         wandering += std::abs(quantile(std::move(off), 0.5)) > 0.6 * even.period_s;
       }
     }
@@ -217,7 +229,9 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   Series thirds;
   for (int i = 0; i + 3 < n; ++i)
     if (stretch[i] >= 0 && stretch[i] == stretch[i + 3]) thirds.push_back(third(lateness, i));
-  const double stalls = 8.0 * median_size(std::move(thirds));
+  for (double& by : thirds) by = std::abs(by);
+  // Rows of one tick are late by their number, of which third differences see nothing: they show where it ends.
+  const double stalls = 8.0 * quantile(std::move(thirds), of_a_tick < 2.0 ? 0.5 : 0.9);
   Series shown, late;
   bool any = false;
   const auto judged = [&] {

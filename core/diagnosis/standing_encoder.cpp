@@ -164,7 +164,7 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   constexpr std::size_t kPace = 5, kFewest = 3;
   constexpr double kEven = 0.35, kSame = 0.3;  // of the pace
   constexpr double kCounts = 4.0;              // that a pace has in each interval
-  constexpr double kWheel_mps2 = 5.0;          // more than a motor and what it drives are stopped and sped up by
+  constexpr double kWheel_mps2 = 3.0;          // more than a motor and what it drives are stopped and sped up by
   TimeStretches found;
   const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
   const double least_rad = kCounts * least_count_rad(wheels, wheel);

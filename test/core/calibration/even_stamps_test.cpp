@@ -134,6 +134,23 @@ TEST(EvenStamps, PacketsOfFiveAreSpreadOut) {
   EXPECT_LT(unevenness_s(even->time_s, taken), 0.002);
 }
 
+// Stamps of a clock that ticks every 0.129 s, six or seven rows each, and trembles a little.
+TEST(EvenStamps, OfAClockThatTicksMoreSlowlyThanRowsAreTakenAreSpreadOut) {
+  constexpr double kTick_s = 0.129;
+  Random random(6);
+  const Series taken = evenly(), rad = read_at(taken);
+  Series stamps;
+  for (const double t : taken) {
+    const double s = kTick_s * std::floor(t / kTick_s) + 3e-5 * random.uniform();
+    stamps.push_back(stamps.empty() ? s : std::max(stamps.back(), s));
+  }
+  const auto even = even_stamps(stamps, {rad, rad});
+  ASSERT_TRUE(even);
+  // A tick's 37 ms are averaged over five seconds, 39 ticks, twice as badly at a line's ends: 6 to 12 ms at most.
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.006);
+  EXPECT_NEAR(even->trembling_s, kTick_s / std::sqrt(12.0), 0.004);
+}
+
 TEST(EvenStamps, MissingRowsAndPausesLeaveTheirGap) {
   Random random(5);
   Series taken;
