@@ -28,6 +28,11 @@ std::string times_text(const TimeStretches& times) {
   return all;
 }
 
+// Where a log begins with a base that is told to drive, what it was told before is not known, and a base that lags
+// follows it for so long.
+constexpr double kFollows_s = 1.0;
+bool is_on_its_way(const CommandSample& first) { return first.speed_mps != 0.0 || first.yaw_rate_radps != 0.0; }
+
 }  // namespace
 
 CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
@@ -70,6 +75,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     };
     leave_out(holes_in_commands(wheels, drive, truth), "no commands were logged");
     leave_out(unmoved_base(wheels, drive, truth), "the base hardly moved though it was told to drive");
+    if (const std::vector<CommandSample> told = command_samples(recording); is_on_its_way(told.front()))
+      out.left_out_s.emplace_back(recording.time_s.front(), told.front().time_s + kFollows_s);
     out.left_out_s = joined(std::move(out.left_out_s));
     return out;
   }

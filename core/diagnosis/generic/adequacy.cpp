@@ -98,6 +98,11 @@ std::vector<Response> shape_of(const GenericTest& group, const JointModel& with)
 // A base that is driven by its commands follows them in its own way, whatever else is missing.
 bool is_of_the_base(const Effect& effect) { return effect.only_commands; }
 
+bool has_its_own(const JointModel& joint) {
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                     [](const AcceptedEffect& a) { return is_of_the_base(*a.effect); });
+}
+
 enum class Base { stays, goes };
 JointModel without_names(JointModel joint, Base base) {
   std::erase_if(joint.accepted, [&](const AcceptedEffect& a) {
@@ -213,7 +218,10 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
       named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
   double looked_for = 0.0;
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
-  const double by_names = std::max(0.0, named.fit(3) - looked_for), fair = beyond_chance(evidence);
+  const double by_names = std::max(0.0, named.fit(3) - looked_for);
+  double fair = beyond_chance(evidence);
+  // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
+  if (base == Base::goes && has_its_own(joint)) fair = std::max(fair, by_names);
   const std::vector<GenericTest> generic = generic_tests(bare);
   const auto beyond = [&](double gain, double margin) { return gain - by_form_of_base - (1.0 + margin) * by_names; };
   const auto is_more = [&](const GenericTest& g, double gain, double margin = kMostLeft) {

@@ -58,6 +58,7 @@ void put_lag_where_likeliest(JointModel& joint) {
 
 void let_lag_in(JointModel& joint) {
   constexpr double kShortest_s = 0.03;
+  constexpr double kLikelier = 40.0;  // in twice the log-likelihood; a lag is one number more than a delay
   if (std::none_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands))) return;
   const auto lag = std::find_if(catalogue().begin(), catalogue().end(),
                                 [](const Effect& e) { return e.only_commands && e.shape_follows_amplitude; });
@@ -79,7 +80,7 @@ void let_lag_in(JointModel& joint) {
     with.fit_noise_and_all();
     if (!best || is_likelier(with, *best)) best = std::move(with);
   }
-  if (best->minus_two_log_likelihood() < late.minus_two_log_likelihood() - kDecisive) joint = std::move(*best);
+  if (best->minus_two_log_likelihood() < late.minus_two_log_likelihood() - kLikelier) joint = std::move(*best);
 }
 
 double variance_of_held(const JointModel& joint, std::size_t accepted) {

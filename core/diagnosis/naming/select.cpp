@@ -394,8 +394,11 @@ class Selection {
       for (const ScoredCandidate& c : instead)
         if (c.effect == joint_.accepted[k].effect) own = c;
       // Near where it stands a lag looks like a clock, and far from there it does not.
-      if (own.effect && own.effect->shape_follows_amplitude && !stands(own, family_wise_error_)) {
-        own.test.statistic = std::max(own.test.statistic, joint_.lost_without(static_cast<int>(k)));
+      const bool is_a_lag = own.effect && own.effect->shape_follows_amplitude;
+      if (is_a_lag && !stands(own, family_wise_error_)) {
+        const double lost = joint_.lost_without(static_cast<int>(k));
+        if (lost > own.test.statistic) own.test.statistic = own.test.cross_validated = lost;
+        own.beyond_counts = true;
         judge(own);
       }
       if (own.effect && own.effect->local && exchanged < kMostEffects && puts_simpler_name(k, own, instead)) {
@@ -406,7 +409,7 @@ class Selection {
       }
       const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
       const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
-                               share_of(k) >= least && keeps_its_place(k, own);
+                               share_of(k, is_a_lag ? own.test.statistic : 0.0) >= least && keeps_its_place(k, own);
       if (!stands_here && !keep_needed(k, least, own)) {
         begin_again();
         k = 0;
