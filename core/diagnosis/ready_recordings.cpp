@@ -92,17 +92,23 @@ bool leave_out_encoder_jumps(const ReadyRecordings& ready, const std::vector<Che
   bool any = false;
   for (std::size_t r = 0; r < each.size(); ++r)
     for (const bool left : {true, false}) {
-      const TimeStretches& jumps = of_each[r][left ? 0 : 1];
+      TimeStretches& jumps = of_each[r][left ? 0 : 1];
+      std::erase_if(jumps, [&](const auto& jump) {
+        return std::any_of(each[r]->left_out_s.begin(), each[r]->left_out_s.end(),
+                           [&](const auto& known) { return jump.first < known.second && jump.second > known.first; });
+      });
       if (jumps.empty()) continue;
       any = true;
       const std::string side = left ? "left" : "right";
       each[r]->faults.push_back({"encoder_data_fault", side + "_wheel", each[r]->recording.name, jumps,
                                  "the " + side + " encoder jumps, and the truth goes on as before, " +
                                      std::to_string(jumps.size()) + " time(s); left out"});
-      TimeStretches& left_out_s = each[r]->left_out_s;
-      left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
-      left_out_s = joined(std::move(left_out_s));
     }
+  for (std::size_t r = 0; r < each.size(); ++r) {
+    TimeStretches& left_out_s = each[r]->left_out_s;
+    for (const TimeStretches& jumps : of_each[r]) left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
+    left_out_s = joined(std::move(left_out_s));
+  }
   return any;
 }
 

@@ -95,19 +95,21 @@ std::vector<Response> shape_of(const GenericTest& group, const JointModel& with)
   return shape;
 }
 
-// A base that is driven by its commands follows them in its own way, whatever else is missing.
+// A base that is driven by its commands follows them in its own way, whatever else is missing: that may stay where
+// names go.
+enum class Base { stays, goes };
 bool is_of_the_base(const Effect& effect) { return effect.only_commands; }
-
-bool has_its_own(const JointModel& joint) {
-  return std::any_of(joint.accepted.begin(), joint.accepted.end(),
-                     [](const AcceptedEffect& a) { return is_of_the_base(*a.effect); });
+bool is_held_against(const AcceptedEffect& a, Base base) {
+  return a.acts_on_motion() && (base == Base::goes || !is_of_the_base(*a.effect));
 }
 
-enum class Base { stays, goes };
+std::ptrdiff_t names_held_against(const JointModel& joint, Base base) {
+  return std::count_if(joint.accepted.begin(), joint.accepted.end(),
+                       [&](const AcceptedEffect& a) { return is_held_against(a, base); });
+}
+
 JointModel without_names(JointModel joint, Base base) {
-  std::erase_if(joint.accepted, [&](const AcceptedEffect& a) {
-    return a.acts_on_motion() && (base == Base::goes || !is_of_the_base(*a.effect));
-  });
+  std::erase_if(joint.accepted, [&](const AcceptedEffect& a) { return is_held_against(a, base); });
   joint.fit(3);
   return joint;
 }
@@ -214,14 +216,14 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
       return true;
     });
   for (const AcceptedEffect& a : joint.accepted)
-    if (a.acts_on_motion() && (base == Base::goes || !is_of_the_base(*a.effect)))
+    if (is_held_against(a, base))
       named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
   double looked_for = 0.0;
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
   const double by_names = std::max(0.0, named.fit(3) - looked_for);
   double fair = beyond_chance(evidence);
   // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
-  if (base == Base::goes && has_its_own(joint)) fair = std::max(fair, by_names);
+  if (names_held_against(joint, base) > names_held_against(joint, Base::stays)) fair = std::max(fair, by_names);
   const std::vector<GenericTest> generic = generic_tests(bare);
   const auto beyond = [&](double gain, double margin) { return gain - by_form_of_base - (1.0 + margin) * by_names; };
   const auto is_more = [&](const GenericTest& g, double gain, double margin = kMostLeft) {
@@ -275,12 +277,6 @@ std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::ve
   return ripples;
 }
 
-std::ptrdiff_t names_of_physics(const JointModel& joint, Base base = Base::stays) {
-  return std::count_if(joint.accepted.begin(), joint.accepted.end(), [&](const AcceptedEffect& a) {
-    return a.acts_on_motion() && (base == Base::stays || !is_of_the_base(*a.effect));
-  });
-}
-
 // One cause is simpler than several.
 InPlaceOfNames simpler_first(InPlaceOfNames instead, std::ptrdiff_t names) {
   if (!instead.says_more && names > 1) instead.says_more = std::exchange(instead.as_much, std::nullopt);
@@ -302,7 +298,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (e.effect->acts_on_motion()) of_vehicle.push_back(e);
   }
   std::vector<GenericTest> left_by_names = out.generic;
-  if (names_of_physics(joint) > 0) out.ripples = ripples_taken_out(joint, left_by_names, error);
+  const std::ptrdiff_t names = names_held_against(joint, Base::goes);
+  if (names > 0) out.ripples = ripples_taken_out(joint, left_by_names, error);
   if (const Left left = what_is_left(joint, left_by_names, error); left.group) {
     const CandidateTest& test = left.group->test;
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
@@ -317,7 +314,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
            g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
   });
   // First beside the base's own, where there is such; then in the place of that too.
-  const std::ptrdiff_t names = names_of_physics(joint), others = names_of_physics(joint, Base::goes);
+  const std::ptrdiff_t others = names_held_against(joint, Base::stays);
   if (!out.unnamed && others > 0 && others < names)
     out.unnamed = simpler_first(in_place_of_names(joint, of_vehicle, Base::stays, error), others).says_more;
   if (!out.unnamed && worth_asking && names > 0) {

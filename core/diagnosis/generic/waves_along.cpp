@@ -21,6 +21,9 @@ std::span<const Modulated> modulated_by(Along along) {
   return along == Along::time ? std::span<const Modulated>(kInTime) : std::span<const Modulated>(kOnTheWay);
 }
 
+// What comes once a turn of a wheel has a name.
+bool is_once_a_turn(const Wave& wave) { return wave.per_unit > 1.0 / 1.2 && wave.per_unit < 1.2; }
+
 // A length of no large prime factors, which transforms quickly.
 int next_smooth(double least) {
   for (int n = std::max(2, static_cast<int>(std::ceil(least)));; ++n) {
@@ -82,6 +85,7 @@ std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& v
             std::norm(transformed[k + static_cast<std::size_t>(first)]);
     }
   }
+  if (is_of_a_wheel(axis.along)) std::erase_if(heard, [](const Heard& h) { return is_once_a_turn(h.wave); });
   return heard;
 }
 

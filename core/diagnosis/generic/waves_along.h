@@ -16,9 +16,9 @@ struct Axis {
 constexpr Axis kAxes[] = {{Along::time, "time", "s", 0.1, 3.0, 1e300},
                           {Along::way, "way", "m", 0.02, 0.12, 20.0},
                           {Along::turning, "turning", "rad", 0.05, 0.25, 2.0 * kPi / 2.4},
-                          // Gears before a wheel turn faster than it; what comes once a turn has a name.
-                          {Along::left_wheel, "its angle", "turns", 0.02, 0.125, 1.0 / 1.2},
-                          {Along::right_wheel, "its angle", "turns", 0.02, 0.125, 1.0 / 1.2}};
+                          // Gears before a wheel turn faster than it, belts and tracks slower.
+                          {Along::left_wheel, "its angle", "turns", 0.02, 0.125, 6.0},
+                          {Along::right_wheel, "its angle", "turns", 0.02, 0.125, 6.0}};
 
 // All waves of an axis, by the scores of the motions in each step.
 std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& views,

@@ -1,17 +1,19 @@
 // The joint model of all samples that were recorded, where it was fitted to fewer.
 #include <cmath>
 
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
 
 InnovationRun JointModel::recorded(int r) const {
-  const std::shared_ptr<const InnovationRun>& all = runs_[r].as_recorded;
-  if (!all) return prepared(r);
+  if (!runs_[r].as_recorded) return prepared(r);
+  InnovationRun all = *runs_[r].as_recorded;
+  cut_where_left_out(all, clock_s[r]);
   DriveView view;
   if (!accepted.empty())
-    view = as_it_goes(drive_view(numbers_[r], *all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read));
-  return prepared(r, *all, view);
+    view = as_it_goes(drive_view(numbers_[r], all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read));
+  return prepared(r, all, view);
 }
 
 FittedNoise JointModel::noise_as_recorded() const {

@@ -77,6 +77,24 @@ TEST(Adequacy, CallsAGearUnknownWhereNoNameStands) {
             "way of the left wheel per metre [1] that depends on its angle, 2.5 times a turn");
 }
 
+// A belt that is thick at one place, and goes round once in 2.7 turns of its wheel.
+TEST(Adequacy, CallsABeltUnknownThatGoesRoundMoreSlowlyThanItsWheel) {
+  Random random(66);
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0004, 0.01);
+  g.duration_s = 60.0;
+  const auto thick = [](int run) {
+    return [run](test::InjectedStep& s) { s.left_m *= 1.0 + 0.01 * std::sin(s.left_rad / 2.7 + run); };
+  };
+  const Result<Diagnosis> d =
+      diagnose(test::three_runs(
+                   g, random, [&](int) { return test::varied_driving(random, g.duration_s); }, thick),
+               {}, Vehicle{});
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  const std::string& regime = d->findings.front().where.regime;
+  EXPECT_EQ(regime.find("way of the left wheel per metre [1] that depends on its angle, 0.37"), 0u) << regime;
+}
+
 // Curves of six seconds to either side, one in three in reverse, with rests of a second and a half between.
 test::SpeedProfile curves_and_rests(int run) {
   constexpr double kLeg_s = 6.0, kAll_s = 7.5;

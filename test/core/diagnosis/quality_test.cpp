@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/diagnosis.h"
 #include "test/support/drive_generator.h"
+#include "test/support/missing_physics.h"
 
 namespace odolab {
 namespace {
@@ -185,6 +187,36 @@ TEST(Checked, TakesAWheelThatSetsOffLateForSound) {
       },
       random);
   EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+// A counter that steps back for good, under a truth of 100 Hz that is late by five readings: it is left out at its own
+// time, once, and nothing is left of it behind.
+TEST(Diagnosis, LeavesACounterThatStepsBackOutWhereTheTruthIsLateToo) {
+  test::CaseSettings settings;
+  settings.runs = 3;
+  settings.duration_s = 40.0;
+  settings.truth_late_s = 0.06;
+  test::Case c = test::generated_case(settings, 31);
+  constexpr double kAt_s = 18.0, kBack_rad = 0.35;
+  Recording& r = c.recordings.front();
+  for (Channel& channel : r.channels)
+    for (std::size_t i = 0; channel.name == "right_wheel_rad" && i < r.time_s.size(); ++i)
+      if (r.time_s[i] > kAt_s) channel.values[i] -= kBack_rad;
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::found);
+  int faults = 0;
+  for (const Finding& f : d->findings) {
+    EXPECT_TRUE(f.effect == "encoder_data_fault" || f.effect.rfind("truth_", 0) == 0) << f.effect;
+    if (f.effect != "encoder_data_fault") continue;
+    ++faults;
+    ASSERT_EQ(f.where.time_s.size(), 1U);
+    EXPECT_NEAR(f.where.time_s.front().first, kAt_s, 0.03);  // a reading and a half
+  }
+  EXPECT_EQ(faults, 1);
+  // As noise alone leaves it: the error was twice that where the sample behind the step was kept.
+  ASSERT_TRUE(d->train.calibrated);
+  EXPECT_LT(d->train.calibrated->position_rms_m, 1.2 * d->train.noise_floor->position_rms_m);
 }
 
 }  // namespace
