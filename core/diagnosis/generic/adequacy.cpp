@@ -277,9 +277,14 @@ std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::ve
   return ripples;
 }
 
-// One cause is simpler than several.
-InPlaceOfNames simpler_first(InPlaceOfNames instead, std::ptrdiff_t names) {
-  if (!instead.says_more && names > 1) instead.says_more = std::exchange(instead.as_much, std::nullopt);
+// One cause is simpler than several, of which none says nearly all by itself.
+InPlaceOfNames simpler_first(InPlaceOfNames instead, const std::vector<ScoredCandidate>& evidence, Base base) {
+  constexpr double kNearlyAll = 0.85;
+  double most = 0.0, all = 0.0;
+  for (const ScoredCandidate& e : evidence)
+    if (base == Base::goes || !is_of_the_base(*e.effect))
+      most = std::max(most, e.test.statistic), all += e.test.statistic;
+  if (!instead.says_more && most < kNearlyAll * all) instead.says_more = std::exchange(instead.as_much, std::nullopt);
   return instead;
 }
 
@@ -316,9 +321,11 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   // First beside the base's own, where there is such; then in the place of that too.
   const std::ptrdiff_t others = names_held_against(joint, Base::stays);
   if (!out.unnamed && others > 0 && others < names)
-    out.unnamed = simpler_first(in_place_of_names(joint, of_vehicle, Base::stays, error), others).says_more;
+    out.unnamed =
+        simpler_first(in_place_of_names(joint, of_vehicle, Base::stays, error), of_vehicle, Base::stays).says_more;
   if (!out.unnamed && worth_asking && names > 0) {
-    InPlaceOfNames instead = simpler_first(in_place_of_names(joint, of_vehicle, Base::goes, error), names);
+    InPlaceOfNames instead =
+        simpler_first(in_place_of_names(joint, of_vehicle, Base::goes, error), of_vehicle, Base::goes);
     out.unnamed = std::move(instead.says_more);
     out.as_likely = std::move(instead.as_much);
   }

@@ -84,6 +84,9 @@ GenericCurve curve_over(const std::vector<double>& at, std::size_t first, std::s
 std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked_at) {
   const std::vector<DriveView>& views = asked.joint.views();
   if (!std::all_of(views.begin(), views.end(), [](const DriveView& v) { return v.from_commands; })) return {};
+  // What is told for a moment is obeyed for another time where changes are acted on so unevenly.
+  constexpr double kMostUneven_s = 0.05;
+  if (asked.joint.model.noise.command_timing_s > kMostUneven_s) return {};
   const auto of_wheel = [](Wheel wheel) {
     return [wheel](double way, const DriveView& view) { return by_wheel(wheel, way, view.drive.wheelbase_m); };
   };

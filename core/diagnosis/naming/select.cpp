@@ -117,6 +117,9 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
   return without - joint.minus_two_log_likelihood();
 }
 
+// What is shorter is none, whatever the fit loses on the way to where it is without it.
+constexpr double kShortestLag_s = 1e-3;
+
 // Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
 constexpr double kFewestForTheirNoise = 100.0;
 
@@ -395,6 +398,14 @@ class Selection {
         if (c.effect == joint_.accepted[k].effect) own = c;
       // Near where it stands a lag looks like a clock, and far from there it does not.
       const bool is_a_lag = own.effect && own.effect->shape_follows_amplitude;
+      if (is_a_lag && joint_.accepted[k].value[0] < kShortestLag_s) {
+        joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+        joint_.fit(3);
+        joint_.fit_noise_and_all();
+        begin_again();
+        k = 0;
+        continue;
+      }
       if (is_a_lag && !stands(own, family_wise_error_)) {
         const double lost = joint_.lost_without(static_cast<int>(k));
         if (lost > own.test.statistic) own.test.statistic = own.test.cross_validated = lost;
