@@ -10,7 +10,7 @@ std::vector<Effect> actuator_lag() {
   Effect e;
   e.name = "actuator_lag";
   e.component = "vehicle";
-  e.amplitudes = {{"time_constant_s", "s", 0.1, 0.0, 5.0}};
+  e.amplitudes = {{"time_constant_s", "s", 0.1, 0.001, 5.0}};
   e.shapes = {{"time_constant_s", "s"}};
   e.shape_follows_amplitude = true;
   e.only_commands = true;

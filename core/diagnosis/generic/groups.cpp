@@ -155,7 +155,7 @@ Group by_way_since_rest() {
       const EffectStep& s = view.steps[i];
       const bool stands = s.left_read_rad == 0.0 && s.right_read_rad == 0.0;
       stood_s = stands ? stood_s + s.duration_s : 0.0;
-      way_m = stood_s > kStands_s ? 0.0 : way_m + std::abs(s.left_m) * 0.5 + std::abs(s.right_m) * 0.5;
+      way_m = stood_s > kStands_s ? 0.0 : way_m + rolled_m(s);
       for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
     }
   };

@@ -117,9 +117,6 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
   return without - joint.minus_two_log_likelihood();
 }
 
-// What is shorter is none, whatever the fit loses on the way to where it is without it.
-constexpr double kShortestLag_s = 1e-3;
-
 // Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
 constexpr double kFewestForTheirNoise = 100.0;
 
@@ -389,46 +386,40 @@ class Selection {
 
   // Backward; what stands keeps what else could have been said in its place.
   void drop_what_does_not_stand() {
-    int exchanged = 0;
-    for (std::size_t k = 0; k < joint_.accepted.size();) {
-      if (with_all_.empty()) with_all_ = scored_candidates(joint_);
-      const std::vector<ScoredCandidate> instead = instead_of(k);
-      ScoredCandidate own;
-      for (const ScoredCandidate& c : instead)
-        if (c.effect == joint_.accepted[k].effect) own = c;
-      // Near where it stands a lag looks like a clock, and far from there it does not.
-      const bool is_a_lag = own.effect && own.effect->shape_follows_amplitude;
-      if (is_a_lag && joint_.accepted[k].value[0] < kShortestLag_s) {
-        joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
-        joint_.fit(3);
-        joint_.fit_noise_and_all();
+    for (std::size_t k = 0; k < joint_.accepted.size();)
+      if (stays(k)) {
+        ++k;
+      } else {
         begin_again();
         k = 0;
-        continue;
       }
-      if (is_a_lag && !stands(own, family_wise_error_)) {
-        const double lost = joint_.lost_without(static_cast<int>(k));
-        if (lost > own.test.statistic) own.test.statistic = own.test.cross_validated = lost;
-        own.beyond_counts = true;
-        judge(own);
-      }
-      if (own.effect && own.effect->local && exchanged < kMostEffects && puts_simpler_name(k, own, instead)) {
-        ++exchanged;
-        begin_again();
-        k = 0;
-        continue;
-      }
-      const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
-      const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
-                               share_of(k, is_a_lag ? own.test.statistic : 0.0) >= least && keeps_its_place(k, own);
-      if (!stands_here && !keep_needed(k, least, own)) {
-        begin_again();
-        k = 0;
-        continue;
-      }
-      add_evidence(own, instead);
-      ++k;
+  }
+
+  // Whether a name stays, with its evidence; else it is taken out of the model, or a simpler one is put in its place.
+  bool stays(std::size_t k) {
+    if (with_all_.empty()) with_all_ = scored_candidates(joint_);
+    const std::vector<ScoredCandidate> instead = instead_of(k);
+    ScoredCandidate own;
+    for (const ScoredCandidate& c : instead)
+      if (c.effect == joint_.accepted[k].effect) own = c;
+    // Near where it stands a lag looks like a clock, and far from there it does not.
+    const bool is_a_lag = own.effect && own.effect->shape_follows_amplitude;
+    if (is_a_lag && !stands(own, family_wise_error_)) {
+      const double lost = joint_.lost_without(static_cast<int>(k));
+      if (lost > own.test.statistic) own.test.statistic = own.test.cross_validated = lost;
+      own.beyond_counts = true;
+      judge(own);
     }
+    if (own.effect && own.effect->local && exchanged_ < kMostEffects && puts_simpler_name(k, own, instead)) {
+      ++exchanged_;
+      return false;
+    }
+    const double least = least_share(joint_, *joint_.accepted[k].effect, own.test, joint_.distrust());
+    const bool stands_here = own.effect && stands(own, family_wise_error_) && !is_at_its_bound(joint_.accepted[k]) &&
+                             share_of(k, is_a_lag ? own.test.statistic : 0.0) >= least && keeps_its_place(k, own);
+    if (!stands_here && !keep_needed(k, least, own)) return false;
+    add_evidence(own, instead);
+    return true;
   }
 
   void begin_again() {
@@ -501,6 +492,7 @@ class Selection {
   const std::vector<const Effect*>& refuted_;
   bool asks_what_is_undone_;
   const Effect* clocks_ = nullptr;         // known beyond doubt
+  int exchanged_ = 0;                      // names, for simpler ones
   std::vector<ScoredCandidate> with_all_;  // judged against the model that has all that was let in
   Selected out_;
 };
