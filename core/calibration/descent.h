@@ -1,6 +1,6 @@
-// Least value of a function whose slope is known and whose curvature is known about: Newton's steps with the curvature
-// corrected by how the slope changed over those before (BFGS), made shorter where they promise too much (L. Armijo
-// 1966).
+// Least value of a function whose slope is known and whose curvature is known about: Newton's steps, within a region of
+// trust (K. Levenberg 1944), with the curvature corrected by how the slope changed over short ones before (BFGS), made
+// shorter where they promise too much (L. Armijo 1966).
 #pragma once
 
 #include <functional>

@@ -131,7 +131,6 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     run.wheels = with_slow_counts_drawn(run.wheels, count_rad(run, drive));
   }
   run.smooth = smoothed(run.wheels);
-  run.accelerations = wheel_accelerations(run.wheels);
   cut_where_left_out(run, vehicle.truth.time_offset_s);
   return run;
 }

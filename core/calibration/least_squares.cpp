@@ -178,7 +178,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   MatrixXd posterior;
   const auto determine = [&] {
     fit.fit_parameters(active, 1.0, options.most_iterations);
-    const MatrixXd information = information_of(fit.sums(fit.now(), true));
+    const MatrixXd information = information_of(fit.sums_now());
     posterior = (information + fit.information_held(active) + MatrixXd::Identity(n, n)).inverse();
     for (int k = 0; k < n; ++k) determined[active[k]] = std::sqrt(posterior(k, k)) < kDetermined;
   };

@@ -107,10 +107,12 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
     const VectorXd from_nominal = away(at);
     return s.chi2 + weight * from_nominal.squaredNorm() + from_nominal.dot(held * from_nominal);
   };
-  Sums now = sums(now_, true);
+  Sums now = sums_now();
   double value = objective(now, now_);
   double damping = 1e-6;
   constexpr double kNothing = 1e-6;  // a thousandth of a standard deviation
+  // A tenth of one: the slope, which is of smoothed wheels, promises no more what the jagged ones keep.
+  constexpr double kSmall = 1e-2;
   const int n = static_cast<int>(active.size());
   for (int i = 0; i < most_iterations; ++i) {
     MatrixXd a(n, n);
@@ -123,7 +125,7 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
     g -= held * away(now_);
     bool accepted = false;
     double size = 0.0;
-    for (int attempt = 0; attempt < 8 && !accepted; ++attempt) {
+    for (int attempt = 0; attempt < 8 && !accepted && !(attempt > 0 && size < kSmall); ++attempt) {
       MatrixXd damped = a;
       for (int r = 0; r < n; ++r) damped(r, r) *= 1.0 + damping;
       const VectorXd step = damped.ldlt().solve(g);
@@ -143,10 +145,16 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
           break;
         }
       }
-      damping = std::max(damping * 10.0, 1e-4) * 3.0;
+      damping = std::max(30.0 * damping, 0.1);
     }
     if (!accepted) break;
   }
+  sums_now_ = std::move(now);
+}
+
+const LikelihoodFit::Sums& LikelihoodFit::sums_now() {
+  if (!sums_now_) sums_now_ = sums(now_, true);
+  return *sums_now_;
 }
 
 void LikelihoodFit::fit_noise(const std::vector<int>& active) {
@@ -201,6 +209,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
     return sum;
   };
   now_.shared.noise = most_likely_noise(likelihood, now_.shared.noise, fit);
+  sums_now_.reset();
 }
 
 bool LikelihoodFit::gate() {
@@ -220,6 +229,7 @@ bool LikelihoodFit::gate() {
     runs_[r].set_aside = std::move(s.set_aside);
   });
   restarts_ = std::accumulate(restarts.begin(), restarts.end(), 0);
+  sums_now_.reset();
   return std::find(changed.begin(), changed.end(), 1) != changed.end();
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "core/calibration/innovations.h"
@@ -41,8 +42,12 @@ class LikelihoodFit {
       : runs_(std::move(runs)), kept_(runs_.size()), nominal_(nominal), now_(nominal), prior_(prior_sizes(nominal)) {}
 
   // Begins elsewhere than at the nominal values; the priors stay where they are.
-  void start_from(const DifferentialDrive& drive) { now_.shared.drive = drive; }
+  void start_from(const DifferentialDrive& drive) {
+    now_.shared.drive = drive;
+    sums_now_.reset();
+  }
   void start_from(Vec2 tracked_point) {
+    sums_now_.reset();
     now_.shared.truth.axle_T_tracked.x_m = tracked_point.x_m;
     now_.shared.truth.axle_T_tracked.y_m = tracked_point.y_m;
   }
@@ -59,6 +64,8 @@ class LikelihoodFit {
 
   // `batches` above 0: also the scatter of the score over about so many batches.
   Sums sums(const FitParameters& parameters, bool derivatives, int batches = 0) const;
+  // With derivatives, of what is fitted now; as the last time where nothing has changed since.
+  const Sums& sums_now();
 
   // Holds the mean of both wheel radii where it was given, as where only ratios show: in the fit, and what that adds to
   // the information of these columns.
@@ -90,7 +97,10 @@ class LikelihoodFit {
   };
   Lasting lasting_correlation() const;
 
-  void hold_at_nominal(int c) { parameter_of(now_, c) = value(nominal_, c); }
+  void hold_at_nominal(int c) {
+    parameter_of(now_, c) = value(nominal_, c);
+    sums_now_.reset();
+  }
   static double value(FitParameters parameters, int c) { return parameter_of(parameters, c); }
   double deviation(const FitParameters& at, int c) const { return (value(at, c) - value(nominal_, c)) / prior_[c]; }
   const FitParameters& now() const { return now_; }
@@ -130,6 +140,7 @@ class LikelihoodFit {
   mutable std::vector<Kept> kept_;  // of each run; without motions where there is none yet
   FitParameters nominal_;
   FitParameters now_;
+  std::optional<Sums> sums_now_;
   std::vector<double> prior_;
   int restarts_ = 0;
 };

@@ -20,6 +20,7 @@ Result<std::vector<InnovationRun>> runs_with(const FittedModel& model, const std
   for (const CheckedRecording& c : ready) {
     Result<InnovationRun> run = ready_run(c, nominal);
     if (!run) return run.error();
+    run->accelerations = wheel_accelerations(run->wheels);
     const double offset_s = nominal.truth.time_offset_s;
     for (const ActiveEffect& a : model.effects_in(c.recording.name))
       if (a.effect == "clock_rate") put_clock_right(*run, a.parameter("rate"), offset_s);

@@ -22,23 +22,25 @@ namespace {
 // Where the truth jumps time and again, these moments are left out of all recordings. Returns the jumps.
 std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
                                        const Vehicle& nominal) {
-  std::vector<TruthJump> all;
-  std::vector<std::vector<std::pair<double, double>>> of_each;
-  for (std::size_t r = 0; r < each.size(); ++r) {
+  std::vector<std::vector<TruthJump>> jumps(each.size());
+  std::vector<TimeStretches> of_each(each.size());
+  parallel_for(static_cast<int>(each.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
     const InnovationModel model = model_of(ready.calibration, r);
     const Result<InnovationRun> run = ready_run(*each[r], nominal);
-    of_each.emplace_back();
-    if (!run) continue;
-    for (const TruthJump& jump : truth_jumps(*run, model)) {
-      all.push_back(jump);
+    if (!run) return;
+    jumps[r] = truth_jumps(*run, model);
+    for (const TruthJump& jump : jumps[r]) {
       // On the wheels' clock, from one reading to another.
       const auto by_time = [](const WheelSample& w, double t) { return w.time_s < t; };
       const auto begin = run->wheels.begin(), end = run->wheels.end() - 1;
       const auto from = std::lower_bound(begin, end, jump.time_s.first - model.truth.time_offset_s, by_time),
                  to = std::lower_bound(begin, end, jump.time_s.second - model.truth.time_offset_s, by_time);
-      of_each.back().emplace_back((from == begin ? from : from - 1)->time_s, to->time_s);
+      of_each[r].emplace_back((from == begin ? from : from - 1)->time_s, to->time_s);
     }
-  }
+  });
+  std::vector<TruthJump> all;
+  for (const std::vector<TruthJump>& of : jumps) all.insert(all.end(), of.begin(), of.end());
   if (!ready.truth_jumps && !are_of_the_truth(all)) return {};
   for (std::size_t r = 0; r < each.size(); ++r) {
     TimeStretches& left_out_s = each[r]->left_out_s;

@@ -78,6 +78,7 @@ Effect of_wheel(Wheel wheel) {
         (wheel != Wheel::left && hovers_about(shape[0], view, &EffectStep::right_radps, &EffectStep::right_m)))
       return std::vector<Motions>{Motions(view.steps.size())};
     Motions m;
+    m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) {
       const double l = std::abs(s.left_radps) > shape[0] ? s.left_m : 0.0;
       const double r = std::abs(s.right_radps) > shape[0] ? s.right_m : 0.0;

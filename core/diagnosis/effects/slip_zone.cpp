@@ -74,8 +74,11 @@ std::vector<Effect> slip_zone() {
         for (double y = y0; y <= y1 + 0.5 * stride; y += stride) {
           bool visited = false;
           for (const DriveView& v : views) {
-            for (std::size_t i = 0; i < v.steps.size() && !visited; i += 10)
-              visited = length(v.steps[i].position - Vec2{x, y}) < radius + 0.5 * v.drive.wheelbase_m;
+            const double reach_m = radius + 0.5 * v.drive.wheelbase_m;
+            for (std::size_t i = 0; i < v.steps.size() && !visited; i += 10) {
+              const Vec2 to = v.steps[i].position - Vec2{x, y};
+              visited = dot(to, to) < reach_m * reach_m;
+            }
             if (visited) break;
           }
           if (visited) shapes.push_back({x, y, radius});

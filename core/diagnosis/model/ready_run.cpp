@@ -33,6 +33,7 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     const auto r = static_cast<std::size_t>(i);
     runs[r] = ready_run(checked[r], vehicle);
     if (!runs[r]) return;
+    runs[r]->accelerations = wheel_accelerations(runs[r]->wheels);
     const InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
     const double longest_s = averaging_s(*runs[r]);
     runs[r]->set_aside = outlying(*runs[r], model);
