@@ -31,13 +31,15 @@ double Climb::share_before(double share_of_way) const {
   return 0.5 * (1.0 + u * u * u);
 }
 
-// What lies at a place: met within so far of it, and climbed so; no length: as long as it is met.
+// What lies at a place: met within so far of it, and climbed so, in its middle or at its edge; no length: as long as it
+// is met.
 struct Lying {
   double reach_m;
   Climb climb;
+  bool at_its_edge = false;
 };
-constexpr Lying kLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}}, {0.1, {0.1}},
-                            {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {}}};
+constexpr Lying kLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}},       {0.1, {0.1}},
+                            {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {0.06}, true}, {0.1, {}}};
 
 double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
@@ -72,9 +74,10 @@ struct Steps {
   std::size_t first, last;
 };
 
+constexpr double kLongest_s = 1.0;
+
 // So much of a wheel's way about the middle of a step.
 Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
-  constexpr double kLongest_s = 1.0;
   const double at_s = view.steps[middle].time_s;
   Steps s{middle, middle};
   double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
@@ -82,6 +85,16 @@ Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double
     before += std::abs(way(wheel, view.steps[--s.first]));
   while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongest_s)
     behind += std::abs(way(wheel, view.steps[++s.last]));
+  return s;
+}
+
+// So much of a wheel's way from a step on.
+Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double length_m) {
+  Steps s{first, first};
+  double gone = std::abs(way(wheel, view.steps[first]));
+  while (s.last + 1 < view.steps.size() && gone < length_m &&
+         view.steps[s.last].time_s - view.steps[first].time_s < kLongest_s)
+    gone += std::abs(way(wheel, view.steps[++s.last]));
   return s;
 }
 
@@ -110,7 +123,7 @@ struct Visit {
   Wheel wheel;
   Steps met;
   std::size_t nearest;
-  double away_m;
+  double away_m2;  // squared
 };
 
 // Empty where no such wheel ever comes there.
@@ -120,20 +133,22 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
   for (const Wheel wheel : {Wheel::left, Wheel::right}) {
     if (which != Wheel::both && which != wheel) continue;
     view.steps_near(place, lying.reach_m + 0.5 * b, [&](std::size_t i) {
-      const double away_m = length(contact(wheel, view.steps[i], b) - place);
-      if (away_m >= lying.reach_m) return;
+      const Vec2 away = contact(wheel, view.steps[i], b) - place;
+      const double away_m2 = dot(away, away);
+      if (away_m2 >= lying.reach_m * lying.reach_m) return;
       if (visits.empty() || visits.back().wheel != wheel || visits.back().met.last + 1 != i)
-        visits.push_back({wheel, {i, i}, i, away_m});
+        visits.push_back({wheel, {i, i}, i, away_m2});
       Visit& now = visits.back();
       now.met.last = i;
-      if (away_m < now.away_m) now.nearest = i, now.away_m = away_m;
+      if (away_m2 < now.away_m2) now.nearest = i, now.away_m2 = away_m2;
     });
   }
   if (visits.empty()) return {};
   std::vector<Motions::Stretch> stretches;
   for (Visit& v : visits) {
     if (const double length_m = lying.climb.length_m(radius_m(v.wheel, view)); length_m > 0.0)
-      v.met = steps_about(view, v.wheel, v.nearest, length_m);
+      v.met = lying.at_its_edge ? steps_from(view, v.wheel, v.met.first, length_m)
+                                : steps_about(view, v.wheel, v.nearest, length_m);
     stretches.push_back({v.met.first, v.met.last + 1});
   }
   Motions m(merged(std::move(stretches)));
@@ -220,7 +235,9 @@ Effect each_time(Wheel wheel) {
              "40 cm wide",
              "20 cm wide, climbed in 10 cm",
              "20 cm wide, climbed as what takes 4 mm",
-             "20 cm wide, climbed as what takes 15 mm"};
+             "20 cm wide, climbed as what takes 15 mm",
+             "20 cm wide, climbed in 6 cm at its edge"};
+  e.forms_of_the_scan = {0, 6};  // what begins at an edge is felt elsewhere, by where one comes from
   // As long as it is wide, and under either wheel, it would be a patch of floor.
   if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {

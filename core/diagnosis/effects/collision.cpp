@@ -20,7 +20,7 @@ std::vector<Effect> collision() {
   e.told_apart_by = "the same way driven again: a push does not come back";
   e.tests_of_a_shape = 0.5;  // moments 0.12 s apart are one, in whichever form, as long as the truth errs
   e.local = true;
-  e.form_of_the_scan = 1;  // half of the others' length is found by both
+  e.forms_of_the_scan = {1};  // half of the others' length is found by both
   e.of_one_recording = true;
   // Both wheels may stop half a count off, the other way than they set off.
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {

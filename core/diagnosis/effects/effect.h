@@ -96,12 +96,12 @@ struct Effect {
   // the number of one stands behind the shapes.
   std::vector<std::string> forms;
   std::vector<int>
-      simpler_form;          // of each form the one to be said where that is not plainly less likely; empty: itself
-  int form_of_the_scan = 0;  // where many shapes are scanned in one form only
-  std::string sentence;      // what it is, in words
-  std::string regime;        // where it acts, in words
-  std::vector<std::string> looks_like;  // effects that it is easily taken for
-  std::string told_apart_by;            // and the drive that decides
+      simpler_form;  // of each form the one to be said where that is not plainly less likely; empty: itself
+  std::vector<int> forms_of_the_scan = {0};  // where many shapes are scanned, not in every form
+  std::string sentence;                      // what it is, in words
+  std::string regime;                        // where it acts, in words
+  std::vector<std::string> looks_like;       // effects that it is easily taken for
+  std::string told_apart_by;                 // and the drive that decides
   // One for each amplitude: the motion for a value of 1 at this shape; empty where there is none in that drive.
   std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)> motions;
   // Whether such amplitudes are more than whole counts can feign, beside what holds for all that happens in one place

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
 
 namespace odolab {
 
@@ -98,10 +99,15 @@ class ShapeSearch {
   CandidateTest& best() { return out_.best; }
 
   std::vector<std::vector<double>> with_forms(const std::vector<std::vector<double>>& shapes, bool in_every_form) {
+    std::vector<int> forms = e_.forms_of_the_scan;
+    if (in_every_form) {
+      forms.resize(forms_);
+      std::iota(forms.begin(), forms.end(), 0);
+    }
     std::vector<std::vector<double>> with;
-    for (std::size_t form = 0; form < (in_every_form ? forms_ : 1); ++form)
+    for (const int form : forms)
       for (std::vector<double> s : shapes) {
-        s.push_back(static_cast<double>(in_every_form ? form : static_cast<std::size_t>(e_.form_of_the_scan)));
+        s.push_back(form);
         with.push_back(std::move(s));
       }
     return with;
