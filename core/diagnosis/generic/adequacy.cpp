@@ -225,13 +225,17 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
   // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
   if (names_held_against(joint, base) > names_held_against(joint, Base::stays)) fair = std::max(fair, by_names);
   const std::vector<GenericTest> generic = generic_tests(bare);
-  const auto beyond = [&](double gain, double margin) { return gain - by_form_of_base - (1.0 + margin) * by_names; };
+  const auto by_form = [&](const GenericTest& g) { return g.of_when_or_where ? 0.0 : by_form_of_base; };
+  const auto beyond = [&](const GenericTest& g, double gain, double margin) {
+    return gain - by_form(g) - (1.0 + margin) * by_names;
+  };
   const auto is_more = [&](const GenericTest& g, double gain, double margin = kMostLeft) {
-    return scaled_chi_square_tail(beyond(gain, margin) / g.test.inflation, g.test.freedom, g.test.batches) * g.tests <
+    return scaled_chi_square_tail(beyond(g, gain, margin) / g.test.inflation, g.test.freedom, g.test.batches) *
+               g.tests <
            error;
   };
   const auto is_as_much = [&](const GenericTest& g, double gain) {
-    return (gain - by_form_of_base) / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) >
+    return (gain - by_form(g)) / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) >
            fair - 2.0 * kClearlyBeaten;
   };
   const bool correlated = bare.distrust() > 0.0;
@@ -245,7 +249,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     if (!says_more && !is_as_much(*g, kept)) continue;
     if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
-    const double more = says_more ? beyond(kept, kMostLeft) : kept;
+    const double more = says_more ? beyond(*g, kept, kMostLeft) : kept;
     if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more);
   }
   return out;
@@ -292,9 +296,14 @@ InPlaceOfNames simpler_first(InPlaceOfNames instead, const std::vector<ScoredCan
 
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double error) {
+  // Groups share most of what they ask, and the bound over all of them is wide: of 116 sets of four programs in which
+  // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged.
+  constexpr double kShared = 6.0;
+  const std::ptrdiff_t names = names_held_against(joint, Base::goes);
+  const double of_what_is_left = names == 0 ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
-  look_again(joint, out.generic, error);
+  look_again(joint, out.generic, of_what_is_left);
   out.sway = sway_of(out.generic, error);
   double explained = 0.0;
   std::vector<ScoredCandidate> of_vehicle;
@@ -303,9 +312,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (e.effect->acts_on_motion()) of_vehicle.push_back(e);
   }
   std::vector<GenericTest> left_by_names = out.generic;
-  const std::ptrdiff_t names = names_held_against(joint, Base::goes);
   if (names > 0) out.ripples = ripples_taken_out(joint, left_by_names, error);
-  if (const Left left = what_is_left(joint, left_by_names, error); left.group) {
+  if (const Left left = what_is_left(joint, left_by_names, of_what_is_left); left.group) {
     const CandidateTest& test = left.group->test;
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
     if (!is_worth_saying(joint, calibrated, *left.group))

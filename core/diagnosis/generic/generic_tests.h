@@ -44,8 +44,9 @@ struct GenericTest {
     double to_either_side_m = 0.0, p_value = 1.0;
   };
   std::optional<Sway> sway;
-  double most_left = kMostLeft;  // more where a name is but its simplest form
-  double times_a_turn = 0.0;     // of a wheel, where it goes with its angle: a cosine and a sine for each recording
+  double most_left = kMostLeft;   // more where a name is but its simplest form
+  bool of_when_or_where = false;  // of the recording, the time or the place: no form of how a base follows its commands
+  double times_a_turn = 0.0;      // of a wheel, where it goes with its angle: a cosine and a sine for each recording
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/base/parallel.h"
+
 namespace odolab {
 
 namespace {
@@ -22,35 +24,75 @@ double hat(std::size_t k, double since_s) {
                                : (kSince_s[k + 1] - since_s) / (kSince_s[k + 1] - kSince_s[k]);
 }
 
-std::vector<Motions> responses(const DriveView& view, const std::vector<double>&) {
-  const std::vector<EffectStep>& steps = view.steps;
-  std::vector<Motions> out(kHats, Motions(steps.size()));
+constexpr double kChange = 1e-6;  // metres or radians per second; what is less is rounding
+
+// What follows changes of one motion that is told, in hats over the time since; of each change as much as `weight`
+// says of it, by the speeds before and after.
+template <typename WayOf, typename Weight, typename Add>
+void add_responses(const std::vector<EffectStep>& steps, WayOf way_of, Weight weight, Add add) {
   struct Change {
-    double at_s, by_mps, by_radps;
+    double at_s, by;
   };
-  constexpr double kChange = 1e-6;  // metres or radians per second; what is less is rounding
   std::vector<Change> changes;
   std::size_t oldest = 0;
-  double speed_mps = 0.0, yaw_rate_radps = 0.0;  // it stands before it is told to go
+  double before = 0.0;  // it stands before it is told to go
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const EffectStep& s = steps[i];
     if (s.duration_s <= 0.0) continue;
-    const double begins_s = s.time_s - 0.5 * s.duration_s;
-    const double now_mps = s.forward_m() / s.duration_s, now_radps = s.turn_rad / s.duration_s;
-    if (std::abs(now_mps - speed_mps) > kChange || std::abs(now_radps - yaw_rate_radps) > kChange)
-      changes.push_back({begins_s, now_mps - speed_mps, now_radps - yaw_rate_radps});
-    speed_mps = now_mps, yaw_rate_radps = now_radps;
+    const double now = way_of(s) / s.duration_s;
+    if (std::abs(now - before) > kChange)
+      if (const double by = weight(before, now); by != 0.0) changes.push_back({s.time_s - 0.5 * s.duration_s, by});
+    before = now;
     while (oldest < changes.size() && s.time_s - changes[oldest].at_s >= kSince_s[kHats]) ++oldest;
     for (std::size_t c = oldest; c < changes.size(); ++c)
-      for (std::size_t k = 0; k < kHats; ++k) {
-        const double by = s.duration_s * hat(k, s.time_s - changes[c].at_s);
-        if (by == 0.0) continue;
-        out[k][i].forward_m += by * changes[c].by_mps;
-        out[k][i].turn_rad += by * changes[c].by_radps;
-      }
+      for (std::size_t k = 0; k < kHats; ++k)
+        if (const double by = s.duration_s * hat(k, s.time_s - changes[c].at_s); by != 0.0)
+          add(k, i, by * changes[c].by);
   }
+}
+
+double change(double before, double now) { return now - before; }
+double slowing(double before, double now) { return std::abs(now) < std::abs(before) ? now - before : 0.0; }
+// In metres per second, for a wheel.
+double larger(double before, double now) { return (now - before) * std::abs(now - before); }
+
+std::vector<Motions> of_the_base(const DriveView& view, const std::vector<double>&) {
+  std::vector<Motions> out(kHats, Motions(view.steps.size()));
+  add_responses(
+      view.steps, [](const EffectStep& s) { return s.forward_m(); }, change,
+      [&](std::size_t k, std::size_t i, double by) { out[k][i].forward_m += by; });
+  add_responses(
+      view.steps, [](const EffectStep& s) { return s.turn_rad; }, change,
+      [&](std::size_t k, std::size_t i, double by) { out[k][i].turn_rad += by; });
   return out;
 }
+
+template <double (*weight)(double, double)>
+std::vector<Motions> of_each_wheel(const DriveView& view, const std::vector<double>&) {
+  std::vector<Motions> out(kHats, Motions(view.steps.size()));
+  for (const Wheel wheel : {Wheel::left, Wheel::right})
+    add_responses(
+        view.steps, [&](const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }, weight,
+        [&](std::size_t k, std::size_t i, double by) {
+          const BodyMotion m = by_wheel(wheel, by, view.drive.wheelbase_m);
+          out[k][i].forward_m += m.forward_m;
+          out[k][i].turn_rad += m.turn_rad;
+        });
+  return out;
+}
+
+struct StepResponse {
+  const char *variable, *channel;
+  std::vector<Motions> (*motions)(const DriveView&, const std::vector<double>&);
+};
+
+constexpr StepResponse kStepResponses[kStepResponseTests] = {
+    {"time since its command changed [s]", "pace, as a share of the change [1]", of_the_base},
+    {"time since a wheel was told to go more slowly [s]", "its pace, as a share of the change [1]",
+     of_each_wheel<slowing>},
+    {"time since a wheel's command changed by more [s]", "its pace, as a share of the change for each m/s of it [s/m]",
+     of_each_wheel<larger>},
+};
 
 // A base that acts on some changes sooner than on others takes them up bit by bit on the mean, and is behind its mean
 // time for a while: that is known noise. It is never ahead of what it was told.
@@ -73,19 +115,20 @@ void leave_to_timing(GenericTest& t, const JointModel& joint) {
 std::vector<GenericTest> step_response_tests(const AskedModel& asked, double looked_at) {
   const std::vector<DriveView>& views = asked.joint.views();
   if (!std::all_of(views.begin(), views.end(), [](const DriveView& v) { return v.from_commands; })) return {};
-  GenericTest t;
-  t.variable = "time since its command changed [s]";
-  t.channel = "pace, as a share of the change [1]";
-  t.most_left = kOfALag;
-  t.at.assign(std::begin(kSince_s), std::end(kSince_s) - 1);
-  auto term = std::make_shared<Effect>();
-  term->name = t.variable;
-  term->component = t.channel;
-  term->amplitudes.resize(kHats);
-  term->motions = responses;
-  ask(t, asked, term, looked_at);
-  leave_to_timing(t, asked.joint);
-  return {std::move(t)};
+  std::vector<GenericTest> tests(kStepResponseTests);
+  parallel_for(kStepResponseTests, [&](int i) {
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    auto term = std::make_shared<Effect>();
+    term->name = t.variable = kStepResponses[i].variable;
+    term->component = t.channel = kStepResponses[i].channel;
+    term->amplitudes.resize(kHats);
+    term->motions = kStepResponses[i].motions;
+    t.most_left = kOfALag;
+    t.at.assign(std::begin(kSince_s), std::end(kSince_s) - 1);
+    ask(t, asked, term, looked_at);
+    if (i == 0) leave_to_timing(t, asked.joint);  // which takes up all changes alike
+  });
+  return tests;
 }
 
 }  // namespace odolab

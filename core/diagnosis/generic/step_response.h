@@ -5,11 +5,12 @@
 
 namespace odolab {
 
-// One test, of recordings that hold only commands; else none. Hats over the time since a command changed: by what share
-// of the change, of speed and yaw rate alike, the base goes faster or slower than the model has it. A loop that
-// overshoots, ramps that are limited and brakes that take hold late show, whatever they are called. p values are over
-// `looked_at` tests.
+// Three tests, of recordings that hold only commands; else none. Hats over the time since a command changed: by what
+// share of the change, of speed and yaw rate alike, the base goes faster or slower than the model has it; by how much
+// more of it a wheel does that is told to go more slowly, which no lag tells from one that is told to go faster; and by
+// how much more where the change is larger. A loop that overshoots, wheels that coast, ramps that are limited and
+// brakes that take hold late show, whatever they are called. p values are over `looked_at` tests.
 std::vector<GenericTest> step_response_tests(const AskedModel& asked, double looked_at);
-constexpr int kStepResponseTests = 1;
+constexpr int kStepResponseTests = 3;
 
 }  // namespace odolab

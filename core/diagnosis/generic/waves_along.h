@@ -13,7 +13,7 @@ struct Axis {
   const char *name, *unit;
   double cell, shortest, longest;  // of a wave; beyond the longest it is another group's
 };
-constexpr Axis kAxes[] = {{Along::time, "time", "s", 0.1, 3.0, 1e300},
+constexpr Axis kAxes[] = {{Along::time, "time", "s", 0.1, 0.35, 1e300},
                           {Along::way, "way", "m", 0.02, 0.12, 20.0},
                           {Along::turning, "turning", "rad", 0.05, 0.25, 2.0 * kPi / 2.4},
                           // Gears before a wheel turn faster than it, belts and tracks slower.

@@ -173,6 +173,22 @@ TEST(Adequacy, CallsUnknownWhatIsInNoListThoughTheMountingIsTurnedBesides) {
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
 }
 
+// A castor that shimmies as it rolls turns the vehicle to and fro, too quickly to carry it anywhere.
+TEST(Adequacy, CallsACastorThatShimmiesUnknownAndSaysHowQuickly) {
+  constexpr double kSwings_rad = 0.002, kPeriod_s = 0.43;
+  test::Case c = case_of("", 1.0, 3, 12);
+  for (Recording& r : c.recordings)
+    for (Channel& channel : r.channels)
+      if (channel.name == "truth_heading_rad")
+        for (std::size_t i = 0; i < channel.values.size(); ++i)
+          channel.values[i] += kSwings_rad * std::sin(2.0 * kPi * r.time_s[i] / kPeriod_s);
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("waves of 0.43 s"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
 // A belt of its own stiffness between each wheel and its encoder: the wheel is behind by so much for each unit of its
 // rim's acceleration.
 TEST(Adequacy, CallsADriveUnknownThatYieldsToWhatItPushes) {

@@ -56,5 +56,53 @@ TEST(StepResponse, LeavesABaseThatCreepsUpToItsCommandsToItsLag) {
   EXPECT_NE(d.verdict, Verdict::unknown_effect);
 }
 
+// A stick that is pushed to somewhere else now and then; each wheel by itself makes of its command what `follow` says,
+// in a step of that time.
+std::vector<Recording> driven_by_wheels(double (*follow)(double wheel_mps, double command_mps, double step_s)) {
+  std::vector<Recording> recordings;
+  for (int number = 1; number <= 4; ++number) {
+    Random random(static_cast<std::uint64_t>(270 + number));
+    const double half_base_m = 0.5 * DifferentialDrive{}.wheelbase_m;
+    double left_mps = 0.0, right_mps = 0.0, next = 2000.0;
+    recordings.push_back(
+        test::commanded("run_" + std::to_string(number), 80000, random, [&](int i, test::CommandedBase& b) {
+          if (i > next) {
+            b.command_mps = random.uniform(-0.3, 0.6), b.command_radps = random.uniform(-0.9, 0.9);
+            next += random.uniform(1500.0, 4500.0);
+          }
+          left_mps = follow(left_mps, b.command_mps - half_base_m * b.command_radps, b.kStep_s);
+          right_mps = follow(right_mps, b.command_mps + half_base_m * b.command_radps, b.kStep_s);
+          b.speed_mps = 0.5 * (left_mps + right_mps);
+          b.yaw_rate_radps = 0.5 * (right_mps - left_mps) / half_base_m;
+        }));
+  }
+  return recordings;
+}
+
+// A motor drives its wheel within 40 ms; where it is told to go more slowly it lets the wheel run out.
+TEST(StepResponse, ShowsWheelsThatCoastWhereTheyAreToldToGoMoreSlowly) {
+  const Diagnosis d = diagnose(driven_by_wheels([](double wheel_mps, double command_mps, double step_s) {
+                                 const double within_s = std::abs(command_mps) < std::abs(wheel_mps) ? 0.25 : 0.04;
+                                 return wheel_mps + (command_mps - wheel_mps) * step_s / within_s;
+                               }),
+                               {}, Vehicle{})
+                          .value();
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect);
+  EXPECT_NE(d.findings.front().where.regime.find("told to go more slowly"), std::string::npos)
+      << d.findings.front().where.regime;
+}
+
+// A drive that limits accelerations takes longer over larger changes, which no lag does.
+TEST(StepResponse, ShowsADriveThatLimitsItsAccelerations) {
+  const Diagnosis d =
+      diagnose(driven_by_wheels([](double wheel_mps, double command_mps, double step_s) {
+                 constexpr double kMost_mps2 = 1.2;
+                 return wheel_mps + std::clamp(command_mps - wheel_mps, -kMost_mps2 * step_s, kMost_mps2 * step_s);
+               }),
+               {}, Vehicle{})
+          .value();
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect);
+}
+
 }  // namespace
 }  // namespace odolab

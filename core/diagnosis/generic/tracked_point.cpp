@@ -1,0 +1,124 @@
+#include "core/diagnosis/generic/tracked_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+// How far off the truth is along x and y of the floor, and in heading, for an amplitude of one.
+struct Off {
+  Vec2 by;
+  double turned_rad = 0.0;
+};
+using Offsets = std::function<void(int recording, double heading_rad, std::vector<Off>&)>;
+
+// What the truth says more than the body moves: from where it was off to where it is off now; and a body whose heading
+// is measured turned goes to the other side of that.
+std::vector<Motions> motions_of(const DriveView& view, const Offsets& offsets, std::size_t count) {
+  std::vector<Motions> out(count, Motions(view.steps.size()));
+  std::vector<Off> now(count), before(count);
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    offsets(view.number, s.heading_rad, now);
+    for (std::size_t k = 0; k < count && i > 0; ++k) {
+      const Vec2 by = now[k].by - before[k].by;
+      out[k][i] = {s.cos_heading * by.x_m + s.sin_heading * by.y_m,
+                   s.cos_heading * by.y_m - s.sin_heading * by.x_m - now[k].turned_rad * s.forward_m(),
+                   now[k].turned_rad - before[k].turned_rad};
+    }
+    std::swap(now, before);
+  }
+  return out;
+}
+
+// Once and twice a turn. Once a turn the same way round is where the point is mounted.
+constexpr std::size_t kOfPosition = 6, kOfHeading = 4;
+
+void position_by_heading(int, double heading_rad, std::vector<Off>& out) {
+  const double c = std::cos(heading_rad), s = std::sin(heading_rad), cc = std::cos(2.0 * heading_rad),
+               ss = std::sin(2.0 * heading_rad);
+  const Vec2 by[kOfPosition] = {{c, -s}, {s, c}, {cc, 0.0}, {ss, 0.0}, {0.0, cc}, {0.0, ss}};
+  for (std::size_t k = 0; k < kOfPosition; ++k) out[k].by = by[k];
+}
+
+void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
+  for (std::size_t k = 0; k < kOfHeading; ++k) {
+    const double turns = k < 2 ? 1.0 : 2.0;
+    out[k].turned_rad = k % 2 == 0 ? std::cos(turns * heading_rad) : std::sin(turns * heading_rad);
+  }
+}
+
+// Ahead, to the left and turned, in each recording but the first.
+void mounting_by_recording(int recording, double heading_rad, std::vector<Off>& out) {
+  std::fill(out.begin(), out.end(), Off{});
+  const std::size_t first = 3 * static_cast<std::size_t>(recording - 1);
+  if (recording == 0 || first >= out.size()) return;  // a run that was not fitted
+  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+  out[first].by = {c, s}, out[first + 1].by = {-s, c}, out[first + 2].turned_rad = 1.0;
+}
+
+GenericCurve curve_of(const char* channel, const Offsets& offsets, std::size_t count,
+                      const std::function<double(const Off&)>& part) {
+  constexpr int kPoints = 49;
+  GenericCurve curve;
+  curve.variable = "heading [rad]";
+  curve.channel = channel;
+  std::vector<Off> off(count);
+  for (int i = 0; i < kPoints; ++i) {
+    curve.at.push_back(kPi * (2.0 * i / (kPoints - 1) - 1.0));
+    offsets(0, curve.at.back(), off);
+    std::vector<double>& by = curve.basis.emplace_back();
+    for (const Off& o : off) by.push_back(part(o));
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double looked_at) {
+  struct Asked {
+    const char *variable, *channel;
+    std::size_t amplitudes;
+    Offsets offsets;
+    std::vector<GenericCurve> curves;
+  };
+  std::vector<Asked> all = {
+      {"heading",
+       "truth's position",
+       kOfPosition,
+       position_by_heading,
+       {curve_of("truth off along x [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.x_m; }),
+        curve_of("truth off along y [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.y_m; })}},
+      {"heading",
+       "truth's heading",
+       kOfHeading,
+       heading_by_heading,
+       {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
+                 [](const Off& o) { return o.turned_rad; })}}};
+  if (const std::size_t runs = asked.joint.views().size(); runs > 1)
+    all.push_back({"recording", "truth's tracked point", 3 * (runs - 1), mounting_by_recording, {}});
+  std::vector<GenericTest> tests(all.size());
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    const auto& [variable, channel, amplitudes, offsets, curves] = all[static_cast<std::size_t>(i)];
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    auto term = std::make_shared<Effect>();
+    term->name = t.variable = variable;
+    term->component = t.channel = channel;
+    t.component = "truth";
+    t.curves = curves;
+    term->amplitudes.resize(amplitudes);
+    term->motions = [of = offsets, count = amplitudes](const DriveView& view, const std::vector<double>&) {
+      return motions_of(view, of, count);
+    };
+    ask(t, asked, std::move(term), looked_at);
+  });
+  return tests;
+}
+
+}  // namespace odolab

@@ -1,0 +1,16 @@
+// Whether the point that the truth tracks is elsewhere on the vehicle, or its heading is measured otherwise, as the
+// vehicle heads otherwise or from recording to recording.
+#pragma once
+
+#include "core/diagnosis/generic/generic_tests.h"
+
+namespace odolab {
+
+// Three tests: the position and the heading that are measured, each by what goes once and twice a turn of the heading;
+// and where the point is mounted, in each recording. A marker that is seen from one side and another from behind, an
+// antenna in the shade of what it stands on, a compass beside iron and a marker that was put on anew, by less than
+// `moved_mounting` puts right, show. p values are over `looked_at` tests.
+std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double looked_at);
+constexpr int kTrackedPointTests = 3;
+
+}  // namespace odolab
