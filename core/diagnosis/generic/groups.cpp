@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/generic/hats.h"
 
 namespace odolab {
 
@@ -30,20 +31,12 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views,
     const double x = 0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low));
     if (g.at.empty() || x > g.at.back() + std::max(0.02 * (high - low), least)) g.at.push_back(x);
   }
-  const std::vector<double> at = g.at;
-  g.values = [at, variable](const DriveView& view, std::vector<std::vector<double>>& out) {
-    out.assign(at.size(), std::vector<double>(view.steps.size(), 0.0));
+  g.values = [hats = Hats(g.at), variable](const DriveView& view, std::vector<std::vector<double>>& out) {
+    out.assign(hats.size(), std::vector<double>(view.steps.size(), 0.0));
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const double x = std::clamp(variable(view.steps[i]), at.front(), at.back());
-      std::size_t k = 0;
-      while (k + 2 < at.size() && at[k + 1] < x) ++k;
-      if (at.size() == 1) {
-        out[0][i] = 1.0;
-        continue;
-      }
-      const double share = (x - at[k]) / (at[k + 1] - at[k]);
-      out[k][i] = 1.0 - share;
-      out[k + 1][i] = share;
+      const Hats::Shares s = hats.of(variable(view.steps[i]));
+      out[s.first][i] = s.of_first;
+      if (s.of_next > 0.0) out[s.first + 1][i] = s.of_next;
     }
   };
   return g;

@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/generic/hats.h"
 
 namespace odolab {
 
@@ -34,12 +35,10 @@ std::vector<Motions> motions_of(const DriveView& view, const Lateness& lateness,
 
 constexpr std::size_t kHats = 8, kPolynomials = 5;
 
-void add_hats(double at, double end, std::vector<double>& out) {
-  const double place = std::clamp(at / end, 0.0, 1.0) * (kHats - 1);
-  const auto k = std::min(static_cast<std::size_t>(place), kHats - 2);
-  std::fill(out.begin(), out.end(), 0.0);
-  out[k] = 1.0 - (place - static_cast<double>(k));
-  out[k + 1] = place - static_cast<double>(k);
+Hats hats_until(double end_s) {
+  std::vector<double> at_s;
+  for (std::size_t k = 0; k < kHats; ++k) at_s.push_back(end_s * static_cast<double>(k) / (kHats - 1));
+  return Hats(std::move(at_s));
 }
 
 }  // namespace
@@ -59,16 +58,19 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
     const bool by_time = i == 0;
     const std::size_t count = by_time ? kHats : kPolynomials;
     const Lateness lateness =
-        by_time
-            ? Lateness([=](const EffectStep& s, std::vector<double>& out) { add_hats(s.since_start_s, end_s, out); })
-            : Lateness([=](const EffectStep& s, std::vector<double>& out) {
-                const double u = (s.position.x_m - middle.x_m) / half_m, v = (s.position.y_m - middle.y_m) / half_m;
-                out = {u, v, u * u, u * v, v * v};
-              });
+        by_time ? Lateness([hats = hats_until(end_s)](const EffectStep& s, std::vector<double>& out) {
+          const Hats::Shares shares = hats.of(s.since_start_s);
+          std::fill(out.begin(), out.end(), 0.0);
+          out[shares.first] = shares.of_first;
+          out[shares.first + 1] = shares.of_next;
+        })
+                : Lateness([=](const EffectStep& s, std::vector<double>& out) {
+                    const double u = (s.position.x_m - middle.x_m) / half_m, v = (s.position.y_m - middle.y_m) / half_m;
+                    out = {u, v, u * u, u * v, v * v};
+                  });
     t.variable = by_time ? "time since the start [s]" : "place on the floor";
     t.channel = "truth late by [s]";
-    if (by_time)
-      for (std::size_t k = 0; k < kHats; ++k) t.at.push_back(end_s * static_cast<double>(k) / (kHats - 1));
+    if (by_time) t.at = hats_until(end_s).at();
     auto term = std::make_shared<Effect>();
     term->name = t.variable;
     term->component = t.channel;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/hats.h"
 
 namespace odolab {
 
@@ -17,7 +18,7 @@ using Told = std::function<double(const EffectStep&)>;
 // Where hats stand, as shares of the fastest: closer where a base is deaf to what is small.
 constexpr double kAt[] = {0.0, 0.06, 0.12, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0};
 
-std::vector<double> places_of(const std::vector<DriveView>& views, const std::vector<Told>& told) {
+Hats hats_of(const std::vector<DriveView>& views, const std::vector<Told>& told) {
   double fastest = 0.0;
   for (const DriveView& v : views)
     for (const EffectStep& s : v.steps)
@@ -26,13 +27,7 @@ std::vector<double> places_of(const std::vector<DriveView>& views, const std::ve
   std::vector<double> at;
   if (fastest > 0.0)
     for (const double share : kAt) at.push_back(share * fastest);
-  return at;
-}
-
-double hat(const std::vector<double>& at, std::size_t k, double x) {
-  if (x <= at[k]) return k == 0 || x <= at[k - 1] ? (k == 0 ? 1.0 : 0.0) : (x - at[k - 1]) / (at[k] - at[k - 1]);
-  if (k + 1 == at.size()) return 1.0;
-  return x >= at[k + 1] ? 0.0 : (at[k + 1] - x) / (at[k + 1] - at[k]);
+  return Hats(std::move(at));
 }
 
 // What goes further by its own speed: a wheel, or the base in one of its two motions.
@@ -42,22 +37,22 @@ struct Law {
 };
 
 // Laws that share their hats are one.
-std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, std::vector<double>>>& laws) {
+std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, Hats>>& laws) {
   auto term = std::make_shared<Effect>();
   std::size_t count = 0;
-  for (const auto& [of, at] : laws) count += at.size();
+  for (const auto& [of, hats] : laws) count += hats.size();
   term->amplitudes.resize(count);
   term->motions = [laws](const DriveView& view, const std::vector<double>&) {
     std::vector<Motions> out;
-    for (const auto& [of, at] : laws)
-      for (std::size_t k = 0; k < at.size(); ++k) {
+    for (const auto& [of, hats] : laws)
+      for (std::size_t k = 0; k < hats.size(); ++k) {
         Motions motions(view.steps.size());
         for (std::size_t i = 0; i < view.steps.size(); ++i)
           for (const Law& law : of) {
             const EffectStep& s = view.steps[i];
             const double way = law.told(s);
             if (way == 0.0 || s.duration_s <= 0.0) continue;
-            const BodyMotion m = law.motion(way * hat(at, k, std::abs(way) / s.duration_s), view);
+            const BodyMotion m = law.motion(way * hats.of(k, std::abs(way) / s.duration_s), view);
             motions[i].forward_m += m.forward_m;
             motions[i].turn_rad += m.turn_rad;
           }
@@ -69,10 +64,10 @@ std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, st
 }
 
 // What hats that begin with `first` of so many come to.
-GenericCurve curve_over(const std::vector<double>& at, std::size_t first, std::size_t count, const char* variable,
+GenericCurve curve_over(const Hats& hats, std::size_t first, std::size_t count, const char* variable,
                         const char* channel) {
-  GenericCurve curve{variable, channel, at, {}};
-  for (std::size_t k = 0; k < at.size(); ++k) {
+  GenericCurve curve{variable, channel, hats.at(), {}};
+  for (std::size_t k = 0; k < hats.size(); ++k) {
     curve.basis.emplace_back(count, 0.0);
     curve.basis.back()[first + k] = 1.0;
   }
@@ -103,7 +98,7 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
   const auto hats = [&](const std::vector<Law>& laws) {
     std::vector<Told> told;
     for (const Law& law : laws) told.push_back(law.told);
-    return places_of(views, told);
+    return hats_of(views, told);
   };
   std::vector<GenericTest> tests(kToldSpeedTests);
   parallel_for(kToldSpeedTests, [&](int i) {
@@ -111,7 +106,7 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
     const bool of_wheels = i == 0;
     t.variable = of_wheels ? "the speed that the wheel is told [m/s]" : "the speed and yaw rate that it is told";
     t.channel = of_wheels ? "way of each wheel per metre [1]" : "forward and turn, as shares of what it is told [1]";
-    const std::vector<double> speeds = hats(of_wheels ? wheels : forward), rates = hats(turn);
+    const Hats speeds = hats(of_wheels ? wheels : forward), rates = hats(turn);
     const std::shared_ptr<Effect> term =
         of_wheels ? term_of({{wheels, speeds}}) : term_of({{forward, speeds}, {turn, rates}});
     term->name = t.variable;

@@ -8,18 +8,16 @@
 #include "core/diagnosis/naming/clocks_first.h"
 #include "core/diagnosis/naming/compared_names.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
+#include "core/diagnosis/naming/let_in.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
-#include "core/diagnosis/naming/own_noise.h"
+#include "core/diagnosis/naming/standing.h"
 
 namespace odolab {
 
 namespace {
 
 constexpr int kMostEffects = 4;
-// A form is never quite that of the world: what is left of a strong effect is not another one, the less so one that
-// looks like it.
-constexpr double kLeastShare = 0.01, kLeastShareOfEvents = 0.03, kLeastShareBesideItsLike = 0.05;
 
 // The same of what could look like the effect (JointModel::can_look_like): a form that is wrong by a fourteenth, and
 // everywhere in the way of the effect.
@@ -28,127 +26,8 @@ constexpr double kLeastShareWhereBothShow = 0.5;  // of the shares above
 // Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
 constexpr double kComparable = 0.5;
 
-// Of all the evidence, that an effect must have beside those that are let in. Where innovations are correlated a small
-// share is believed as little as an event's.
-double least_share(const JointModel& joint, const Effect& effect, const CandidateTest& test, double distrust) {
-  if (effect.local && !test.value.empty() && happens_within_another(joint, effect, test)) return kFormError;
-  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
-                  [&](const AcceptedEffect& a) { return looks_like(*a.effect, effect); }))
-    return kLeastShareBesideItsLike;
-  return effect.local ? kLeastShareOfEvents : std::lerp(kLeastShare, kLeastShareOfEvents, distrust);
-}
-
-// An accepted effect as it stands, held against nothing else.
-ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
-  const AcceptedEffect& a = joint.accepted[accepted];
-  ScoredCandidate c;
-  c.effect = a.effect;
-  c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
-  c.test.shape = a.shape;
-  judge(c);
-  return c;
-}
-
-// What happens in one place or at one moment is judged by how large it seems in all others. While it is left out of the
-// model it shows in all that comes behind it, the more so the smaller the noise is: others' scatter is then taken from
-// the model that has it.
-void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<ScoredCandidate>& left_out) {
-  for (ScoredCandidate& c : left_out) {
-    if (!c.effect->local) continue;
-    for (const ScoredCandidate& other : with_all)
-      if (other.effect == c.effect) c.test.inflation = other.test.inflation;
-    judge(c);
-  }
-}
-
-bool stands(const ScoredCandidate& c, double family_wise_error) {
-  return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
-}
-
-// How little the likelihood is to be believed of a candidate: not at all less where it would stand though all scattered
-// as much more as correlated innovations let it.
-double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error) {
-  constexpr double kPerOdds = 2.0;  // at most: a factor without bounds as the correlation nears what is not believed
-  const double distrust = joint.distrust(c.effect->local);
-  if (distrust == 0.0 || distrust >= 1.0) return distrust;
-  ScoredCandidate doubted = c;
-  doubted.test.inflation *= std::min(1.0 + kPerOdds * distrust / (1.0 - distrust), joint.wider_by_correlation());
-  judge(doubted);
-  return doubted.p_value < family_wise_error ? 0.0 : distrust;
-}
-
-// A size at the end of what any vehicle has is none: it stands for something else.
-bool is_at_its_bound(const AcceptedEffect& a) {
-  for (std::size_t k = 0; k < a.value.size(); ++k) {
-    const Effect::Amplitude& of = a.effect->amplitudes[k];
-    if (a.value[k] != 0.0 && (a.value[k] <= of.low || a.value[k] >= of.high)) return true;
-  }
-  return false;
-}
-
-// Twice what the log-likelihood gains by it under the noise as it is; of a lag with the noise that it leaves, since how
-// evenly commands are acted on is asked of the motion that lags.
-double let_in(JointModel& joint, const ScoredCandidate& c) {
-  AcceptedEffect a;
-  a.effect = c.effect;
-  a.shape = c.test.shape;
-  if (c.effect->shape_follows_amplitude) a.shape[0] = std::max(c.test.value[0], 1e-4);
-  a.value.assign(c.test.value.size(), 0.0);
-  const auto coarser = std::find_if(joint.accepted.begin(), joint.accepted.end(),
-                                    [&](const AcceptedEffect& other) { return is_finer(*a.effect, *other.effect); });
-  if (coarser != joint.accepted.end()) {
-    for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = coarser->value[k % coarser->value.size()];
-    joint.accepted.erase(coarser);
-  }
-  const double without = c.effect->only_commands ? joint.minus_two_log_likelihood() : 0.0;
-  joint.accepted.push_back(a);
-  double gained = joint.fit(3);
-  // A shape that is the amplitude itself follows it by halves, and a lag goes a long way against the clock's offset.
-  constexpr int kMostRounds = 8;
-  constexpr double kSettled = 0.02;
-  const auto settled = [&] {
-    const AcceptedEffect& now = joint.accepted.back();
-    return !now.effect->shape_follows_amplitude ||
-           std::abs(now.shape[0] - now.value[0]) < kSettled * std::max(now.shape[0], 1e-3);
-  };
-  for (int round = 0; round < kMostRounds && !settled(); ++round) gained += joint.fit(3);
-  if (!c.effect->only_commands) return gained;
-  put_lag_where_likeliest(joint);
-  return without - joint.minus_two_log_likelihood();
-}
-
 // Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
 constexpr double kFewestForTheirNoise = 100.0;
-
-// What comes nearest is asked once more under the noise that it leaves, if nothing is beyond doubt: what is there
-// counts for more then, and what the noise is as good for counts for less. One moment moves no noise.
-void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
-  constexpr std::size_t kMost = 3;
-  constexpr double kWorthALook = 8.0;     // of the statistic
-  constexpr double kBeyondDoubt = -16.0;  // of the logarithm of its p value
-  constexpr double kGivenToAnyTerm =
-      1.05;  // by which noise makes a term larger where nothing is missing, 19 in 20 times
-  const auto tail = [](const ScoredCandidate* c) {
-    return std::log(std::max(chi_square_tail(c->test.judged(), c->test.freedom), 1e-300)) + c->log_tests;
-  };
-  std::vector<ScoredCandidate*> nearest;
-  for (ScoredCandidate& c : scored) {
-    if (!c.beyond_counts || c.test.judged() <= kWorthALook || of_the_same(joint, c)) continue;
-    if (tail(&c) < kBeyondDoubt) return;
-    if (!c.effect->of_one_recording) nearest.push_back(&c);
-  }
-  std::stable_sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) { return tail(a) < tail(b); });
-  if (nearest.size() > kMost) nearest.resize(kMost);
-  parallel_for(static_cast<int>(nearest.size()), [&](int i) {
-    ScoredCandidate& c = *nearest[static_cast<std::size_t>(i)];
-    JointModel with = joint;
-    let_in(with, c);
-    const CandidateTest again = scored_under_own_noise(with, !c.effect->local);
-    c.test.statistic = again.statistic / kGivenToAnyTerm;
-    if (!c.effect->local) c.test.inflation = again.inflation, c.test.cross_validated = again.cross_validated;
-    judge(c);
-  });
-}
 
 // One name after the other, then what each of them is worth beside the others.
 class Selection {
