@@ -41,6 +41,22 @@ Hats hats_until(double end_s) {
   return Hats(std::move(at_s));
 }
 
+Lateness by_time(const Hats& hats) {
+  return [hats](const EffectStep& s, std::vector<double>& out) {
+    const Hats::Shares shares = hats.of(s.since_start_s);
+    std::fill(out.begin(), out.end(), 0.0);
+    out[shares.first] = shares.of_first;
+    out[shares.first + 1] = shares.of_next;
+  };
+}
+
+Lateness by_place(Vec2 middle, double half_m) {
+  return [=](const EffectStep& s, std::vector<double>& out) {
+    const double u = (s.position.x_m - middle.x_m) / half_m, v = (s.position.y_m - middle.y_m) / half_m;
+    out = {u, v, u * u, u * v, v * v};
+  };
+}
+
 }  // namespace
 
 std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked_at) {
@@ -55,22 +71,13 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
   std::vector<GenericTest> tests(kLateTruthTests);
   parallel_for(kLateTruthTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    const bool by_time = i == 0;
-    const std::size_t count = by_time ? kHats : kPolynomials;
-    const Lateness lateness =
-        by_time ? Lateness([hats = hats_until(end_s)](const EffectStep& s, std::vector<double>& out) {
-          const Hats::Shares shares = hats.of(s.since_start_s);
-          std::fill(out.begin(), out.end(), 0.0);
-          out[shares.first] = shares.of_first;
-          out[shares.first + 1] = shares.of_next;
-        })
-                : Lateness([=](const EffectStep& s, std::vector<double>& out) {
-                    const double u = (s.position.x_m - middle.x_m) / half_m, v = (s.position.y_m - middle.y_m) / half_m;
-                    out = {u, v, u * u, u * v, v * v};
-                  });
-    t.variable = by_time ? "time since the start [s]" : "place on the floor";
+    const bool over_time = i == 0;
+    const std::size_t count = over_time ? kHats : kPolynomials;
+    const Hats hats = hats_until(end_s);
+    const Lateness lateness = over_time ? by_time(hats) : by_place(middle, half_m);
+    t.variable = over_time ? "time since the start [s]" : "place on the floor";
     t.channel = "truth late by [s]";
-    if (by_time) t.at = hats_until(end_s).at();
+    if (over_time) t.at = hats.at();
     auto term = std::make_shared<Effect>();
     term->name = t.variable;
     term->component = t.channel;
