@@ -8,6 +8,7 @@
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
+#include "core/diagnosis/drawn_truth.h"
 #include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/obeying_wheels.h"
@@ -51,6 +52,17 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   const std::vector<TruthSample> truth = truth_samples(recording);
   if (wheels.size() < 4 || truth.size() < 4) return out;
 
+  if (const TimeStretches drawn = drawn_truth(truth); !drawn.empty()) {
+    std::vector<char> lies_on_a_line;
+    std::size_t k = 0;
+    for (const double t : out.recording.time_s) {
+      while (k < drawn.size() && t >= drawn[k].second) ++k;
+      lies_on_a_line.push_back(k < drawn.size() && t > drawn[k].first);
+    }
+    leave_truth_out(out.recording, lies_on_a_line);
+    out.warnings.push_back(recording.name + ": the truth goes in a straight line " + times_text(drawn) +
+                           ", as where gaps are filled: left out");
+  }
   DataFault frozen{"truth_frozen", "truth", recording.name, frozen_truth(truth, wheels, drive), ""};
   if (!frozen.time_s.empty()) {
     std::vector<char> repeated;

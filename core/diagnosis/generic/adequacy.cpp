@@ -224,7 +224,8 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
   double fair = beyond_chance(evidence);
   // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
   if (names_held_against(joint, base) > names_held_against(joint, Base::stays)) fair = std::max(fair, by_names);
-  const std::vector<GenericTest> generic = generic_tests(bare);
+  std::vector<GenericTest> generic = generic_tests(bare);
+  std::erase_if(generic, std::mem_fn(&GenericTest::carries_nowhere));
   const auto by_form = [&](const GenericTest& g) { return g.of_when_or_where ? 0.0 : by_form_of_base; };
   const auto beyond = [&](const GenericTest& g, double gain, double margin) {
     return gain - by_form(g) - (1.0 + margin) * by_names;
@@ -263,11 +264,13 @@ std::optional<Adequacy::Sway> sway_of(const std::vector<GenericTest>& generic, d
   return Adequacy::Sway{clearest->variable, clearest->sway->to_either_side_m};
 }
 
-// Takes out what goes with a wheel's turns and makes dead reckoning no better.
+// Takes out what comes and goes too soon to carry the vehicle anywhere, and what goes with a wheel's turns and makes
+// dead reckoning no better.
 std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::vector<GenericTest>& generic,
                                                 double error) {
   std::vector<Adequacy::Ripple> ripples;
   std::erase_if(generic, [&](const GenericTest& g) {
+    if (g.carries_nowhere) return true;
     if (g.times_a_turn == 0.0 || g.p_value >= error) return false;
     JointModel with = joint;
     let_in(with, g);
@@ -297,10 +300,12 @@ InPlaceOfNames simpler_first(InPlaceOfNames instead, const std::vector<ScoredCan
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double error) {
   // Groups share most of what they ask, and the bound over all of them is wide: of 116 sets of four programs in which
-  // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged.
+  // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged; and
+  // of a base that is driven by its commands, whose lag may be too small to be let in.
   constexpr double kShared = 6.0;
   const std::ptrdiff_t names = names_held_against(joint, Base::goes);
-  const double of_what_is_left = names == 0 ? kShared * error : error;
+  const bool commands = std::any_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands));
+  const double of_what_is_left = names == 0 && !commands ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, of_what_is_left);

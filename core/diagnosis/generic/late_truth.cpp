@@ -33,7 +33,7 @@ std::vector<Motions> motions_of(const DriveView& view, const Lateness& lateness,
   return out;
 }
 
-constexpr std::size_t kHats = 8, kPolynomials = 5;
+constexpr std::size_t kHats = 8, kPolynomials = 5, kOfMotion = 2;
 
 Hats hats_until(double end_s) {
   std::vector<double> at_s;
@@ -57,6 +57,11 @@ Lateness by_place(Vec2 middle, double half_m) {
   };
 }
 
+// What is reckoned from a picture or a scan takes longer where more of it moves.
+void by_motion(const EffectStep& s, std::vector<double>& out) {
+  out = {std::abs(s.yaw_rate_radps), std::abs(s.speed_mps)};
+}
+
 }  // namespace
 
 std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked_at) {
@@ -68,24 +73,29 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
     if (!v.steps.empty()) end_s = std::max(end_s, v.steps.back().since_start_s);
   if (half_m < 1e-3 || end_s <= 0.0) return {};
   const Vec2 middle = 0.5 * (floor.low + floor.high);
-  std::vector<GenericTest> tests(kLateTruthTests);
-  parallel_for(kLateTruthTests, [&](int i) {
+  struct Asked {
+    const char* variable;
+    std::size_t amplitudes;
+    Lateness lateness;
+    std::vector<double> at;
+  };
+  const Hats hats = hats_until(end_s);
+  const std::vector<Asked> all = {{"time since the start [s]", kHats, by_time(hats), hats.at()},
+                                  {"place on the floor", kPolynomials, by_place(middle, half_m), {}},
+                                  {"yaw rate and speed", kOfMotion, by_motion, {}}};
+  std::vector<GenericTest> tests(all.size());
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    const auto& [variable, amplitudes, lateness, at] = all[static_cast<std::size_t>(i)];
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    const bool over_time = i == 0;
-    const std::size_t count = over_time ? kHats : kPolynomials;
-    const Hats hats = hats_until(end_s);
-    const Lateness lateness = over_time ? by_time(hats) : by_place(middle, half_m);
-    t.variable = over_time ? "time since the start [s]" : "place on the floor";
-    t.channel = "truth late by [s]";
-    if (over_time) t.at = hats.at();
     auto term = std::make_shared<Effect>();
-    term->name = t.variable;
-    term->component = t.channel;
-    term->amplitudes.resize(count);
-    term->motions = [=](const DriveView& view, const std::vector<double>&) {
-      return motions_of(view, lateness, count);
+    term->name = t.variable = variable;
+    term->component = t.channel = "truth late by [s]";
+    t.at = at;
+    term->amplitudes.resize(amplitudes);
+    term->motions = [of = lateness, count = amplitudes](const DriveView& view, const std::vector<double>&) {
+      return motions_of(view, of, count);
     };
-    ask(t, asked, term, looked_at);
+    ask(t, asked, std::move(term), looked_at);
   });
   return tests;
 }

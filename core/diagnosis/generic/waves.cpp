@@ -119,6 +119,8 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
                     ? wave.in_time() ? "carried across the floor [m/s]" : "carried across the floor, per metre [1]"
                     : name_of_channel(channel);
     if (is_of_a_wheel(wave.along)) t.times_a_turn = wave.per_unit;
+    constexpr double kQuick_s = 3.0;
+    t.carries_nowhere = wave.in_time() && wave.per_unit * kQuick_s > 1.0;
     const std::shared_ptr<const Effect> term = as_effect(wave, channel, runs);
     ask(t, asked, term, looked_at);
     leave_to_counting(t, asked.joint);
