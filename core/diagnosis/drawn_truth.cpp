@@ -12,8 +12,7 @@ namespace {
 // How far a sample is off the line from the one before to the one behind.
 struct OffTheLine {
   Vec2 by_m;
-  double by_rad = 0.0;
-  bool moves = false;
+  double by_rad = 0.0, way_m = 0.0;
 };
 
 OffTheLine off_the_line(const TruthSample& before, const TruthSample& here, const TruthSample& behind) {
@@ -21,7 +20,7 @@ OffTheLine off_the_line(const TruthSample& before, const TruthSample& here, cons
   const Vec2 step = behind.position - before.position;
   OffTheLine off;
   off.by_m = here.position - before.position - share * step;
-  off.moves = dot(step, step) > 0.0;
+  off.way_m = length(step);
   if (before.heading_rad && here.heading_rad && behind.heading_rad)
     off.by_rad =
         wrapped(*here.heading_rad - *before.heading_rad) - share * wrapped(*behind.heading_rad - *before.heading_rad);
@@ -42,7 +41,7 @@ bool trembles(const std::vector<OffTheLine>& off) {
 
 TimeStretches drawn_truth(const std::vector<TruthSample>& truth) {
   constexpr double kOfMeasured = 0.02;
-  constexpr std::size_t kInARow = 3;
+  constexpr std::size_t kInARow = 4;
   TimeStretches drawn;
   if (truth.size() < 20) return drawn;
   std::vector<OffTheLine> off;  // of all samples but the first and the last
@@ -50,15 +49,17 @@ TimeStretches drawn_truth(const std::vector<TruthSample>& truth) {
   for (std::size_t i = 1; i + 1 < truth.size(); ++i) {
     off.push_back(truth[i + 1].time_s > truth[i - 1].time_s ? off_the_line(truth[i - 1], truth[i], truth[i + 1])
                                                             : OffTheLine{});
-    if (!off.back().moves) continue;
+    if (off.back().way_m == 0.0) continue;
     metres.push_back(length(off.back().by_m));
     radians.push_back(std::abs(off.back().by_rad));
   }
   if (metres.size() < 20 || !trembles(off)) return drawn;
-  const double most_m = kOfMeasured * median(metres), most_rad = kOfMeasured * median(radians);
+  const double usual_m = median(metres), most_m = kOfMeasured * usual_m, most_rad = kOfMeasured * median(radians);
   std::size_t first = 0;
   for (std::size_t i = 0; i <= off.size(); ++i) {
-    if (i < off.size() && off[i].moves && length(off[i].by_m) <= most_m && std::abs(off[i].by_rad) <= most_rad)
+    // Where it hardly moves, a truth may tremble less.
+    if (i < off.size() && off[i].way_m > usual_m && length(off[i].by_m) <= most_m &&
+        std::abs(off[i].by_rad) <= most_rad)
       continue;
     if (i - first >= kInARow) drawn.emplace_back(truth[first].time_s, truth[i + 1].time_s);
     first = i + 1;
