@@ -29,6 +29,17 @@ std::string times_text(const TimeStretches& times) {
   return all;
 }
 
+// The rows within stretches, but for the first of each, and for the last where that is sound as well.
+std::vector<char> rows_within(const TimeStretches& stretches, const std::vector<double>& time_s, bool last_is_sound) {
+  std::vector<char> within;
+  std::size_t k = 0;
+  for (const double t : time_s) {
+    while (k < stretches.size() && (t > stretches[k].second || (last_is_sound && t == stretches[k].second))) ++k;
+    within.push_back(k < stretches.size() && t > stretches[k].first);
+  }
+  return within;
+}
+
 // Where a log begins with a base that is told to drive, what it was told before is not known, and a base that lags
 // follows it for so long.
 constexpr double kFollows_s = 1.0;
@@ -53,25 +64,13 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   if (wheels.size() < 4 || truth.size() < 4) return out;
 
   if (const TimeStretches drawn = drawn_truth(truth); !drawn.empty()) {
-    std::vector<char> lies_on_a_line;
-    std::size_t k = 0;
-    for (const double t : out.recording.time_s) {
-      while (k < drawn.size() && t >= drawn[k].second) ++k;
-      lies_on_a_line.push_back(k < drawn.size() && t > drawn[k].first);
-    }
-    leave_truth_out(out.recording, lies_on_a_line);
+    leave_truth_out(out.recording, rows_within(drawn, out.recording.time_s, true));
     out.warnings.push_back(recording.name + ": the truth goes in a straight line " + times_text(drawn) +
                            ", as where gaps are filled: left out");
   }
   DataFault frozen{"truth_frozen", "truth", recording.name, frozen_truth(truth, wheels, drive), ""};
   if (!frozen.time_s.empty()) {
-    std::vector<char> repeated;
-    std::size_t k = 0;
-    for (const double t : out.recording.time_s) {
-      while (k < frozen.time_s.size() && t > frozen.time_s[k].second) ++k;
-      repeated.push_back(k < frozen.time_s.size() && t > frozen.time_s[k].first);
-    }
-    leave_truth_out(out.recording, repeated);
+    leave_truth_out(out.recording, rows_within(frozen.time_s, out.recording.time_s, false));
     frozen.sentence = in_words_of_frozen(frozen.time_s.size());
     out.faults.push_back(frozen);
   }

@@ -80,13 +80,8 @@ std::vector<GenericTest> after_change_tests(const AskedModel& asked, double look
   std::vector<GenericTest> tests(kAfterChangeTests);
   parallel_for(kAfterChangeTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = kAfterChange[i].variable;
-    term->component = t.channel = kAfterChange[i].channel;
-    term->amplitudes.resize(kHats);
-    term->motions = kAfterChange[i].motions;
+    t = asked_of(asked, kAfterChange[i].variable, kAfterChange[i].channel, kHats, kAfterChange[i].motions, looked_at);
     t.at.assign(std::begin(kSince_s) + 1, std::end(kSince_s) - 1);
-    ask(t, asked, term, looked_at);
   });
   return tests;
 }

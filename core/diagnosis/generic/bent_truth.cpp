@@ -90,14 +90,12 @@ std::vector<GenericTest> bent_truth_tests(const AskedModel& asked, double looked
   parallel_for(kBentTruthTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const bool headings_too = i == 1;
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = "place on the floor";
-    term->component = t.channel = headings_too ? "truth's position and heading" : "truth's position";
-    term->amplitudes.resize(kFields);
-    term->motions = [floor, headings_too](const DriveView& view, const std::vector<double>&) {
-      return motions_of(view, floor, headings_too);
-    };
-    ask(t, asked, term, looked_at);
+    t = asked_of(
+        asked, "place on the floor", headings_too ? "truth's position and heading" : "truth's position", kFields,
+        [floor, headings_too](const DriveView& view, const std::vector<double>&) {
+          return motions_of(view, floor, headings_too);
+        },
+        looked_at);
     t.curves = {curve_along(true, floor), curve_along(false, floor)};
   });
   return tests;

@@ -56,6 +56,18 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   t.as_effect = std::move(term);
 }
 
+GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,
+                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at) {
+  GenericTest t;
+  auto term = std::make_shared<Effect>();
+  term->name = t.variable = variable;
+  term->component = t.channel = channel;
+  term->amplitudes.resize(amplitudes);
+  term->motions = std::move(motions);
+  ask(t, asked, std::move(term), looked_at);
+  return t;
+}
+
 std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const AskedModel asked_model(joint);
   const std::vector<DriveView>& views = joint.views();

@@ -1,6 +1,7 @@
 // Whether anything is left that the model does not describe, whatever its name: a generic basis in each channel.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,6 +74,10 @@ struct AskedModel {
 
 // Tests a group's term against the model, as one of so many that were looked at.
 void ask(GenericTest& test, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at);
+// The same of a term of so many amplitudes, with the motion of each in a drive.
+using MotionsOfTerm = std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)>;
+GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,
+                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at);
 
 // Hats, harmonics and polynomials of what the vehicle does and where it is, waves (`waves.h`) and what bends the truth
 // (`bent_truth.h`). Best first.

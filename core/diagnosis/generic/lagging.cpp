@@ -87,12 +87,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
   parallel_for(kLaggingTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const Lagging& of = kLagging[i];
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = of.variable;
-    term->component = t.channel = of.channel;
-    term->amplitudes.resize(of.amplitudes);
-    term->motions = of.motions;
-    ask(t, asked, term, looked_at);
+    t = asked_of(asked, of.variable, of.channel, of.amplitudes, of.motions, looked_at);
     leave_to_counts(t, asked.joint);
     if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
   });

@@ -87,15 +87,13 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const auto& [variable, amplitudes, lateness, at] = all[static_cast<std::size_t>(i)];
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = variable;
-    term->component = t.channel = "truth late by [s]";
+    t = asked_of(
+        asked, variable, "truth late by [s]", amplitudes,
+        [of = lateness, count = amplitudes](const DriveView& view, const std::vector<double>&) {
+          return motions_of(view, of, count);
+        },
+        looked_at);
     t.at = at;
-    term->amplitudes.resize(amplitudes);
-    term->motions = [of = lateness, count = amplitudes](const DriveView& view, const std::vector<double>&) {
-      return motions_of(view, of, count);
-    };
-    ask(t, asked, std::move(term), looked_at);
   });
   return tests;
 }

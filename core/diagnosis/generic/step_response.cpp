@@ -118,14 +118,10 @@ std::vector<GenericTest> step_response_tests(const AskedModel& asked, double loo
   std::vector<GenericTest> tests(kStepResponseTests);
   parallel_for(kStepResponseTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = kStepResponses[i].variable;
-    term->component = t.channel = kStepResponses[i].channel;
-    term->amplitudes.resize(kHats);
-    term->motions = kStepResponses[i].motions;
+    t = asked_of(asked, kStepResponses[i].variable, kStepResponses[i].channel, kHats, kStepResponses[i].motions,
+                 looked_at);
     t.most_left = kOfALag;
     t.at.assign(std::begin(kSince_s), std::end(kSince_s) - 1);
-    ask(t, asked, term, looked_at);
     if (i == 0) leave_to_timing(t, asked.joint);  // which takes up all changes alike
   });
   return tests;

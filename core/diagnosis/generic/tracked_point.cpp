@@ -107,16 +107,14 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const auto& [variable, channel, amplitudes, offsets, curves] = all[static_cast<std::size_t>(i)];
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = variable;
-    term->component = t.channel = channel;
+    t = asked_of(
+        asked, variable, channel, amplitudes,
+        [of = offsets, count = amplitudes](const DriveView& view, const std::vector<double>&) {
+          return motions_of(view, of, count);
+        },
+        looked_at);
     t.component = "truth";
     t.curves = curves;
-    term->amplitudes.resize(amplitudes);
-    term->motions = [of = offsets, count = amplitudes](const DriveView& view, const std::vector<double>&) {
-      return motions_of(view, of, count);
-    };
-    ask(t, asked, std::move(term), looked_at);
   });
   return tests;
 }

@@ -37,16 +37,12 @@ std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double look
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const Wheel wheel = i % 2 == 0 ? Wheel::left : Wheel::right;
     const int times_a_turn = i < 2 ? 2 : 3;
+    t = asked_of(
+        asked, std::string("its angle, ") + (times_a_turn == 2 ? "twice" : "three times") + " a turn",
+        std::string("way of the ") + (wheel == Wheel::left ? "left" : "right") + " wheel per metre [1]", 2 * runs,
+        [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, wheel, times_a_turn, runs); },
+        looked_at);
     t.times_a_turn = times_a_turn;
-    auto term = std::make_shared<Effect>();
-    term->name = t.variable = std::string("its angle, ") + (times_a_turn == 2 ? "twice" : "three times") + " a turn";
-    term->component = t.channel =
-        std::string("way of the ") + (wheel == Wheel::left ? "left" : "right") + " wheel per metre [1]";
-    term->amplitudes.resize(2 * runs);
-    term->motions = [=](const DriveView& view, const std::vector<double>&) {
-      return motions_of(view, wheel, times_a_turn, runs);
-    };
-    ask(t, asked, term, looked_at);
     leave_to_counting(t, asked.joint);
     for (std::size_t r = 0; r < runs; ++r)
       t.waves.push_back({"phase of " + t.variable + (runs > 1 ? ", recording " + std::to_string(r + 1) : "") + " [rad]",
