@@ -45,15 +45,15 @@ Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnos
   const Channel* x = recording.channel("truth_x_m");
   if (!x || used_s.empty()) return recording;
   std::vector<char> unused(recording.time_s.size(), 0);
-  std::ptrdiff_t samples = 0;
+  std::size_t found = 0;
   for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
     if (std::isnan(x->values[i])) continue;
-    ++samples;
     const auto at = std::lower_bound(used_s.begin(), used_s.end(), recording.time_s[i] - kSame_s);
-    if (at == used_s.end() || *at > recording.time_s[i] + kSame_s) unused[i] = 1;
+    const bool is_used = at != used_s.end() && *at <= recording.time_s[i] + kSame_s;
+    unused[i] = !is_used;
+    found += is_used;
   }
-  if (2 * std::count(unused.begin(), unused.end(), 1) > samples)
-    return recording;  // other stamps, or few samples by choice
+  if (2 * found < used_s.size()) return recording;  // their stamps are others
   leave_truth_out(recording, unused);
   return recording;
 }

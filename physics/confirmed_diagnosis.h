@@ -16,8 +16,8 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
                                       const Vehicle& nominal, const Progress& progress = {});
 
 // The recording without the truth that a diagnosis fitted on it set aside: outliers and what a tracker repeated say
-// nothing of the vehicle, and a simulation is not judged by them. As it is where the diagnosis does not know it by its
-// name, and where most of the truth would go (few samples taken by choice).
+// nothing of the vehicle, and a simulation is not judged by them; nor by what lies between samples that were taken far
+// apart, since a tracker smoothed it. As it is where the diagnosis does not know it by its name or its stamps.
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis);
 
 // A lesson's concealed robot drives all of its drives, and they are diagnosed; an error where one does not arrive.

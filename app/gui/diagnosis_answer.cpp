@@ -17,10 +17,10 @@ constexpr double kMove_s = 0.7;        // that a simulated track takes to where 
 constexpr double kOfDiagnosis = 0.75;  // of the time; the rest drives the tracks that are shown
 
 // Where a track is at the times of another; it walks along both.
-Track at_times_of(const Track& track, const Track& times) {
+Track at_times_of(const Track& track, const std::vector<TruthSample>& times) {
   Track out;
   std::size_t k = 0;
-  for (const TimedPose& t : times) {
+  for (const TruthSample& t : times) {
     if (track.empty()) break;
     while (k + 2 < track.size() && track[k + 1].time_s < t.time_s) ++k;
     const TimedPose &a = track[k], &b = track[std::min(k + 1, track.size() - 1)];
@@ -139,6 +139,7 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
       [&](int job, const std::atomic<bool>& stopped) {
         const auto r = static_cast<std::size_t>(job);
         Recording recording = named(answer.runs[r]);
+        const std::vector<TruthSample> recorded = truth_samples(recording);
         if (r < answer.fitted_on) recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
         const Result<Replay> replayed =
             replay_with(*model, answer.nominal, std::make_shared<const Recording>(std::move(recording)),
@@ -147,7 +148,7 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
           problems[r] = replayed.error().message();
           return;
         }
-        out.tracks[r] = at_times_of(replayed->simulated, replayed->truth);
+        out.tracks[r] = at_times_of(replayed->simulated, recorded);
         if (replayed->truth_has_headings) errors[r] = replayed->simulated_error;
       },
       {}, progress);
