@@ -4,10 +4,12 @@
 #include "app/cli/command.h"
 #include "app/cli/file_examples.h"
 #include "app/cli/internal_calibration.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
 #include "core/calibration/moved_mounting.h"
+#include "core/diagnosis/given_recordings.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "core/odometry/prediction.h"
@@ -55,17 +57,6 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
   return interrupted() ? "stopped" : held_out.text();
 }
 
-// Whether two recordings hold the same samples, as when both files of a pair were given.
-bool same_run(const Recording& a, const Recording& b) {
-  if (a.time_s != b.time_s || a.channels.size() != b.channels.size()) return false;
-  for (std::size_t c = 0; c < a.channels.size(); ++c)
-    for (std::size_t i = 0; i < a.time_s.size(); ++i) {
-      const double x = a.channels[c].values[i], y = b.channels[c].values[i];
-      if (x != y && !(std::isnan(x) && std::isnan(y))) return false;
-    }
-  return true;
-}
-
 void print_calibration(const LeastSquaresCalibration& calibration) {
   std::vector<std::vector<std::string>> rows{{"parameter", "before", "estimate", "+- (1 sigma)", "unit"}};
   for (const ParameterEstimate& p : calibration.parameters)
@@ -85,6 +76,7 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
 bool has_truth(const Recording& recording) { return truth_samples(recording).size() > 1; }
 
 int execute(const CalibrateOptions& options) {
+  if (const std::optional<Error> lost = overwritten({options.out}, options.recordings)) return bad_input(*lost);
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
   const bool from_outside = can_calibrate_externally(*nominal), from_inside = can_calibrate_internally(*nominal);
@@ -104,10 +96,7 @@ int execute(const CalibrateOptions& options) {
       if (wheel_samples(recordings[i], *drive).empty() && !command_samples(recordings[i]).empty())
         return bad_input({options.recordings[i], "commands alone",
                           "wheel rotation: how a base follows its commands is not calibrated yet"});
-  for (std::size_t i = 0; i < recordings.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (same_run(recordings[i], recordings[k]))
-        return bad_input({options.recordings[i], "the same run as in " + options.recordings[k], "each run once"});
+  if (const std::optional<Error> twice = given_twice(recordings, options.recordings)) return bad_input(*twice);
   // What both ways can calibrate is calibrated by the truth, where there is one.
   const bool by_truth = from_outside && (!from_inside || std::all_of(recordings.begin(), recordings.end(), has_truth));
   if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);

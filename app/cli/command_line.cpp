@@ -40,6 +40,18 @@ class CliArguments : public Arguments {
   CLI::App& app_;
 };
 
+// What is wrong with the command line. What is not known comes before what is missing: it may be the same, misspelt.
+std::string in_words(const CLI::ParseError& error, const std::vector<CLI::App*>& subcommands) {
+  for (const CLI::App* sub : subcommands) {
+    if (!sub->parsed()) continue;
+    const std::string command = "odolab " + sub->get_name();
+    for (const std::string& word : sub->remaining())
+      if (word.rfind("-", 0) == 0) return command + ": no option " + word + "; see " + command + " --help";
+    return command + ": " + error.what() + "; see " + command + " --help";
+  }
+  return "odolab: " + std::string(error.what()) + "; see odolab --help";
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -62,7 +74,7 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    print_error("odolab: " + std::string(error.what()) + "; see odolab --help");
+    print_error(in_words(error, subcommands));
     return kBadInput;
   }
   catch_interrupts();

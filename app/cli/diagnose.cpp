@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <filesystem>
 
 #include "app/cli/command.h"
 #include "app/cli/file_examples.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/diagnosis.h"
@@ -62,17 +62,13 @@ Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Er
       continue;
     }
     Error fault = *faults[i];
-    if (fault.where == loaded.recordings[i].name) fault.where = loaded.paths[i];
+    if (const std::string& name = loaded.recordings[i].name; !name.empty() && fault.where.rfind(name, 0) == 0)
+      fault.where.replace(0, name.size(), loaded.paths[i]);
     if (!skip_broken || fault.where == kEveryRecording) return fault;
     print_message("skipped: " + fault.message());
   }
   loaded = std::move(sound);
   return Done{};
-}
-
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return a == b || std::filesystem::equivalent(a, b, ignored);
 }
 
 Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, const FittedModel& model) {
@@ -86,6 +82,11 @@ Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, c
 }
 
 int execute(const DiagnoseOptions& options) {
+  std::vector<std::string> inputs = options.recordings;
+  inputs.insert(inputs.end(), options.hold_out.begin(), options.hold_out.end());
+  inputs.push_back(options.vehicle);
+  if (const std::optional<Error> lost = overwritten({options.json, options.model, options.html}, inputs))
+    return bad_input(*lost);
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
   if (const std::optional<Error> other = undiagnosed_kind(*nominal)) return bad_input(*other);
@@ -113,6 +114,7 @@ int execute(const DiagnoseOptions& options) {
   all.insert(all.end(), held_out->recordings.begin(), held_out->recordings.end());
   std::vector<std::string> paths = train->paths;
   paths.insert(paths.end(), held_out->paths.begin(), held_out->paths.end());
+  if (const std::optional<Error> twice = given_twice(all, paths)) return bad_input(*twice);
   make_names_differ(all, paths);
   const auto first_held_out = all.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
 

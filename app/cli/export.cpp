@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/cli/command.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/io/export/plotjuggler_csv.h"
 #include "core/io/export/tum_text.h"
@@ -68,6 +69,8 @@ Result<Done> write(const ExportOptions& options) {
 }
 
 int execute(const ExportOptions& options) {
+  if (const std::optional<Error> lost = overwritten({options.out}, {options.source, options.nominal}))
+    return bad_input(*lost);
   const Result<Done> done = write(options);
   if (!done && interrupted()) {
     print_error("stopped; nothing was written");

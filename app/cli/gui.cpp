@@ -28,7 +28,10 @@ Command gui_command() {
                      "in Diagnose: a robot whose missing physics is concealed, by number");
     arguments.flag("--dark", options->dark, "with --screenshot: light on dark");
   };
-  command.execute = [options] { return run_gui(*options); };
+  command.execute = [options] {
+    if (options->mystery < -1) return bad_input({"--mystery", std::to_string(options->mystery), "a number from 0"});
+    return run_gui(*options);
+  };
   return command;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/cli/command.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/io/bag/bag.h"
 #include "core/io/import/imported_recording.h"
@@ -78,6 +79,8 @@ std::optional<Error> read_words(ImportOptions& options) {
     if (!delimiter) return Error{"--delimiter", "'" + options.delimiter + "'", "comma, semicolon, tab or blank"};
     mapping.shape.delimiter = *delimiter;
   }
+  if (!options.delimiter.empty() && mapping.columns.empty())
+    return Error{"--delimiter", "no --map beside it", "time_s=COLUMN and others: what the columns of such text become"};
   if (options.period_s > 0.0) mapping.period_s = options.period_s;
   if (options.period_s < 0.0) return Error{"--period", text_of("%g", options.period_s), "seconds above 0"};
   return std::nullopt;
@@ -86,6 +89,9 @@ std::optional<Error> read_words(ImportOptions& options) {
 int execute(ImportOptions& options) {
   if (options.list) return list(options.sources);
   if (options.out.empty()) return bad_input({"import", "no --out", "--out with the recording to write, or --list"});
+  std::vector<std::string> inputs = options.sources;
+  inputs.insert(inputs.end(), {options.mapping, options.wishes.times});
+  if (const std::optional<Error> lost = overwritten({options.out}, inputs)) return bad_input(*lost);
   if (const auto error = read_words(options)) return bad_input(*error);
   const Result<ImportedFile> imported =
       import_into_csv(options.sources, options.wishes, options.out, terminal_progress("import"));

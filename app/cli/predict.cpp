@@ -1,5 +1,6 @@
 #include "app/cli/command.h"
 #include "app/cli/file_examples.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/obeyed_commands.h"
@@ -17,6 +18,8 @@ struct PredictOptions {
 };
 
 int execute(const PredictOptions& options) {
+  if (const std::optional<Error> lost = overwritten({options.out}, {options.recording, options.vehicle, options.model}))
+    return bad_input(*lost);
   const Result<Vehicle> vehicle = read_vehicle(options.vehicle);
   if (!vehicle) return bad_input(vehicle.error());
   const Result<ImportedRecording> loaded = load_recording(options.recording);

@@ -12,6 +12,7 @@
 #include "core/io/mismatch_csv.h"
 #include "core/io/model_toml.h"
 #include "core/io/number_text.h"
+#include "core/recording/same_samples.h"
 #include "physics/model_replay.h"
 
 namespace odolab {
@@ -106,6 +107,10 @@ void DiagnosisDesk::judge_runs() {
     if (!given_.vehicle || !run.problem.empty()) continue;
     if (const std::optional<Error> error = unusable(*run.recording, *given_.vehicle, run.name))
       run.problem = error->message();
+    for (const Run& other : given_.runs) {
+      if (&other == &run || !run.problem.empty()) break;
+      if (same_samples(*other.recording, *run.recording)) run.problem = "the same run as " + other.name;
+    }
     if (run.problem.empty())
       if (const std::optional<Error> fault = fault_in(*run.recording, *given_.vehicle))
         run.problem = fault->found + ", expected " + fault->expected;

@@ -1,7 +1,11 @@
 // Truth that was smoothed before it was recorded, or whose noise lasts for other reasons.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/recording/recording.h"
+#include "core/vehicle/vehicle.h"
 
 namespace odolab {
 
@@ -11,5 +15,10 @@ namespace odolab {
 // with it. Farther apart than the filter lasts, samples are independent again, and between smoothed samples there is
 // little to lose.
 Recording with_truth_apart(const Recording& recording, double apart_s);
+
+// The correlation of the truth's noise from one sample to the next where the wheels have rested for a second: of
+// positions or headings, whichever is larger. Nothing where there are too few such samples to tell 0.2 from 0.5.
+// Behind commands only this tells a tracker that smooths from a base that follows late.
+std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive);
 
 }  // namespace odolab

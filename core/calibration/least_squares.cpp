@@ -322,8 +322,9 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
     result.warnings.push_back(std::to_string(frozen) +
                               " truth samples repeat themselves while the wheels turn and were left out");
   if (fit.restarts() > 0)
-    result.warnings.push_back("the truth contradicts the wheels for 20 samples or more at " +
-                              std::to_string(fit.restarts()) + " places; the fit starts anew behind them");
+    result.warnings.push_back(
+        "the truth contradicts the wheels for 20 samples or more at " + std::to_string(fit.restarts()) +
+        (fit.restarts() == 1 ? " place; the fit starts anew behind it" : " places; the fit starts anew behind them"));
   if (result.outliers > 0.02 * samples)
     result.warnings.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
                               " truth samples contradict their neighbours and were set aside");
@@ -378,6 +379,11 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
     return next(c) < kNext && c.lasting_correlation < kWhite;
   };
   if (!all || is_white(*all) || all->correlation_after_1_s > kOfManoeuvres) return all;
+  // A base that follows its commands late correlates them as a tracker that smooths does, but not where it stands.
+  if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind); options.by_commands && drive) {
+    const std::optional<double> at_rest = correlation_at_rest(recordings, *drive);
+    if (at_rest && *at_rest <= kLasting) return all;
+  }
   // Clocks that run apart correlate them just so, and that is no noise.
   LeastSquaresOptions clocks_right = options;
   clocks_right.clocks = moved_clocks(recordings, *all, options);
@@ -428,14 +434,20 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
                                                         const Progress& progress) {
   std::vector<Recording> measured = recordings;
   std::vector<std::string> said;
+  bool all_are_computed = true;
   for (Recording& r : measured) {
-    if (std::optional<std::string> computed = warning_of_computed_truth(r)) said.push_back(std::move(*computed));
+    std::optional<std::string> computed = warning_of_computed_truth(r);
+    all_are_computed = all_are_computed && computed;
+    if (computed) said.push_back(std::move(*computed));
     if (std::optional<MeasuredRecording> corrections = without_carried_truth(r)) {
       said.push_back(std::move(corrections->said));
       r = std::move(corrections->recording);
     }
   }
-  Result<LeastSquaresCalibration> result = calibrated_by_white_truth(measured, nominal, options, progress);
+  // A truth without noise has none that lasts.
+  Result<LeastSquaresCalibration> result = all_are_computed
+                                               ? calibrated_by_all(measured, nominal, options, progress)
+                                               : calibrated_by_white_truth(measured, nominal, options, progress);
   if (result) result->warnings.insert(result->warnings.begin(), said.begin(), said.end());
   return result;
 }

@@ -28,6 +28,7 @@ struct LeastSquaresOptions {
   std::vector<std::vector<std::pair<double, double>>> left_out;
   // Of each recording, where they are known: held as they are, and stamps put right by the rates.
   std::vector<AlignedClock> clocks;
+  bool by_commands = false;  // the wheels are those that would have obeyed commands; a base follows them in its own way
 };
 
 // One estimated parameter.

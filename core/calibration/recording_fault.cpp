@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/base/parallel.h"
+#include "core/calibration/raw_columns.h"
 #include "core/calibration/run_fit.h"
 
 namespace odolab {
@@ -153,6 +154,13 @@ std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nom
   return std::nullopt;
 }
 
+// What shows of a recording alone.
+std::optional<Error> own_fault(const Recording& recording, const Vehicle& nominal) {
+  if (std::optional<Error> unit = stamps_in_no_seconds(recording)) return unit;
+  if (std::optional<Error> wrap = unknown_wrap(recording, std::get<DifferentialDrive>(nominal.kind))) return wrap;
+  return dead_encoder(recording, nominal);
+}
+
 Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
 
 bool can_be_judged(const Recording& r, const Vehicle& nominal) {
@@ -163,7 +171,7 @@ bool can_be_judged(const Recording& r, const Vehicle& nominal) {
 
 std::optional<Error> fault_in(const Recording& recording, const Vehicle& nominal) {
   if (!can_be_judged(recording, nominal)) return std::nullopt;
-  if (std::optional<Error> dead = dead_encoder(recording, nominal)) return dead;
+  if (std::optional<Error> own = own_fault(recording, nominal)) return own;
   const Mend* mend = mend_of(recording, nominal);
   if (!mend) return std::nullopt;
   return error_of(*mend, name_of(recording));
@@ -180,7 +188,7 @@ std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& record
   std::vector<std::optional<Error>> faults;
   for (std::size_t i = 0; i < mends.size(); ++i) {
     faults.emplace_back();
-    if (can_be_judged(recordings[i], nominal)) faults.back() = dead_encoder(recordings[i], nominal);
+    if (can_be_judged(recordings[i], nominal)) faults.back() = own_fault(recordings[i], nominal);
     if (mends[i] && !faults.back())
       faults.back() = error_of(*mends[i], all_alike ? kEveryRecording : name_of(recordings[i]));
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/diagnosis/units/vehicle_units.h"
+#include "core/recording/same_samples.h"
 #include "core/recording/vehicle_samples.h"
 
 namespace odolab {
@@ -20,6 +21,14 @@ std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle
   if (units_of(vehicle).size() > 1) return std::nullopt;  // they judge each other
   const std::size_t truths = truth_samples(recording).size();
   if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
+  return std::nullopt;
+}
+
+std::optional<Error> given_twice(const std::vector<Recording>& recordings, const std::vector<std::string>& paths) {
+  for (std::size_t i = 0; i < recordings.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (same_samples(recordings[i], recordings[k]))
+        return Error{paths[i], "the same run as in " + paths[k], "each run once"};
   return std::nullopt;
 }
 

@@ -9,8 +9,7 @@ namespace odolab {
 
 bool comes_first(const Finding& a, const Finding& b) {
   const auto is_of_calibration = [](const Finding& f) {
-    return f.effect == "truth_mounting_offset" || f.effect == "truth_time_offset" || f.effect == "wheel_toe" ||
-           f.effect == "actuator_delay";
+    return f.effect == "truth_mounting_offset" || f.effect == "truth_time_offset" || f.effect == "actuator_delay";
   };
   if (is_of_calibration(a) != is_of_calibration(b)) return is_of_calibration(b);
   return a.log_likelihood_gain > b.log_likelihood_gain;
@@ -28,7 +27,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
   const double base_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
-  const double least_m = std::min(0.002, 0.02 * base_m);
+  const double least_m = std::min(kLeastMounting_m, 0.02 * base_m);
   const double least[3] = {least_m, least_m, 0.0005};
   Finding mounting;
   double gain = 0.0;

@@ -12,7 +12,8 @@ namespace odolab {
 
 // A mounting, a clock or a biased joint is named above so many standard errors, each with a least size of its own.
 constexpr double kSigmasOfBias = 6.0;
-constexpr double kLeastClock_s = 0.004;  // of an offset that is said
+constexpr double kLeastClock_s = 0.004;    // of an offset that is said
+constexpr double kLeastMounting_m = 0.002;  // of a tracked point that is elsewhere; less on a small robot
 
 // Where the mounting is not where the vehicle's file says. A small turn of it alone is what wheels do that are not
 // square to the axle; then that is the name, with the mounting beside it.
@@ -24,7 +25,7 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const In
                const LeastSquaresCalibration& fit, const Vehicle& nominal, bool from_commands);
 
 // The order of findings: what calibration leaves, the strongest first, before what it finds itself (where the truth
-// sits on the vehicle, its clock, and what is the same as these).
+// sits on the vehicle, its clock, and a delay that is the same as that).
 bool comes_first(const Finding& a, const Finding& b);
 
 // A fault of the data, which stands beside all physics.

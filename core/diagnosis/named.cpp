@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/chosen_by_unseen.h"
+#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
@@ -119,25 +120,46 @@ bool name_what_is_hinted_at(JointModel& joint, Selected& selected, const Predict
   return true;
 }
 
+// Whether the tracked point sits where the vehicle's file has it, as far as would be said.
+bool sits_as_given(const JointModel& joint, const Vehicle& nominal) {
+  const Pose &now = joint.model.truth.axle_T_tracked, &given = nominal.truth.axle_T_tracked;
+  const auto is_there = [&](int column, double by_m) {
+    return std::abs(by_m) < std::max(kLeastMounting_m, kSigmasOfBias * joint.stderr_of_nuisance(column));
+  };
+  return is_there(3, now.x_m - given.x_m) && is_there(4, now.y_m - given.y_m);
+}
+
+JointModel in_form(JointModel joint, std::size_t name, std::size_t form, const CandidateTest& test) {
+  joint.accepted[name].shape.back() = static_cast<double>(form);
+  joint.accepted[name].value = test.value;
+  joint.fit(3);
+  joint.fit_noise_and_all();
+  return joint;
+}
+
 // A form that says as much with less is taken where it is not plainly less likely: what warms towards an end begins
-// twice as fast as what warms for ever, and the first minutes do not tell them apart.
-void take_simpler_forms(JointModel& joint, Selected& selected) {
-  constexpr double kPlainly = 4.0;  // of twice the log-likelihood: two standard errors
+// twice as fast as what warms for ever, and the first minutes do not tell them apart; and slip that grows with the
+// speed twice, beside a tracked point that was moved, is at two speeds slip that grows with it once.
+void take_simpler_forms(JointModel& joint, Selected& selected, const Vehicle& nominal) {
+  constexpr double kPlainly = 4.0;   // of twice the log-likelihood: two standard errors
+  constexpr double kOfForms = 0.05;  // of an amplitude, by which no form is the world's
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
-    AcceptedEffect& a = joint.accepted[k];
-    if (a.effect->simpler_form.empty()) continue;
+    const AcceptedEffect& a = joint.accepted[k];
+    const bool has_simpler = !a.effect->simpler_form.empty();
+    const bool may_move_the_point = a.effect->forms.size() > 1 && a.shape.size() == 1 && !a.is_held;
+    if (!has_simpler && (!may_move_the_point || sits_as_given(joint, nominal))) continue;
     const auto own = static_cast<std::size_t>(a.shape.back());
-    const auto simpler = static_cast<std::size_t>(a.effect->simpler_form[own]);
+    const std::size_t simpler = has_simpler ? static_cast<std::size_t>(a.effect->simpler_form[own]) : 0;
     if (simpler == own) continue;
     const CandidateTest test = tested_in_form(joint, k, simpler);
-    if (test.statistic < tested_in_form(joint, k, own).statistic - kPlainly * selected.evidence[k].test.inflation ||
-        !is_physical(*a.effect, test.value))
-      continue;
-    a.shape.back() = static_cast<double>(simpler);
-    a.value = test.value;
-    selected.evidence[k].test.shape = a.shape;
-    joint.fit(3);
-    joint.fit_noise_and_all();
+    const double as_it_is = tested_in_form(joint, k, own).statistic;
+    const double plainly =
+        std::max(kPlainly * selected.evidence[k].test.inflation, has_simpler ? 0.0 : kOfForms * kOfForms * as_it_is);
+    if (test.statistic < as_it_is - plainly || !is_physical(*a.effect, test.value)) continue;
+    JointModel instead = in_form(joint, k, simpler, test);
+    if (!has_simpler && !sits_as_given(instead, nominal)) continue;
+    joint = std::move(instead);
+    selected.evidence[k].test.shape = joint.accepted[k].shape;
   }
 }
 
@@ -164,8 +186,8 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
   const bool hinted = joint.accepted.empty() && !predictor.leaves_out_in_turn() &&
                       name_what_is_hinted_at(joint, selected, predictor, family_wise_error, go_on);
   if (!goes_on(progress, kSelected)) return {};
+  take_simpler_forms(joint, selected, predictor.nominal());
   choose_by_unseen(predictor, joint, selected);
-  take_simpler_forms(joint, selected);
   now.intervals = refined(joint, inflations_of(selected));
   // What is not well away from nothing once its place and time are uncertain too is no finding, nor is what runs that
   // it was not fitted to refute.

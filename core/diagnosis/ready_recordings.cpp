@@ -11,6 +11,7 @@
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/encoder_jumps.h"
 #include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/noiseless_truth.h"
 #include "core/diagnosis/truth_elsewhere.h"
 #include "core/diagnosis/truth_jumps.h"
 #include "core/recording/truth_left_out.h"
@@ -131,6 +132,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
                                          const Vehicle& nominal, const Progress& progress) {
   if (train.empty()) return Error{"recordings", "none", "one or more"};
   ReadyRecordings ready;
+  std::uint64_t first_seed = 1;
   const auto check = [&](const std::vector<Recording>& given,
                          std::vector<CheckedRecording>& into) -> std::optional<Error> {
     for (const Recording& r : given)
@@ -138,8 +140,14 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
         return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
     into.resize(given.size());
     parallel_for(static_cast<int>(given.size()), [&](int r) {
-      into[static_cast<std::size_t>(r)] = checked(given[static_cast<std::size_t>(r)], nominal);
+      CheckedRecording& one = into[static_cast<std::size_t>(r)];
+      one = checked(given[static_cast<std::size_t>(r)], nominal);
+      if (auto measured = as_if_measured(one.recording, nominal, first_seed + static_cast<std::uint64_t>(r))) {
+        one.recording = std::move(measured->recording);
+        one.warnings.push_back(std::move(measured->said));
+      }
     });
+    first_seed += given.size();
     return {};
   };
   if (const std::optional<Error> problem = check(train, ready.train)) return *problem;
@@ -158,6 +166,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   for (const CheckedRecording& c : ready.train) ready.from_commands = ready.from_commands || c.from_commands;
   const auto calibrate = [&]() -> Result<Done> {
     LeastSquaresOptions with_faults_left_out;
+    with_faults_left_out.by_commands = ready.from_commands;
     std::vector<Recording> fitted;
     for (const CheckedRecording& c : ready.train) {
       fitted.push_back(c.recording);

@@ -88,7 +88,9 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
         if (std::find(table.names.begin(), table.names.end(), required) == table.names.end())
           return table.names.size() == 1 && table.names[0].find_first_of(";\t") != std::string::npos
                      ? Error{place, "columns that no comma divides", "commas; odolab import --map reads other text"}
-                     : Error{place, "the columns " + listed(table.names), "a column " + in_quotes(required)};
+                     : Error{place, "the columns " + listed(table.names),
+                             "a column " + in_quotes(required) +
+                                 (required == "time_s" ? "; odolab import --map reads other names" : "")};
       time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
       for (const std::string& name : table.names) kinds.push_back(cells_of(name));
       table.columns.resize(table.names.size());

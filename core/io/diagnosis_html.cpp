@@ -156,8 +156,21 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
   picture.x_label =
       picture.logarithmic ? "gain in log-likelihood, each line ten times the one before" : "gain in log-likelihood";
   report.picture(bar_picture(picture),
-                 "Dark: what is named. Light: what would explain the same in its stead. A gain of 10 is decisive; "
-                 "two that differ by less than about 3 are not told apart.");
+                 "Dark: what is named. Light: what would explain the same in its stead. Where what is left is noise a "
+                 "gain of 10 is decisive, and of what happens once or in one place 20; two that differ by less than "
+                 "about 3 are not told apart.");
+}
+
+// Why an effect that was asked for stands in no finding.
+std::string why_not_named(const AskedEffect& a, double named_gain) {
+  constexpr double kChance = 0.02, kDecisive = 10.0, kTrace = 0.15;
+  if (a.named) return "";
+  if (a.p_value > kChance) return "no more than chance";
+  if (!a.gain_beside_findings || named_gain <= 0.0) return "";
+  if (*a.gain_beside_findings < kDecisive) return "what was found says it, too";
+  if (*a.gain_beside_findings < kTrace * named_gain)
+    return "a trace beside it: " + number_text("%.2g %%", 100.0 * *a.gain_beside_findings / named_gain);
+  return "not borne out";
 }
 
 void add_asked(HtmlReport& report, const Diagnosis& d) {
@@ -170,17 +183,22 @@ void add_asked(HtmlReport& report, const Diagnosis& d) {
       "missing, all that was tried allowed for. Left to be seen: of what the effect does to the recordings, what "
       "calibration would not take up on these drives; most of the rest would go into the parameter named. Least size: "
       "what "
-      "would have been seen nine times in ten.");
+      "would have been seen nine times in ten. No form is quite that of the world: what says little beside what was "
+      "found is its trace, and no name.");
   const bool any_named = std::any_of(d.asked.begin(), d.asked.end(), [](const AskedEffect& a) { return a.named; });
   std::vector<std::string> header{"effect", "gain"};
   if (any_named) header.push_back("beside what was found");
-  header.insert(header.end(), {"chance", "left to be seen", "would bend", "least size"});
+  header.insert(header.end(), {"chance", "why it is not named", "left to be seen", "would bend", "least size"});
+  double named_gain = 0.0;
+  for (const AskedEffect& a : d.asked)
+    if (a.named) named_gain += a.log_likelihood_gain;
   std::vector<std::vector<std::string>> rows;
   for (const AskedEffect& a : d.asked) {
     std::vector<std::string> row{effect_text(a.effect, a.component), number_text("%.1f", a.log_likelihood_gain)};
     if (any_named)
       row.push_back(a.named ? "named" : a.gain_beside_findings ? number_text("%.1f", *a.gain_beside_findings) : "");
-    row.push_back(a.p_value < kCertain ? "none" : number_text("%.2g", a.p_value));
+    row.push_back(a.p_value < kCertain ? "under 1e-12" : number_text("%.2g", a.p_value));
+    row.push_back(why_not_named(a, named_gain));
     row.push_back(a.survives ? number_text(*a.survives < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * *a.survives) : "");
     row.push_back(a.bends ? parameter_words(a.bends->name) : "");
     row.push_back(a.least_seen ? size_text(a.least_seen->value, a.least_seen->unit) : a.named ? "" : "none would show");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/diagnosis/refuted.h"
+
 namespace odolab {
 
 namespace {
@@ -153,6 +155,9 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
     entry["drive_this"] = n.drive_this;
   }
   json["next_drive"] = diagnosis.next_drive;
+  Json& refuted_by = json["refuted_by"] = Json::array();
+  if (is_refuted_by_unseen(diagnosis)) refuted_by.push_back("held_out");
+  if (is_refuted_by_simulator(diagnosis)) refuted_by.push_back("simulation");
   Json& warnings = json["warnings"] = Json::array();
   for (const std::string& warning : diagnosis.warnings) warnings.push_back(warning);
   return json;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/refuted.h"
 #include "core/geometry/angles.h"
 #include "core/io/number_text.h"
 #include "core/vehicle/key_words.h"
@@ -150,6 +152,9 @@ std::string little_sentence(const Diagnosis& d) {
 
 // "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
 std::string without_units(std::string text) {
+  constexpr std::string_view kDependsOn = " that depends on ";
+  if (const std::size_t at = text.find(kDependsOn); at != std::string::npos)
+    text.replace(at, kDependsOn.size(), ", depending on ");
   for (std::size_t from = text.find(" ["); from != std::string::npos; from = text.find(" [", from)) {
     const std::size_t to = text.find(']', from);
     if (to == std::string::npos) break;
@@ -241,7 +246,10 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
                  : diagnosis.calibration_alone.innovations_are_correlated
                      ? "Nothing is found missing, but what calibration leaves is no mere noise: it goes on from one "
                        "sample of the truth to the next."
-                     : "Nothing is missing: calibration explains these recordings down to their noise.";
+                 : diagnosis.not_testable.empty()
+                     ? "Nothing is missing: calibration explains these recordings down to their noise."
+                     : "Nothing is missing that these drives could show: calibration explains these recordings down "
+                       "to their noise.";
       break;
     case Verdict::unknown_effect:
       sentence = "Something is missing that no known effect describes.";
@@ -253,6 +261,14 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       break;
   }
   if (!faults.empty()) sentence += " The data are at fault too: " + list_of(faults, "and") + ".";
+  const bool by_unseen = is_refuted_by_unseen(diagnosis), by_simulator = is_refuted_by_simulator(diagnosis);
+  const std::string unseen = diagnosis.left_out_in_turn ? "what was left out in turn" : "what was held out";
+  if (by_unseen || by_simulator)
+    sentence += " But " +
+                (by_unseen && by_simulator ? unseen + " and the simulator do"
+                 : by_unseen               ? unseen + " does"
+                                           : "the simulator does") +
+                " not bear it out.";
   return sentence;
 }
 
@@ -276,7 +292,8 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 
 std::string size_text(double value, const std::string& unit) {
   const Shown shown = shown_as(unit);
-  return number_text("%.2g", value * shown.factor) + shown.unit;
+  const double size = value * shown.factor;
+  return (std::abs(size) < 100.0 ? number_text("%.2g", size) : decimals_of(size, 0)) + shown.unit;
 }
 
 std::string moved_text(const MovedTrack& moved) {
@@ -413,26 +430,23 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
   if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
   for (const std::string& line :
        {fit_line("   fitted on: ", diagnosis.train),
-        fit_line(diagnosis.left_out_in_turn ? "   left out:  " : "   held out:  ", diagnosis.held_out)})
+        fit_line(diagnosis.left_out_in_turn ? "   each run by the others: " : "   held out:  ", diagnosis.held_out) +
+            (is_refuted_by_unseen(diagnosis) ? ": it does not bear this out" : "")})
     if (!line.empty()) end.push_back(line);
   if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings) {
     const FitFigures &before = *diagnosis.simulation.calibrated, &after = *diagnosis.simulation.with_findings;
-    constexpr double kWorse = 1.1;
-    // A base that is late and a clock that is are one and the same, with the finding and without.
-    const bool any_physics = std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(), [](const Finding& f) {
-      return can_be_switched_on(f) && f.effect != "actuator_delay" && f.effect != "clock_rate";
-    });
-    const bool worse = any_physics && after.position_rms_m > kWorse * before.position_rms_m &&
-                       after.heading_rms_rad > kWorse * before.heading_rms_rad;
-    end.push_back("   simulator:  before " + figures_text(before) + "  ->  after " + figures_text(after) +
-                  (worse ? ": it does not confirm this" : ""));
+    end.push_back("   simulator: calibrated " + figures_text(before) + "  ->  with findings " + figures_text(after) +
+                  (is_refuted_by_simulator(diagnosis) ? ": it does not confirm this" : ""));
   }
   if (!diagnosis.not_testable.empty()) {
     std::vector<std::string> names;
     for (const NotTestable& n : diagnosis.not_testable) names.push_back(effect_words(n.effect));
     append_wrapped(end, "could not show here: " + list_of(names, "and"), columns, "   ");
   }
-  if (!diagnosis.next_drive.empty()) append_wrapped(end, "drive next: " + diagnosis.next_drive, columns, "   ");
+  if (!diagnosis.next_drive.empty()) {
+    const bool is_a_drive = diagnosis.next_drive.rfind("a look ", 0) != 0;
+    append_wrapped(end, (is_a_drive ? "drive next: " : "next: ") + diagnosis.next_drive, columns, "   ");
+  }
   return end;
 }
 
@@ -444,9 +458,9 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   const std::vector<std::string> end = calibration_and_proof(diagnosis, columns);
 
   constexpr std::size_t kMostFindings = 4;
-  // A marker that is off shows a hundred times as strongly as what is looked for.
+  // A marker that is off shows a hundred times as strongly as what is looked for. The rest stays the strongest first.
   std::vector<Finding> physics_first = faults_together(diagnosis.findings);
-  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_measurement(f) ? 1 : 0; };
+  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_truth(f.effect) ? 1 : 0; };
   std::stable_sort(physics_first.begin(), physics_first.end(),
                    [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
   // Each as a whole or not at all; the last line is kept for how many more there are.

@@ -152,5 +152,29 @@ TEST(DiagnoseCommand, RefusesABrokenModel) {
                  {"m.toml:4", "wheels"}, out);
 }
 
+TEST(DiagnoseCommand, WritesOverNothingThatItReads) {
+  const fs::path folder = fresh_folder("diagnose_overwrites");
+  const fs::path copy = folder / "run.csv";
+  fs::copy_file(eights() / "run_1.csv", copy);
+  const std::string before = text_of_file(copy);
+  for (const char* option : {"--json ", "--model ", "--html "})
+    odolab::expect_refused("diagnose " + kVehicle + copy.string() + " " + option + copy.string(), {copy.string()});
+  odolab::expect_refused("predict " + kVehicle + copy.string() + " --out " + copy.string(), {copy.string()});
+  odolab::expect_refused("calibrate " + kVehicle + copy.string() + " --out " + copy.string(), {copy.string()});
+  odolab::expect_refused("export " + copy.string() + " --to tum --out " + copy.string(), {copy.string()});
+  odolab::expect_refused("diagnose " + kVehicle + copy.string() + " --json " + (folder / "a").string() + " --html " +
+                             (folder / "a").string(),
+                         {"two outputs"});
+  EXPECT_EQ(text_of_file(copy), before);
+}
+
+TEST(DiagnoseCommand, TakesEachRunOnce) {
+  const fs::path folder = fresh_folder("diagnose_twice");
+  fs::copy_file(eights() / "run_1.csv", folder / "copy.csv");
+  for (const char* as : {"", "--hold-out "})
+    odolab::expect_refused("diagnose " + kVehicle + eight("run_1.csv") + as + (folder / "copy.csv").string(),
+                           {"copy.csv", "the same run", "run_1.csv"});
+}
+
 }  // namespace
 }  // namespace odolab

@@ -9,20 +9,26 @@ namespace {
 
 constexpr double kWorthShowing = 0.01;  // p value of a wave in what is left
 
+const std::vector<double>& drawn(const CandidateTest& t) { return t.drawn_value.empty() ? t.value : t.drawn_value; }
+double drawn_stderr(const CandidateTest& t, std::size_t k) {
+  return (t.drawn_stderr.empty() ? t.stderr_value : t.drawn_stderr)[k] * std::sqrt(t.inflation);
+}
+
 // What calibration leaves; beside it, where something was `found`, what that leaves.
 Response response_of(const GenericTest& g, bool found) {
   Response r;
   r.variable = g.variable;
   r.channel = g.channel;
   const CandidateTest& before = g.instead;
-  for (std::size_t k = 0; k < g.at.size() && k < before.value.size(); ++k) {
-    const double se = before.stderr_value[k] * std::sqrt(before.inflation);
+  const std::vector<double>&value = drawn(before), &after = drawn(g.test);
+  for (std::size_t k = 0; k < g.at.size() && k < value.size(); ++k) {
+    const double se = drawn_stderr(before, k);
     if (se > 1e3) continue;
     r.at.push_back(g.at[k]);
-    r.value.push_back(before.value[k]);
-    r.low.push_back(before.value[k] - 2.0 * se);
-    r.high.push_back(before.value[k] + 2.0 * se);
-    if (found && k < g.test.value.size()) r.after.push_back(g.test.value[k]);
+    r.value.push_back(value[k]);
+    r.low.push_back(value[k] - 2.0 * se);
+    r.high.push_back(value[k] + 2.0 * se);
+    if (found && k < after.size()) r.after.push_back(after[k]);
   }
   return r;
 }
@@ -34,14 +40,15 @@ Response response_of(const GenericTest& g, const GenericWave& wave, bool found) 
   r.variable = wave.variable;
   r.channel = g.channel;
   const CandidateTest& before = g.instead;
-  const bool has_after = found && !g.test.value.empty();
+  const std::vector<double>&of_before = drawn(before), &of_after = drawn(g.test);
+  const bool has_after = found && !of_after.empty();
   for (int i = 0; i < kPoints; ++i) {
     const double angle = 2.0 * kPi * i / (kPoints - 1);
     double value = 0.0, variance = 0.0, after = 0.0;
     const auto add = [&](std::size_t k, double basis) {
-      value += basis * before.value[k];
-      variance += basis * basis * before.stderr_value[k] * before.stderr_value[k] * before.inflation;
-      if (has_after) after += basis * g.test.value[k];
+      value += basis * of_before[k];
+      variance += basis * basis * drawn_stderr(before, k) * drawn_stderr(before, k);
+      if (has_after) after += basis * of_after[k];
     };
     for (std::size_t n = 0; n < wave.cosine.size(); ++n) {
       add(wave.cosine[n], std::cos(static_cast<double>(n + 1) * angle));

@@ -158,7 +158,8 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
   for (int j = 0; j < k; ++j) scale(j) = info(j, j) > 0.0 ? 1.0 / std::sqrt(info(j, j)) : 0.0;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(scale.asDiagonal() * effective * scale.asDiagonal());
   const VectorXd su = eig.eigenvectors().transpose() * (scale.asDiagonal() * s);
-  VectorXd w = VectorXd::Zero(k);
+  constexpr double kMostlyLeft = 0.25, kSeen = 9.0;  // of its information; of chi-square, three standard errors
+  VectorXd w = VectorXd::Zero(k), drawn = VectorXd::Zero(k), drawn_variance = VectorXd::Zero(k);
   MatrixXd cov = MatrixXd::Zero(k, k);
   int freedom = 0;
   for (int j = 0; j < k; ++j) {
@@ -171,11 +172,18 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
     w += su(j) / e * eig.eigenvectors().col(j);
     cov += eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose() / e;
     out.statistic += su(j) * su(j) / e;
+    if (e < kMostlyLeft && su(j) * su(j) / e < kSeen) continue;
+    drawn += su(j) / e * eig.eigenvectors().col(j);
+    drawn_variance += eig.eigenvectors().col(j).cwiseAbs2() / e;
   }
   out.freedom = std::max(1, freedom);
   const VectorXd value = scale.asDiagonal() * w;
   out.value.assign(value.data(), value.data() + k);
-  for (int j = 0; j < k; ++j) out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+  for (int j = 0; j < k; ++j) {
+    out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+    out.drawn_value.push_back(scale(j) * drawn(j));
+    out.drawn_stderr.push_back(scale(j) * std::sqrt(drawn_variance(j)));
+  }
   return out;
 }
 

@@ -33,6 +33,9 @@ struct CandidateTest {
   double batches = 1e9;    // from so many it was found how the score scatters
   double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
+  // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Of two
+  // columns and more.
+  std::vector<double> drawn_value, drawn_stderr;
   double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
   std::vector<double> shape;
   double judged() const { return statistic / inflation; }

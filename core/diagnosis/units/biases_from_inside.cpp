@@ -58,7 +58,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
     for (std::size_t k = 0; k < inside->joints.size(); ++k) {
       const JointEstimate& i = inside->joints[k];
       if (i.parameter.name != e.parameter.name || e.parameter.effect.empty() || e.parameter.component == "truth" ||
-          !e.determined || !i.determined)
+          !i.determined)
         continue;
       double mean = 0.0, squared = 0.0, scale = 0.0;
       for (const GeometryFit& one : without) mean += one.joints[k].value / n;
@@ -66,6 +66,13 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
       if (e.parameter.unit == "m") scale = scale_stderr(of_units.front()) * length_of_joint_m(nominal);
       const double error = std::hypot(std::max(i.stderr_value, std::sqrt((n - 1.0) / n * squared)), scale);
       const double apart = i.value - e.value;
+      if (!e.determined) {  // nothing contradicts it
+        e.value = i.value;
+        e.stderr_value = error;
+        e.parameter.of(geometry.vehicle) = e.value;
+        e.determined = e.is_from_inside = changed = true;
+        continue;
+      }
       if (std::abs(apart) > kContradicted * std::hypot(error, e.stderr_value)) continue;
       const double by_truth = 1.0 / (e.stderr_value * e.stderr_value), by_inside = 1.0 / (error * error);
       e.value += by_inside / (by_truth + by_inside) * apart;

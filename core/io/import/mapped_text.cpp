@@ -89,7 +89,8 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
     }
   }
   if (layout.channels.empty() && layout.quaternion[2].cell == kNowhere && layout.quaternion[3].cell == kNowhere)
-    return Error{path + ":" + std::to_string(line), "the columns " + listed(header), "one that the mapping names"};
+    return Error{path + ":" + std::to_string(line), "the columns " + listed(header),
+                 "one that the mapping names for wheels, commands or truth, as in left_wheel_rad=COLUMN"};
   if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0))
     return Error{path, "no column for time_s", "time_s=COLUMN, or a period between rows"};
   return std::nullopt;
@@ -128,7 +129,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
   RowsLeftOut left_out;
   std::vector<double> values(layout.channels.size());
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
-  std::uint64_t kept = 0;
+  std::uint64_t kept = 0, out_of_order = 0;
   bool more = !named || rows->next(cells);
   for (; more; more = rows->next(cells)) {
     const auto cell_of = [&](const Source& source) {
@@ -151,6 +152,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     }
     if (*time_ns < last_ns) {
       left_out.add(rows->line(), "time goes back");
+      ++out_of_order;
       continue;
     }
     std::string problem;
@@ -188,6 +190,11 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
     spool.add(*time_ns, values.data());
   }
   if (kept == 0) return left_out.error(path, "rows of numbers in the mapped columns");
+  if (out_of_order > kept)
+    return Error{path,
+                 "rows that are not in order of time, " + std::to_string(out_of_order) + " of " +
+                     std::to_string(out_of_order + kept),
+                 "rows in order of time: sort them first"};
   const std::string name = std::filesystem::path(path).filename().string();
   left_out.warn(name, streams.warnings);
   if (rows->decimal_commas()) streams.warnings.push_back(name + ": commas in numbers are taken for decimal points");

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/random.h"
 #include "core/calibration/least_squares.h"
 #include "test/support/known_drive.h"
 #include "test/support/missing_physics.h"
@@ -69,6 +70,49 @@ TEST(CorrelatedTruth, IsNotSuspectedWhereTheNoiseIsWhite) {
   const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->truth_apart_s, 0.0);
+}
+
+// Stands for three seconds, drives for two, ten times over; the truth's noise lasts from sample to sample by so much.
+Recording stop_and_go(double lasts, std::uint64_t seed) {
+  Random random(seed);
+  Recording r;
+  std::vector<double> wheel, x, heading;
+  double noise_m = 0.0, noise_rad = 0.0, rolled_rad = 0.0;
+  for (int i = 0; i < 500; ++i) {  // ten a second
+    r.time_s.push_back(0.1 * i);
+    if (i % 50 >= 30) rolled_rad += 0.5;
+    wheel.push_back(rolled_rad);
+    const double fresh = std::sqrt(1.0 - lasts * lasts);
+    noise_m = lasts * noise_m + 0.01 * fresh * random.normal();
+    noise_rad = lasts * noise_rad + 0.01 * fresh * random.normal();
+    x.push_back(0.075 * rolled_rad + noise_m);
+    heading.push_back(wrapped(3.14 + noise_rad));
+  }
+  r.add_channel("left_wheel_rad").values = wheel;
+  r.add_channel("right_wheel_rad").values = wheel;
+  r.add_channel("truth_x_m").values = x;
+  r.add_channel("truth_y_m").values = x;
+  r.add_channel("truth_heading_rad").values = heading;
+  return r;
+}
+
+TEST(CorrelatedTruth, IsToldAtRest) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto white = correlation_at_rest({stop_and_go(0.0, seed)}, DifferentialDrive{});
+    const auto smoothed = correlation_at_rest({stop_and_go(0.8, seed)}, DifferentialDrive{});
+    ASSERT_TRUE(white && smoothed);
+    // Some 200 samples in rests of twenty: a standard error of 0.07, of which the larger of two channels is taken.
+    EXPECT_LT(*white, 0.25) << seed;
+    EXPECT_GT(*smoothed, 0.45) << seed;
+  }
+}
+
+TEST(CorrelatedTruth, IsNotToldWhereNothingRests) {
+  Recording r = stop_and_go(0.0, 1);
+  for (Channel& c : r.channels)
+    if (c.name == "left_wheel_rad")
+      for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] += 0.01 * static_cast<double>(i);
+  EXPECT_FALSE(correlation_at_rest({r}, DifferentialDrive{}));
 }
 
 }  // namespace

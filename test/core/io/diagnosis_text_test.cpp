@@ -37,6 +37,10 @@ TEST(VerdictSentence, NamesWhatWasFound) {
             "wheel eccentricity of the right wheel.");
   d.findings.clear();
   d.verdict = Verdict::nothing_missing;
+  EXPECT_EQ(verdict_sentence(d),
+            "Nothing is missing that these drives could show: calibration explains these recordings down to their "
+            "noise.");
+  d.not_testable.clear();
   EXPECT_EQ(verdict_sentence(d), "Nothing is missing: calibration explains these recordings down to their noise.");
   Finding frozen;
   frozen.effect = "truth_frozen";

@@ -68,8 +68,10 @@ TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\r0,0,0\r1,2,3\r"),
             "run.csv: found lines that end in a carriage return alone, expected line feeds: 'tr \"\\r\" \"\\n\"' makes "
             "them");
-  EXPECT_EQ(complaint("t,left_ticks\n0,1\n"),
-            "run.csv:1: found the columns 't', 'left_ticks', expected a column 'time_s'");
+  EXPECT_EQ(
+      complaint("t,left_ticks\n0,1\n"),
+      "run.csv:1: found the columns 't', 'left_ticks', expected a column 'time_s'; odolab import --map reads other "
+      "names");
   EXPECT_EQ(complaint("time_s,left_ticks\n0,1\n"),
             "run.csv:1: found the column 'left_ticks' alone, expected a column 'right_ticks' with it");
   EXPECT_EQ(complaint("time_s,truth_x_m,truth_y_m,truth_x_m\n0,1,2,3\n"),

@@ -1,0 +1,84 @@
+#include "core/calibration/raw_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace odolab {
+
+namespace {
+
+std::string in_words(double number) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", number);
+  return text;
+}
+
+// By how many bits a counter wraps, and how often; zero bits where it does not.
+struct Wrap {
+  int bits = 0, times = 0;
+};
+
+Wrap wrap_of(const std::vector<double>& values) {
+  constexpr double kJump = 0.75;  // of the counter's range: more in one reading is no pace
+  constexpr double kPace = 2.0;   // times the fastest step beside the jumps
+  std::vector<double> counts;
+  for (double v : values)
+    if (!std::isnan(v)) counts.push_back(v);
+  if (counts.size() < 3) return {};
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  const int bits = static_cast<int>(std::ceil(std::log2(*most - *least + 1.0)));
+  const double range = std::ldexp(1.0, bits);
+  double fastest = 1.0, over_the_end = 0.0;
+  int times = 0;
+  for (std::size_t i = 1; i < counts.size(); ++i) {
+    const double step = counts[i] - counts[i - 1];
+    if (std::abs(step) < kJump * range) {
+      fastest = std::max(fastest, std::abs(step));
+      continue;
+    }
+    over_the_end = std::max(over_the_end, range - std::abs(step));
+    ++times;
+  }
+  if (times == 0 || over_the_end > kPace * fastest) return {};
+  return {bits, times};
+}
+
+}  // namespace
+
+std::optional<Error> stamps_in_no_seconds(const Recording& recording) {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kTooFarApart_s = 3.0, kThousand = 1000.0;
+  if (recording.time_s.size() < kFewest) return std::nullopt;
+  std::vector<double> apart;
+  for (std::size_t i = 1; i < recording.time_s.size(); ++i)
+    if (const double by = recording.time_s[i] - recording.time_s[i - 1]; by > 0.0) apart.push_back(by);
+  if (apart.empty()) return std::nullopt;
+  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+  std::nth_element(apart.begin(), middle, apart.end());
+  if (*middle < kTooFarApart_s) return std::nullopt;
+  const char* unit = *middle < kTooFarApart_s * kThousand               ? "milliseconds"
+                     : *middle < kTooFarApart_s * kThousand * kThousand ? "microseconds"
+                                                                        : "nanoseconds";
+  return Error{(recording.name.empty() ? "recording" : recording.name) + ": time_s",
+               "rows " + in_words(*middle) + " apart, which look like " + unit, "seconds"};
+}
+
+std::optional<Error> unknown_wrap(const Recording& recording, const DifferentialDrive& drive) {
+  if (drive.counter_bits > 0) return std::nullopt;
+  for (const char* name : {"left_ticks", "right_ticks"}) {
+    const Channel* ticks = recording.channel(name);
+    if (!ticks) continue;
+    const Wrap wrap = wrap_of(ticks->values);
+    if (wrap.bits < 8) continue;
+    const std::string bits = std::to_string(wrap.bits);
+    return Error{(recording.name.empty() ? "recording" : recording.name) + ": " + name,
+                 "a count that jumps back or on by 2^" + bits + " and goes on at its pace (" +
+                     std::to_string(wrap.times) + " times), as a counter of " + bits + " bits does where it wraps",
+                 "counter_bits = " + bits + " in the vehicle's file, or counts that do not wrap"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace odolab

@@ -1,0 +1,31 @@
+#include "core/diagnosis/refuted.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/chosen_model.h"
+
+namespace odolab {
+
+namespace {
+
+bool is_worse(const std::optional<FitFigures>& before, const std::optional<FitFigures>& after) {
+  constexpr double kWorse = 1.1, kBetter = 0.95;
+  if (!before || !after || !(after->position_rms_m > kWorse * before->position_rms_m)) return false;
+  return !(after->heading_rms_rad < kBetter * before->heading_rms_rad);
+}
+
+}  // namespace
+
+bool is_refuted_by_unseen(const Diagnosis& d) {
+  return !d.findings.empty() && is_worse(d.held_out.calibrated, d.held_out.with_findings);
+}
+
+bool is_refuted_by_simulator(const Diagnosis& d) {
+  // A base that is late and a clock that is are one and the same, with the finding and without.
+  const bool any_physics = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return can_be_switched_on(f) && f.effect != "actuator_delay" && f.effect != "clock_rate";
+  });
+  return any_physics && is_worse(d.simulation.calibrated, d.simulation.with_findings);
+}
+
+}  // namespace odolab

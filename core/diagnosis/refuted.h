@@ -1,0 +1,14 @@
+// Whether what nobody fitted speaks against an answer.
+#pragma once
+
+#include "core/diagnosis/diagnosis.h"
+
+namespace odolab {
+
+// Dead reckoning is a tenth worse with the findings than by calibration alone, and no better in heading: over what was
+// left out or held out, and in the simulator that the recording's own inputs drive. Not where nothing was found that
+// either could show.
+bool is_refuted_by_unseen(const Diagnosis& diagnosis);
+bool is_refuted_by_simulator(const Diagnosis& diagnosis);
+
+}  // namespace odolab

@@ -1,0 +1,44 @@
+#include "core/diagnosis/refuted.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/diagnosis_json.h"
+#include "core/io/diagnosis_text.h"
+#include "test/support/diagnosis_by_hand.h"
+
+namespace odolab {
+namespace {
+
+nlohmann::json refuted_by(const Diagnosis& d) {
+  return nlohmann::json::parse(to_text(diagnosis_json(d)))["refuted_by"];
+}
+
+FitFigures off_by(double position_m, double heading_rad) { return {position_m, heading_rad, 1.0}; }
+
+TEST(RefutedAnswer, IsOneThatPredictsUnseenRunsWorse) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.held_out.calibrated = off_by(0.010, 0.010);
+  d.held_out.with_findings = off_by(0.006, 0.010);
+  EXPECT_FALSE(is_refuted_by_unseen(d));
+  d.held_out.with_findings = off_by(0.012, 0.010);
+  EXPECT_TRUE(is_refuted_by_unseen(d));
+  EXPECT_NE(verdict_sentence(d).find("what was held out does not bear it out"), std::string::npos);
+  EXPECT_EQ(refuted_by(d), nlohmann::json({"held_out"}));
+  d.held_out.with_findings = off_by(0.012, 0.004);  // headings are what it is about
+  EXPECT_FALSE(is_refuted_by_unseen(d));
+}
+
+TEST(RefutedAnswer, IsOneThatTheSimulatorDoesNotFollow) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.simulation.calibrated = off_by(0.010, 0.010);
+  d.simulation.with_findings = off_by(0.020, 0.010);
+  EXPECT_TRUE(is_refuted_by_simulator(d));
+  EXPECT_NE(verdict_sentence(d).find("the simulator does not bear it out"), std::string::npos);
+  d.findings.clear();
+  EXPECT_FALSE(is_refuted_by_simulator(d));
+}
+
+}  // namespace
+}  // namespace odolab
