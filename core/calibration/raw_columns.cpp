@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,11 @@ struct Wrap {
 Wrap wrap_of(const std::vector<double>& values) {
   constexpr double kJump = 0.75;  // of the counter's range: more in one reading is no pace
   constexpr double kPace = 2.0;   // times the fastest step beside the jumps
+  constexpr std::size_t kFewest = 50;
   std::vector<double> counts;
   for (double v : values)
     if (!std::isnan(v)) counts.push_back(v);
-  if (counts.size() < 3) return {};
+  if (counts.size() < kFewest) return {};
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
   const int bits = static_cast<int>(std::ceil(std::log2(*most - *least + 1.0)));
   const double range = std::ldexp(1.0, bits);

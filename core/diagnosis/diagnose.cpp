@@ -14,6 +14,7 @@
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/named.h"
+#include "core/diagnosis/place_response.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -379,6 +380,12 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const FittedNoise between = noise_of_pictures(calibrated.model.noise, said.model.noise);
   d.residuals_before = residuals_of(calibrated.under(between));
   d.residuals_after = residuals_of(said.under(between));
+  if (!d.findings.empty() && d.findings.front().where.zone) {
+    const Finding& first = d.findings.front();
+    Response about = zone_response(*first.where.zone, first.effect == "bump" ? "bump" : "patch's middle",
+                                   d.residuals_before, d.residuals_after);
+    if (!about.at.empty()) d.responses.insert(d.responses.begin(), std::move(about));
+  }
 
   for (const Finding& f : d.findings)
     if (!f.alternatives.empty() && d.next_drive.empty()) d.next_drive = f.alternatives.front().told_apart_by;

@@ -94,4 +94,50 @@ std::vector<Response> place_responses(const std::vector<Residuals>& before, cons
   return all;
 }
 
+Response zone_response(const WhereFound::Zone& zone, const std::string& name, const std::vector<Residuals>& before,
+                       const std::vector<Residuals>& after) {
+  constexpr double kRadii = 3.0, kLeast_m = 0.6;
+  constexpr double kGathered_s = 1.0;  // so long apart two mismatches have nothing in common
+  const Range range{0.0, std::max(kLeast_m, kRadii * zone.radius_m)};
+  struct Ring {
+    double sum = 0.0, squares = 0.0, seconds = 0.0;
+    int samples = 0;
+    double mean() const { return sum / samples; }
+  };
+  const bool has_after = after.size() == before.size();
+  const auto rings = [&](const std::vector<Residuals>& all) {
+    std::vector<Ring> of_place(kStrips);
+    for (std::size_t r = 0; r < all.size(); ++r) {
+      const std::vector<double> mismatch = times_noise(all[r], sizes_of(has_after ? after[r] : before[r]));
+      for (std::size_t i = 0; i < mismatch.size(); ++i) {
+        const double away_m = std::hypot(all[r].x_m[i] - zone.x_m, all[r].y_m[i] - zone.y_m);
+        if (away_m >= range.high || !std::isfinite(mismatch[i])) continue;
+        Ring& ring = of_place[range.strip(away_m)];
+        ring.sum += mismatch[i];
+        ring.squares += mismatch[i] * mismatch[i];
+        if (i > 0) ring.seconds += std::min(kGathered_s, all[r].time_s[i] - all[r].time_s[i - 1]);
+        ++ring.samples;
+      }
+    }
+    return of_place;
+  };
+  const std::vector<Ring> found = rings(before), left = has_after ? rings(after) : found;
+  Response response;
+  response.variable = "distance from the " + name + " [m]";
+  response.channel = kMismatchAboutPlace;
+  for (std::size_t k = 0; k < kStrips; ++k) {
+    const Ring& ring = found[k];
+    if (ring.samples < kFewest || (has_after && left[k].samples == 0)) continue;
+    const double variance = std::max(0.0, ring.squares / ring.samples - ring.mean() * ring.mean());
+    const double band = 2.0 * std::sqrt(variance / std::max(1.0, ring.seconds / kGathered_s));
+    response.at.push_back((static_cast<double>(k) + 0.5) * range.high / kStrips);
+    response.value.push_back(ring.mean());
+    response.low.push_back(ring.mean() - band);
+    response.high.push_back(ring.mean() + band);
+    if (has_after) response.after.push_back(left[k].mean());
+  }
+  if (response.at.size() < 2) response = {};
+  return response;
+}
+
 }  // namespace odolab

@@ -15,4 +15,11 @@ namespace odolab {
 std::vector<Response> place_responses(const std::vector<Residuals>& before, const std::vector<Residuals>& after,
                                       bool found);
 
+// The mismatch in rings about a patch of floor or a bump, by its `name` in words, as far as three of its radii and 0.6
+// m: its mean, in times the noise, as it is coloured along the tracks. No ring with few samples; empty where fewer than
+// two are left.
+inline constexpr const char* kMismatchAboutPlace = "mismatch [times the noise]";
+Response zone_response(const WhereFound::Zone& zone, const std::string& name, const std::vector<Residuals>& before,
+                       const std::vector<Residuals>& after);
+
 }  // namespace odolab

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/diagnosis/mismatch.h"
+#include "core/diagnosis/place_response.h"
 #include "core/geometry/angles.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/number_text.h"
@@ -128,7 +129,9 @@ void add_responses(HtmlReport& report, const Diagnosis& d) {
     picture.lines.push_back({"mismatch", r.at, r.value, Look::estimate});
     if (!r.after.empty()) picture.lines.push_back({"with what was found", r.at, r.after, Look::second});
     picture.height_px = 320.0;
-    report.picture(line_picture(picture), "Where the band leaves zero, the mismatch follows this variable.");
+    report.picture(line_picture(picture), r.channel == kMismatchAboutPlace
+                                              ? "Noise alone is 1: where the band leaves it, something is there."
+                                              : "Where the band leaves zero, the mismatch follows this variable.");
   }
 }
 

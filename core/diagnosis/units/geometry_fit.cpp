@@ -23,7 +23,7 @@ constexpr double kShortestStep_s = 0.03;                // truth samples closer 
 constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kHeld = 1e-7;
 constexpr double kDeterminedShare = 0.2;
 constexpr double kHuber = 3.0;
-constexpr int kIterations = 8;
+constexpr int kIterations = 8, kFromNearBy = 2;
 constexpr double kStep = 1e-5;
 
 // Truth samples of one run that a unit passes in one stretch.
@@ -335,7 +335,7 @@ double squares_of(const JoinedRun& run, const GeometryFit& fit, double clock_s, 
 }  // namespace
 
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
-                            const std::vector<std::string>& held) {
+                            const std::vector<std::string>& held, const std::vector<double>& from) {
   Unknowns unknowns;
   for (JointParameter& p : joint_parameters(nominal))
     if (std::find(held.begin(), held.end(), p.name) == held.end()) unknowns.joints.push_back(std::move(p));
@@ -350,10 +350,12 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
 
   const int n = unknowns.count();
   VectorXd x = VectorXd::Zero(n), prior(n);
+  const bool is_near = static_cast<int>(from.size()) == n;
+  if (is_near) x = Eigen::Map<const VectorXd>(from.data(), n);
   for (int k = 0; k < n; ++k) prior[k] = 1.0 / (unknowns.prior(k) * unknowns.prior(k));
   MatrixXd of_prior = prior.asDiagonal();
   hold_the_body(nominal, unknowns, of_prior);
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  for (int iteration = 0; iteration < (is_near ? kFromNearBy : kIterations); ++iteration) {
     const Normal normal = sum_of(passages, x, false);
     const VectorXd step = (normal.information + of_prior).ldlt().solve(normal.gradient - of_prior * x);
     x += step;
@@ -365,6 +367,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
 
   GeometryFit fit;
   fit.vehicle = nominal;
+  fit.at.assign(x.data(), x.data() + n);
   for (int k = 0; k < unknowns.joint_count(); ++k) {
     JointEstimate e{unknowns.joints[static_cast<std::size_t>(k)]};
     Vehicle copy = nominal;

@@ -29,15 +29,17 @@ struct GeometryFit {
   std::vector<JointEstimate> joints;
   std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
   std::vector<double> clock_stderr_s;
+  std::vector<double> at;  // all that was fitted, for a fit that goes on from here
 };
 
 // In the list of what is held: the clocks of all runs, and all wheels.
 inline constexpr const char *kClockHeld = "clock", *kWheelsHeld = "wheels";
 
 // Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
-// own, robust against what slips here and there. `held`: joints that keep their nominal value.
+// own, robust against what slips here and there. `held`: joints that keep their nominal value. `from`: where a fit of the
+// same runs and joints, to a truth that was nearly this, ended.
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
-                            const std::vector<std::string>& held = {});
+                            const std::vector<std::string>& held = {}, const std::vector<double>& from = {});
 
 // A turn of all pivots' readings, and of the pivots' places the other way, is a turn of the body's own x axis, which
 // nothing tells: most readings are taken to be right. Three castors or more.

@@ -70,12 +70,13 @@ JointEstimate joint_from(const JointParameter& p, const InternalCalibration& cal
   return estimate;
 }
 
-// A pivot's bias comes out a twentieth small: of 15 mrad 0.7 were missing twice.
+// A pivot's bias comes out a twentieth small: of 15 mrad 0.7 were missing twice. And of twenty platforms of another
+// program, in nineteen of which no pivot had one, they differed by 1.1 mrad root mean square.
 void widen_what_turns_lose(GeometryFit& fit) {
-  constexpr double kLostInTurns = 0.05;
+  constexpr double kLostInTurns = 0.05, kUnknown_rad = 0.0011;
   for (JointEstimate& e : fit.joints)
     if (e.parameter.effect == "pivot_angle_bias" && e.determined)
-      e.stderr_value = std::hypot(e.stderr_value, kLostInTurns * (e.value - e.nominal));
+      e.stderr_value = std::hypot(e.stderr_value, kLostInTurns * (e.value - e.nominal), kUnknown_rad);
 }
 
 // All that is fitted from the inside.
@@ -103,8 +104,8 @@ void set_numbers(Known& known, const std::vector<JointParameter>& joints, const 
 // The common way is that of wheels and pivots as they were believed to be: by turns, until both agree. What is nearly
 // common to all castors, as wheels that are all too small, moves by a tenth of its way in each.
 Result<GeometryFit> geometry_of_castors(const std::vector<Understood>& train, const Vehicle& vehicle) {
-  constexpr int kTurns = 14;
-  constexpr double kAgree = 2e-6;  // m and rad
+  constexpr int kTurns = 30;
+  constexpr double kAgree = 1e-5;  // m and rad
   Known known{vehicle, {}};
   for (const VehicleUnit& unit : units_of(vehicle)) known.drives.push_back(unit.drive);
   const std::vector<JointParameter> joints = joint_parameters(vehicle);
@@ -117,7 +118,7 @@ Result<GeometryFit> geometry_of_castors(const std::vector<Understood>& train, co
       if (!track) return track.error();
       runs.push_back({u.samples, *track});
     }
-    fit = fitted_geometry(runs, vehicle, held_joints(vehicle));
+    fit = fitted_geometry(runs, vehicle, held_joints(vehicle), fit.at);
     Known then{fit.vehicle, fit.drives};
     const Eigen::VectorXd at = numbers_of(known, joints), to = numbers_of(then, joints);
     if ((to - at).cwiseAbs().maxCoeff() < kAgree) break;

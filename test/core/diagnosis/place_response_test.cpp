@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/base/random.h"
 
 namespace odolab {
@@ -38,6 +40,26 @@ TEST(PlaceResponse, StandsOutWhereTheMismatchIsAndNowhereElse) {
     EXPECT_NEAR(turn.after[k], 0.0, 3.5);
     EXPECT_DOUBLE_EQ(turn.high[k] - turn.value[k], 2.0);
   }
+}
+
+TEST(PlaceResponse, AboutAPatchIsNoiseBeyondItsRim) {
+  const Residuals patch = there_and_back(0.002), noise = there_and_back(0.0);
+  const Response r = zone_response({3.5, 0.0, 0.5}, "patch", {patch}, {noise});
+  ASSERT_GT(r.at.size(), 10u);
+  EXPECT_LT(r.at.back(), 1.5);
+  constexpr double kGathered_m = 0.25;  // half a second to either side at 0.5 m/s
+  for (std::size_t k = 0; k < r.at.size(); ++k) {
+    // In 50 samples as much as the noise of each adds up to seven times the noise of their sum.
+    if (r.at[k] < 0.5 - kGathered_m) {
+      EXPECT_GT(r.value[k], 4.0) << r.at[k];
+      EXPECT_GT(r.low[k], 2.0) << r.at[k];
+    }
+    if (r.at[k] > 0.5 + kGathered_m) {
+      EXPECT_LT(r.value[k], 2.0) << r.at[k];
+    }
+    EXPECT_LT(r.after[k], 2.0);
+  }
+  EXPECT_TRUE(zone_response({30.0, 0.0, 0.5}, "patch", {patch}, {noise}).at.empty());
 }
 
 TEST(PlaceResponse, OfWhatStaysAtOnePlaceIsNone) {

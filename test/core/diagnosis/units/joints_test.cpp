@@ -102,6 +102,34 @@ TEST(DiagnoseUnits, TakeATruthThatIsTurnedOnATowForNoBiasOfTheHitch) {
   EXPECT_NEAR(heading->value, 0.03, 4.0 * heading->stderr_value);
 }
 
+// A camera of ten samples a second, 15 mm and two degrees tells nothing of how long the link is; both trucks know it.
+TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
+  Clapper actual;
+  actual.link_angle_resolution_rad = 0.0005;
+  actual.link_length_resolution_m = 0.0001;
+  const Clapper file = actual;
+  constexpr double kBias_m = -0.015;
+  actual.link_length_offset_m = kBias_m;
+  LinkedRunSettings settings;
+  settings.duration_s = 60.0;
+  settings.truth_m = 0.015;
+  settings.truth_rad = 0.035;
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    runs.push_back(linked_run(actual, settings, 331 + k));
+    runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
+    for (Channel& c : runs.back().channels)
+      if (c.name.rfind("truth_", 0) == 0)
+        for (std::size_t row = 0; row < c.values.size(); ++row)
+          if (row % 3 != 0) c.values[row] = std::nan("");
+  }
+  const Diagnosis d = diagnose(runs, {}, vehicle_of(file)).value();
+  const auto bias = std::find_if(d.findings.begin(), d.findings.end(),
+                                 [](const Finding& f) { return f.effect == "link_length_bias"; });
+  ASSERT_NE(bias, d.findings.end());
+  EXPECT_NEAR(bias->parameters[0].value, kBias_m, 4.0 * bias->parameters[0].stderr_value);
+}
+
 TEST(DiagnoseUnits, FindATruthThatFreezesThoughNoCastorCarriesIt) {
   std::vector<Recording> runs;
   for (std::uint64_t k = 0; k < 3; ++k) {
