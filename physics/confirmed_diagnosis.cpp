@@ -5,6 +5,7 @@
 
 #include "core/calibration/evened_recording.h"
 #include "core/diagnosis/fitted_model.h"
+#include "core/diagnosis/mismatch.h"
 #include "core/recording/truth_left_out.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
@@ -38,9 +39,8 @@ WaysUnknown ways_unknown(const Diagnosis& diagnosis, const FittedModel& model) {
 
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
   constexpr double kSame_s = 1e-6;
-  const auto residuals = std::find_if(diagnosis.residuals_before.begin(), diagnosis.residuals_before.end(),
-                                      [&](const Residuals& r) { return r.recording == recording.name; });
-  if (residuals == diagnosis.residuals_before.end()) return recording;
+  const Residuals* residuals = of_recording(diagnosis.residuals_before, recording.name);
+  if (!residuals) return recording;
   const std::vector<double>& used_s = residuals->time_s;
   const Channel* x = recording.channel("truth_x_m");
   if (!x || used_s.empty()) return recording;

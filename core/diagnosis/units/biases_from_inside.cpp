@@ -12,15 +12,6 @@ namespace {
 constexpr std::size_t kFewestRuns = 3;
 constexpr double kContradicted = 4.0;  // standard errors of both
 
-// Places are known on the truth's floor alone, and moments are over: only what lasts is taken off.
-Diagnosis with_what_lasts(Diagnosis d) {
-  std::erase_if(d.findings, [](const Finding& f) {
-    return std::any_of(f.parameters.begin(), f.parameters.end(),
-                       [](const FoundParameter& p) { return p.name == "x_m" || p.name == "at_s"; });
-  });
-  return d;
-}
-
 // The share by which a unit's wheels may be larger or smaller.
 double scale_stderr(const Diagnosis& of_unit) {
   for (const ParameterEstimate& p : of_unit.calibration.parameters)
@@ -37,9 +28,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
   Vehicle calibrated = nominal;
   for (std::size_t u = 0; u < units.size(); ++u)
     calibrated = with_drive(calibrated, u, std::get<DifferentialDrive>(of_units[u].calibration.vehicle.kind));
-  std::vector<Understood> all;
-  for (const Recording& r : train) all.push_back({&r, unit_samples(r, nominal)});
-  for (std::size_t u = 0; u < units.size(); ++u) take_off(all, u, model_of(with_what_lasts(of_units[u])), units);
+  std::vector<Understood> all = understood_without(of_units, train, nominal);
 
   const Result<GeometryFit> inside = geometry_from_inside(all, calibrated, progress);
   std::vector<GeometryFit> without;  // each run in turn

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
@@ -100,6 +101,60 @@ std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, con
   return frozen;
 }
 
+// Whether the truth errs by so much that the units know better how they stand to each other.
+bool is_coarse(const std::vector<Diagnosis>& of_units, const Vehicle& nominal) {
+  constexpr double kCoarse_m = 0.004;
+  const double least_m = std::max(kCoarse_m, rounding_from_inside(nominal).position_m);
+  return std::all_of(of_units.begin(), of_units.end(),
+                     [&](const Diagnosis& d) { return d.calibration_alone.noise.truth_position_m > least_m; });
+}
+
+bool has_a_lasting_cause(const Diagnosis& d) {
+  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return lasts(f) && !is_of_the_truth(f.effect) && !is_data_fault(f.effect) && f.effect != "clock_rate";
+  });
+}
+
+// A unit's answer with what was found on it from the inside, all else `asked_again` without it. Counts that were put
+// right are no whole ones any more: the faults of its data are those that were there before.
+Diagnosis with_causes_from_inside(const Diagnosis& before, Diagnosis asked_again, const std::vector<Finding>& causes) {
+  std::vector<Finding>& findings = asked_again.findings;
+  std::erase_if(findings, [](const Finding& f) { return is_data_fault(f.effect); });
+  for (const Finding& f : before.findings)
+    if (is_data_fault(f.effect)) findings.push_back(f);
+  for (const Finding& f : causes) {
+    findings.push_back(f);
+    findings.back().sentence += " (the units contradict each other so; the truth is too coarse to see it)";
+  }
+  if (asked_again.verdict == Verdict::nothing_missing || asked_again.verdict == Verdict::cannot_say)
+    asked_again.verdict = Verdict::found;
+  return asked_again;
+}
+
+using Read = std::vector<std::vector<UnitSample>>;  // of each recording
+using AskUnit = std::function<Result<Diagnosis>(std::size_t unit, const Read& read, const Read& read_held_out,
+                                                const Progress& progress)>;
+
+// Adds to the units' answers what they contradict each other in. Where that cannot be asked they stay as they were.
+void ask_units_of_each_other(std::vector<Diagnosis>& of_units, const GeometryFit& geometry,
+                             const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                             const Vehicle& nominal, const DiagnosisOptions& options, const AskUnit& ask,
+                             const Progress& progress) {
+  Vehicle calibrated = geometry.vehicle;
+  for (std::size_t u = 0; u < of_units.size(); ++u)
+    calibrated = with_drive(calibrated, u, std::get<DifferentialDrive>(of_units[u].calibration.vehicle.kind));
+  const Result<std::vector<ErringUnit>> erring =
+      units_that_err(understood_without(of_units, train, nominal), understood_without(of_units, held_out, nominal),
+                     calibrated, options, progress);
+  if (!erring) return;
+  for (const ErringUnit& one : *erring) {
+    Diagnosis& of_unit = of_units[one.unit];
+    if (has_a_lasting_cause(of_unit)) continue;  // it was taken off before they were asked
+    Result<Diagnosis> again = ask(one.unit, one.train, one.held_out, progress);
+    if (again) of_unit = with_causes_from_inside(of_unit, std::move(*again), one.findings);
+  }
+}
+
 // Too little outside truth to say where each unit was.
 bool is_poor(const JoinedRun& run) {
   constexpr double kLongest_s = 1.0;  // between two samples, in the mean
@@ -161,22 +216,27 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     samples.push_back(runs_held_out[r].samples), names.push_back(held_out[r].name);
     held_out_as_read.push_back(unit_samples(held_out[r], nominal));
   }
-  for (std::size_t u = 0; u < units.size(); ++u) {
+  const AskUnit judged = [&](std::size_t u, const Read& read, const Read& read_held_out,
+                             const Progress& part) -> Result<Diagnosis> {
     std::vector<Recording> own, own_held_out;
     for (std::size_t r = 0; r < runs.size(); ++r)
-      own.push_back(recording_of_unit(train[r], as_read[r], runs[r].tracked, geometry.vehicle, u, geometry.clock_s[r],
+      own.push_back(recording_of_unit(train[r], read[r], runs[r].tracked, geometry.vehicle, u, geometry.clock_s[r],
                                       !units[u].carries_truth));
     for (std::size_t r = 0; r < runs_held_out.size(); ++r)
-      own_held_out.push_back(recording_of_unit(held_out[r], held_out_as_read[r], runs_held_out[r].tracked,
+      own_held_out.push_back(recording_of_unit(held_out[r], read_held_out[r], runs_held_out[r].tracked,
                                                geometry.vehicle, u, clock_held_out_s[r], !units[u].carries_truth));
-    const Progress part = [&](double share) {
-      return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
-    };
     of_one.truth_errors = joint_errors(samples, names, geometry.vehicle, u);
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units[u], nominal), of_one, part);
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, own, units[u].drive);
     if (!units[u].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal.kind));
+    return one;
+  };
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    Result<Diagnosis> one = judged(u, as_read, held_out_as_read, [&](double share) {
+      return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
+    });
+    if (!one) return one.error();
     if (!units[u].carries_truth) {
       const auto& calibrated = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
       std::optional<ErringJoint> of_unit =
@@ -185,6 +245,10 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     }
     diagnoses.push_back(std::move(*one));
   }
+  if (is_coarse(diagnoses, nominal))
+    ask_units_of_each_other(diagnoses, geometry, train, held_out, nominal, options, judged,
+                            [&](double) { return goes_on(progress, 0.9); });
+  if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
   const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
   if (are_trucks)
     put_inside_beside_truth(geometry, train, nominal, diagnoses, [&](double) { return goes_on(progress, 0.95); });
@@ -207,6 +271,9 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     d.findings.insert(d.findings.end(), frozen.begin(), frozen.end());
     if (!frozen.empty() && d.verdict == Verdict::nothing_missing) d.verdict = Verdict::found;
   }
+  std::erase_if(d.not_testable, [&](const NotTestable& n) {
+    return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) { return f.effect == n.effect; });
+  });
   mark_named(d);
   return d;
 }

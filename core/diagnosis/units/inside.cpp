@@ -157,21 +157,17 @@ Result<std::optional<Blame>> unit_to_blame(const Judge& judge, const Sets& sets,
   return std::optional<Blame>(Blame{suspects[best], either});
 }
 
-}  // namespace
-
-Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                  const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
-  const std::vector<VehicleUnit> units = units_of(nominal);
-  if (const auto* platform = std::get_if<MultiCastor>(&nominal.kind); platform && platform->castors.size() < 3)
-    return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
-                 "such a truth, or three castors and more, of which the others judge one"};
-  Sets sets;
-  for (const Recording& r : train) sets.train.push_back({&r, unit_samples(r, nominal)});
-  for (const Recording& r : held_out) sets.held_out.push_back({&r, unit_samples(r, nominal)});
-  const Judge judge(nominal, options, [&](double) { return goes_on(progress, 0.5); });
-
-  std::vector<char> blamed(units.size(), 0);
+struct Blamed {
+  Sets sets;                         // what the blamed units did wrong taken off
+  Judged judged;                     // what each is blamed for, and what the rest looks like then
+  std::vector<char> is;              // of each unit
   std::vector<Alternative> instead;  // of the first unit to blame
+};
+
+// Blames one unit after the other, until none errs.
+Result<Blamed> blamed_one_by_one(const Judge& judge, Sets sets, const std::vector<VehicleUnit>& units) {
+  std::vector<char> blamed(units.size(), 0);
+  std::vector<Alternative> instead;
   Result<Judged> judged = judge.ask(sets, {}, blamed);
   for (int round = 0; round < kMostRounds && judged; ++round) {
     const Result<std::optional<Blame>> blame = unit_to_blame(judge, sets, *judged, blamed);
@@ -188,8 +184,57 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     judged = judge.ask(sets, judged->units, blamed);
   }
   if (!judged) return judged.error();
+  return Blamed{std::move(sets), std::move(*judged), std::move(blamed), std::move(instead)};
+}
 
-  Diagnosis d = merged(judged->units, judged->geometry, nominal, train, false);
+// What lasts on a unit's own wheels, and nothing else could be; what all units may do alike a truth must say.
+bool is_sure_from_inside(const Finding& f) {
+  return f.alternatives.empty() && f.effect != "unknown" && !is_data_fault(f.effect) && lasts(f) &&
+         std::find(common_effects().begin(), common_effects().end(), f.effect) == common_effects().end();
+}
+
+}  // namespace
+
+Result<std::vector<ErringUnit>> units_that_err(const std::vector<Understood>& train,
+                                               const std::vector<Understood>& held_out, const Vehicle& calibrated,
+                                               const DiagnosisOptions& options, const Progress& progress) {
+  const std::vector<VehicleUnit> units = units_of(calibrated);
+  if (units.size() < 2) return std::vector<ErringUnit>();
+  if (const auto* platform = std::get_if<MultiCastor>(&calibrated.kind); platform && platform->castors.size() < 3)
+    return std::vector<ErringUnit>();
+  const Judge judge(without_mounting(calibrated), options, progress);
+  const Result<Blamed> blamed = blamed_one_by_one(judge, {train, held_out}, units);
+  if (!blamed) return blamed.error();
+  std::vector<ErringUnit> erring;
+  if (!blamed->instead.empty()) return erring;  // which of two is not told
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    if (!blamed->is[u]) continue;
+    const std::vector<Finding>& found = blamed->judged.units[u].findings;
+    if (!std::all_of(found.begin(), found.end(), is_sure_from_inside)) continue;
+    ErringUnit one{u, found, {}, {}};
+    for (const Understood& r : blamed->sets.train) one.train.push_back(r.samples);
+    for (const Understood& r : blamed->sets.held_out) one.held_out.push_back(r.samples);
+    erring.push_back(std::move(one));
+  }
+  return erring;
+}
+
+Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                                  const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  const std::vector<VehicleUnit> units = units_of(nominal);
+  if (const auto* platform = std::get_if<MultiCastor>(&nominal.kind); platform && platform->castors.size() < 3)
+    return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
+                 "such a truth, or three castors and more, of which the others judge one"};
+  Sets sets;
+  for (const Recording& r : train) sets.train.push_back({&r, unit_samples(r, nominal)});
+  for (const Recording& r : held_out) sets.held_out.push_back({&r, unit_samples(r, nominal)});
+  const Judge judge(nominal, options, [&](double) { return goes_on(progress, 0.5); });
+
+  const Result<Blamed> blamed = blamed_one_by_one(judge, std::move(sets), units);
+  if (!blamed) return blamed.error();
+  const std::vector<Alternative>& instead = blamed->instead;
+
+  Diagnosis d = merged(blamed->judged.units, blamed->judged.geometry, nominal, train, false);
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;
   if (!instead.empty() && !d.findings.empty()) {
     d.findings.front().alternatives.insert(d.findings.front().alternatives.end(), instead.begin(), instead.end());

@@ -1,5 +1,7 @@
 #include "core/diagnosis/units/others_way.h"
 
+#include <algorithm>
+
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
@@ -41,6 +43,23 @@ Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& s
     track[i].pose = track[i].pose * inverse(tracked_T_axle(known.vehicle, by, samples[i].joints));
   unwrap_headings(track);
   return track;
+}
+
+bool lasts(const Finding& finding) {
+  return std::none_of(finding.parameters.begin(), finding.parameters.end(),
+                      [](const FoundParameter& p) { return p.name == "x_m" || p.name == "at_s"; });
+}
+
+std::vector<Understood> understood_without(const std::vector<Diagnosis>& of_units,
+                                           const std::vector<Recording>& recordings, const Vehicle& nominal) {
+  std::vector<Understood> all;
+  for (const Recording& r : recordings) all.push_back({&r, unit_samples(r, nominal)});
+  for (std::size_t u = 0; u < of_units.size(); ++u) {
+    Diagnosis lasting = of_units[u];
+    std::erase_if(lasting.findings, [](const Finding& f) { return !lasts(f); });
+    take_off(all, u, model_of(lasting), units_of(nominal));
+  }
+  return all;
 }
 
 void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,

@@ -130,6 +130,42 @@ TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
   EXPECT_NEAR(bias->parameters[0].value, kBias_m, 4.0 * bias->parameters[0].stderr_value);
 }
 
+// Under that camera an oval wheel of a third of a per cent is a twentieth of a sample's error; the other truck sees it.
+TEST(DiagnoseUnits, NameWhatOneTruckDoesThatTheOtherSeesBetterThanACoarseTruth) {
+  Clapper file;
+  file.link_angle_resolution_rad = 0.0005;
+  file.link_length_resolution_m = 0.0001;
+  constexpr double kAmplitude = 0.003;
+  for (const double amplitude : {0.0, kAmplitude}) {
+    LinkedRunSettings settings;
+    settings.duration_s = 60.0;
+    settings.truth_m = 0.015;
+    settings.truth_rad = 0.02;
+    settings.b_left = [amplitude](double, double rotation_rad, double by_rad) {
+      return amplitude * std::sin(rotation_rad) * by_rad;
+    };
+    std::vector<Recording> runs;
+    for (std::uint64_t k = 0; k < 4; ++k) {
+      runs.push_back(linked_run(file, settings, 341 + k));
+      runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
+      for (Channel& c : runs.back().channels)
+        if (c.name.rfind("truth_", 0) == 0)
+          for (std::size_t row = 0; row < c.values.size(); ++row)
+            if (row % 3 != 0) c.values[row] = std::nan("");
+    }
+    const Diagnosis d = diagnose(runs, {}, vehicle_of(file)).value();
+    if (amplitude == 0.0) {
+      EXPECT_EQ(d.verdict, Verdict::nothing_missing);
+      continue;
+    }
+    ASSERT_EQ(d.findings.size(), 1u);
+    EXPECT_EQ(d.findings[0].effect, "wheel_eccentricity");
+    EXPECT_EQ(d.findings[0].component, "truck_b.left_wheel");
+    EXPECT_NEAR(d.findings[0].parameters[0].value, kAmplitude, 4.0 * d.findings[0].parameters[0].stderr_value);
+    for (const NotTestable& n : d.not_testable) EXPECT_NE(n.effect, "wheel_eccentricity");
+  }
+}
+
 TEST(DiagnoseUnits, FindATruthThatFreezesThoughNoCastorCarriesIt) {
   std::vector<Recording> runs;
   for (std::uint64_t k = 0; k < 3; ++k) {
