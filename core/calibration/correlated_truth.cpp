@@ -5,18 +5,13 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/quantile.h"
 #include "core/geometry/angles.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
 
 namespace {
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Products of neighbouring samples' deviations, and their squares.
 struct Neighbours {
@@ -27,11 +22,11 @@ struct Neighbours {
     constexpr std::size_t kFewest = 4;
     constexpr double kFarthest = 4.0, kOfNormal = 1.4826;  // median deviation to standard deviation
     if (values.size() < kFewest) return;
-    const double middle = median_of(values);
+    const double middle = median(values);
     for (double& v : values) v -= middle;
     std::vector<double> sizes;
     for (double v : values) sizes.push_back(std::abs(v));
-    const double most = kFarthest * kOfNormal * median_of(std::move(sizes));
+    const double most = kFarthest * kOfNormal * median(std::move(sizes));
     double mean = 0.0;
     for (double& v : values) mean += v = std::clamp(v, -most, most);
     const auto n = static_cast<double>(values.size());

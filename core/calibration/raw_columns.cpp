@@ -6,15 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
-
-std::string in_words(double number) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
 
 // By how many bits a counter wraps, and how often; zero bits where it does not.
 struct Wrap {
@@ -56,15 +52,14 @@ std::optional<Error> stamps_in_no_seconds(const Recording& recording) {
   std::vector<double> apart;
   for (std::size_t i = 1; i < recording.time_s.size(); ++i)
     if (const double by = recording.time_s[i] - recording.time_s[i - 1]; by > 0.0) apart.push_back(by);
-  if (apart.empty()) return std::nullopt;
-  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
-  std::nth_element(apart.begin(), middle, apart.end());
-  if (*middle < kTooFarApart_s) return std::nullopt;
-  const char* unit = *middle < kTooFarApart_s * kThousand               ? "milliseconds"
-                     : *middle < kTooFarApart_s * kThousand * kThousand ? "microseconds"
-                                                                        : "nanoseconds";
-  return Error{(recording.name.empty() ? "recording" : recording.name) + ": time_s",
-               "rows " + in_words(*middle) + " apart, which look like " + unit, "seconds"};
+  const double usual = median(std::move(apart));
+  if (usual < kTooFarApart_s) return std::nullopt;
+  const char* unit = usual < kTooFarApart_s * kThousand               ? "milliseconds"
+                     : usual < kTooFarApart_s * kThousand * kThousand ? "microseconds"
+                                                                      : "nanoseconds";
+  char found[80];
+  std::snprintf(found, sizeof found, "rows %.3g apart, which look like %s", usual, unit);
+  return Error{"time_s", found, "seconds"};
 }
 
 std::optional<Error> unknown_wrap(const Recording& recording, const DifferentialDrive& drive) {
@@ -75,7 +70,7 @@ std::optional<Error> unknown_wrap(const Recording& recording, const Differential
     const Wrap wrap = wrap_of(ticks->values);
     if (wrap.bits < 8) continue;
     const std::string bits = std::to_string(wrap.bits);
-    return Error{(recording.name.empty() ? "recording" : recording.name) + ": " + name,
+    return Error{name,
                  "a count that jumps back or on by 2^" + bits + " and goes on at its pace (" +
                      std::to_string(wrap.times) + " times), as a counter of " + bits + " bits does where it wraps",
                  "counter_bits = " + bits + " in the vehicle's file, or counts that do not wrap"};

@@ -1,4 +1,4 @@
-// Columns that betray by themselves that they are not what they are taken for.
+// Columns that betray by themselves that they are not what they are taken for. An Error stands at the column.
 #pragma once
 
 #include <optional>

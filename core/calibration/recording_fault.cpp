@@ -156,9 +156,11 @@ std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nom
 
 // What shows of a recording alone.
 std::optional<Error> own_fault(const Recording& recording, const Vehicle& nominal) {
-  if (std::optional<Error> unit = stamps_in_no_seconds(recording)) return unit;
-  if (std::optional<Error> wrap = unknown_wrap(recording, std::get<DifferentialDrive>(nominal.kind))) return wrap;
-  return dead_encoder(recording, nominal);
+  std::optional<Error> of_column = stamps_in_no_seconds(recording);
+  if (!of_column) of_column = unknown_wrap(recording, std::get<DifferentialDrive>(nominal.kind));
+  if (!of_column) return dead_encoder(recording, nominal);
+  of_column->where = name_of(recording) + ": " + of_column->where;
+  return of_column;
 }
 
 Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }

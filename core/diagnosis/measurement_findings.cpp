@@ -26,8 +26,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double base_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
-  const double least_m = std::min(kLeastMounting_m, 0.02 * base_m);
+  const double least_m = least_mounting_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
   const double least[3] = {least_m, least_m, 0.0005};
   Finding mounting;
   double gain = 0.0;

@@ -63,7 +63,7 @@ BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int chann
 // Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known
 // better than to a fifth where the vehicle speeds up: directions of which less than the square of that is left may be
 // its error, and are not tested.
-constexpr AskedHow kAskedOfGeneric{0.04, false};
+constexpr AskedHow kAskedOfGeneric{.least_surviving = 0.04, .scatters_as_its_like = false, .is_drawn = true};
 
 // A model, and what it comes to with all that was let in and without.
 struct AskedModel {

@@ -28,8 +28,7 @@ std::vector<CandidateTest> CandidateScan::tests(const Effect& effect,
   std::vector<ScannedProducts::OfShape> products = products_->of(effect, of);
   for (std::size_t k = 0; k < asked.size(); ++k)
     if (products[k].acts)
-      results[asked[k]] =
-          JointModel::tested(absorbing_, std::move(products[k].products), AskedHow{}.least_surviving, nullptr);
+      results[asked[k]] = JointModel::tested(absorbing_, std::move(products[k].products), AskedHow{}, nullptr);
   return results;
 }
 

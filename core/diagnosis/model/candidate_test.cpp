@@ -125,7 +125,7 @@ JointModel::Absorbing JointModel::absorbing(int without) const {
   return by;
 }
 
-CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products, const AskedHow& how,
                                  MatrixXd* absorbed) {
   CandidateTest out;
   const MatrixXd& info = products.with_itself;
@@ -147,7 +147,7 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
   // Directions that do not survive are left out of the test.
   if (k == 1) {  // as below
     const double share = effective(0, 0) / info(0, 0), scale = 1.0 / std::sqrt(info(0, 0));
-    const bool survives = share >= least_surviving;
+    const bool survives = share >= how.least_surviving;
     out.statistic = survives ? scale * s(0) * (scale * s(0)) / share : 0.0;
     out.freedom = 1;
     out.value = {survives ? scale * (scale * s(0) / share) : 0.0};
@@ -164,7 +164,7 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
   int freedom = 0;
   for (int j = 0; j < k; ++j) {
     const double e = eig.eigenvalues()(j);
-    if (e < least_surviving) {
+    if (e < how.least_surviving) {
       cov += 1e6 * eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose();
       continue;
     }
@@ -172,7 +172,7 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
     w += su(j) / e * eig.eigenvectors().col(j);
     cov += eig.eigenvectors().col(j) * eig.eigenvectors().col(j).transpose() / e;
     out.statistic += su(j) * su(j) / e;
-    if (e < kMostlyLeft && su(j) * su(j) / e < kSeen) continue;
+    if (!how.is_drawn || (e < kMostlyLeft && su(j) * su(j) / e < kSeen)) continue;
     drawn += su(j) / e * eig.eigenvectors().col(j);
     drawn_variance += eig.eigenvectors().col(j).cwiseAbs2() / e;
   }
@@ -181,6 +181,7 @@ CandidateTest JointModel::tested(const Absorbing& by, CandidateProducts products
   out.value.assign(value.data(), value.data() + k);
   for (int j = 0; j < k; ++j) {
     out.stderr_value.push_back(scale(j) * std::sqrt(cov(j, j)));
+    if (!how.is_drawn) continue;
     out.drawn_value.push_back(scale(j) * drawn(j));
     out.drawn_stderr.push_back(scale(j) * std::sqrt(drawn_variance(j)));
   }
@@ -228,7 +229,7 @@ std::shared_ptr<const JointModel::Asked> JointModel::asked(int without) const {
 
 CandidateTest JointModel::test(const CandidateColumns& c, int without, bool thorough) const {
   if (thorough) return tested_thoroughly(*asked(without), products_of(c), c);
-  return tested(absorbing(without), products_of(c), c.how.least_surviving, nullptr);
+  return tested(absorbing(without), products_of(c), c.how, nullptr);
 }
 
 std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c,
@@ -242,7 +243,7 @@ std::vector<CandidateTest> JointModel::tests(const CandidateColumns& c,
 CandidateTest JointModel::tested_thoroughly(const Asked& asked, CandidateProducts products,
                                             const CandidateColumns& c) const {
   MatrixXd absorbed;
-  CandidateTest out = tested(asked.by, std::move(products), c.how.least_surviving, &absorbed);
+  CandidateTest out = tested(asked.by, std::move(products), c.how, &absorbed);
   if (out.statistic <= 0.0) return out;
   const ScoreByBatches by_batches = score_by_batches(asked, c, out, absorbed);
   if (by_batches.u.empty()) return out;
@@ -283,7 +284,7 @@ double JointModel::batches_believed_white() const {
       if (e.local || e.only_commands || e.scan || e.forms.size() > 1) continue;
       const CandidateColumns c = columns_of(e, {});
       MatrixXd absorbed;
-      const CandidateTest test = tested(asked_now->by, products_of(c), c.how.least_surviving, &absorbed);
+      const CandidateTest test = tested(asked_now->by, products_of(c), c.how, &absorbed);
       if (test.statistic > 0.0) scores.push_back(score_by_batches(*asked_now, c, test, absorbed));
     }
     white_->batches = batches_of_prior(scores);

@@ -33,8 +33,8 @@ struct CandidateTest {
   double batches = 1e9;    // from so many it was found how the score scatters
   double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
-  // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Of two
-  // columns and more.
+  // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Only
+  // where that was asked for, of two columns and more.
   std::vector<double> drawn_value, drawn_stderr;
   double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
   std::vector<double> shape;
@@ -46,6 +46,7 @@ struct AskedHow {
   // How the scores of all that is listed scatter tells how far this one may be believed: not of a term that was made to
   // find what they do not see.
   bool scatters_as_its_like = true;
+  bool is_drawn = false;
 };
 
 // Columns of a candidate over all runs, of each run those that act in it: rows as the whitened innovations.
@@ -214,7 +215,7 @@ class JointModel {
   };
   Absorbing absorbing(int without) const;
   // The test without its thorough part; `absorbed`: what the kept columns take of each of the candidate's.
-  static CandidateTest tested(const Absorbing& by, CandidateProducts products, double least_surviving,
+  static CandidateTest tested(const Absorbing& by, CandidateProducts products, const AskedHow& how,
                               Eigen::MatrixXd* absorbed);
   CandidateTest tested_thoroughly(const Asked& by, CandidateProducts products, const CandidateColumns& c) const;
   int batch_samples() const;

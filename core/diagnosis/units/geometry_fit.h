@@ -36,8 +36,8 @@ struct GeometryFit {
 inline constexpr const char *kClockHeld = "clock", *kWheelsHeld = "wheels";
 
 // Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
-// own, robust against what slips here and there. `held`: joints that keep their nominal value. `from`: where a fit of the
-// same runs and joints, to a truth that was nearly this, ended.
+// own, robust against what slips here and there. `held`: joints that keep their nominal value. `from`: where a fit of
+// the same runs and joints, to a truth that was nearly this, ended.
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
                             const std::vector<std::string>& held = {}, const std::vector<double>& from = {});
 

@@ -29,6 +29,28 @@ std::vector<Recording> trailer_runs(const EncoderTrailer& actual, std::uint64_t 
   return runs;
 }
 
+Clapper clapper_with_a_fine_link() {
+  Clapper clapper;
+  clapper.link_angle_resolution_rad = 0.0005;
+  clapper.link_length_resolution_m = 0.0001;
+  return clapper;
+}
+
+// Four runs, of which every third sample of the truth is left: some eight a second.
+std::vector<Recording> under_a_slow_camera(const Clapper& actual, const LinkedRunSettings& settings,
+                                           std::uint64_t seed) {
+  std::vector<Recording> runs;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    runs.push_back(linked_run(actual, settings, seed + k));
+    runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
+    for (Channel& c : runs.back().channels)
+      if (c.name.rfind("truth_", 0) == 0)
+        for (std::size_t row = 0; row < c.values.size(); ++row)
+          if (row % 3 != 0) c.values[row] = std::nan("");
+  }
+  return runs;
+}
+
 void turn_truth(std::vector<Recording>& runs, double by_rad) {
   for (Recording& r : runs)
     for (Channel& c : r.channels)
@@ -102,28 +124,17 @@ TEST(DiagnoseUnits, TakeATruthThatIsTurnedOnATowForNoBiasOfTheHitch) {
   EXPECT_NEAR(heading->value, 0.03, 4.0 * heading->stderr_value);
 }
 
-// A camera of ten samples a second, 15 mm and two degrees tells nothing of how long the link is; both trucks know it.
+// A camera of eight samples a second, 15 mm and two degrees tells nothing of how long the link is; both trucks know it.
 TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
-  Clapper actual;
-  actual.link_angle_resolution_rad = 0.0005;
-  actual.link_length_resolution_m = 0.0001;
-  const Clapper file = actual;
+  const Clapper file = clapper_with_a_fine_link();
+  Clapper actual = file;
   constexpr double kBias_m = -0.015;
   actual.link_length_offset_m = kBias_m;
   LinkedRunSettings settings;
   settings.duration_s = 60.0;
   settings.truth_m = 0.015;
   settings.truth_rad = 0.035;
-  std::vector<Recording> runs;
-  for (std::uint64_t k = 0; k < 4; ++k) {
-    runs.push_back(linked_run(actual, settings, 331 + k));
-    runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
-    for (Channel& c : runs.back().channels)
-      if (c.name.rfind("truth_", 0) == 0)
-        for (std::size_t row = 0; row < c.values.size(); ++row)
-          if (row % 3 != 0) c.values[row] = std::nan("");
-  }
-  const Diagnosis d = diagnose(runs, {}, vehicle_of(file)).value();
+  const Diagnosis d = diagnose(under_a_slow_camera(actual, settings, 331), {}, vehicle_of(file)).value();
   const auto bias = std::find_if(d.findings.begin(), d.findings.end(),
                                  [](const Finding& f) { return f.effect == "link_length_bias"; });
   ASSERT_NE(bias, d.findings.end());
@@ -132,9 +143,7 @@ TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
 
 // Under that camera an oval wheel of a third of a per cent is a twentieth of a sample's error; the other truck sees it.
 TEST(DiagnoseUnits, NameWhatOneTruckDoesThatTheOtherSeesBetterThanACoarseTruth) {
-  Clapper file;
-  file.link_angle_resolution_rad = 0.0005;
-  file.link_length_resolution_m = 0.0001;
+  const Clapper file = clapper_with_a_fine_link();
   constexpr double kAmplitude = 0.003;
   for (const double amplitude : {0.0, kAmplitude}) {
     LinkedRunSettings settings;
@@ -144,16 +153,7 @@ TEST(DiagnoseUnits, NameWhatOneTruckDoesThatTheOtherSeesBetterThanACoarseTruth) 
     settings.b_left = [amplitude](double, double rotation_rad, double by_rad) {
       return amplitude * std::sin(rotation_rad) * by_rad;
     };
-    std::vector<Recording> runs;
-    for (std::uint64_t k = 0; k < 4; ++k) {
-      runs.push_back(linked_run(file, settings, 341 + k));
-      runs.back().name = "run_" + std::to_string(k + 1) + ".csv";
-      for (Channel& c : runs.back().channels)
-        if (c.name.rfind("truth_", 0) == 0)
-          for (std::size_t row = 0; row < c.values.size(); ++row)
-            if (row % 3 != 0) c.values[row] = std::nan("");
-    }
-    const Diagnosis d = diagnose(runs, {}, vehicle_of(file)).value();
+    const Diagnosis d = diagnose(under_a_slow_camera(file, settings, 341), {}, vehicle_of(file)).value();
     if (amplitude == 0.0) {
       EXPECT_EQ(d.verdict, Verdict::nothing_missing);
       continue;
