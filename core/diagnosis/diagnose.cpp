@@ -382,8 +382,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   d.residuals_after = residuals_of(said.under(between));
   if (!d.findings.empty() && d.findings.front().where.zone) {
     const Finding& first = d.findings.front();
-    Response about = zone_response(*first.where.zone, first.effect == "bump" ? "bump" : "patch's middle",
-                                   d.residuals_before, d.residuals_after);
+    Response about = zone_response(*first.where.zone, first.effect == "bump" ? "bump" : "patch", d.residuals_before,
+                                   d.residuals_after);
     if (!about.at.empty()) d.responses.insert(d.responses.begin(), std::move(about));
   }
 
