@@ -29,9 +29,12 @@ inline std::string text_of_file(const std::filesystem::path& path) {
   return text.str();
 }
 
-// A folder of a test's own, empty at its start.
-inline std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("odolab_test_" + name);
+// A folder of the running test's own, empty at its start: tests run beside each other.
+inline std::filesystem::path fresh_folder(std::string name) {
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  name = std::string("odolab_") + test->test_suite_name() + "_" + test->name() + "_" + name;
+  std::replace(name.begin(), name.end(), '/', '-');
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
