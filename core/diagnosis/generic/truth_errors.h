@@ -13,6 +13,7 @@ namespace odolab {
 
 struct TruthError {
   std::string component;          // of the instrument: "truck_b"
+  bool is_of_a_length = false;    // else of an angle
   std::string channel, variable;  // "error of the hitch's encoder", "what it reads"
   // Of each amplitude what the truth moves by from step to step.
   std::shared_ptr<const Effect> term;

@@ -16,6 +16,7 @@
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/merged_findings.h"
+#include "core/diagnosis/units/together/told_together.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
@@ -101,57 +102,24 @@ std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, con
   return frozen;
 }
 
-// Whether the truth errs by so much that the units know better how they stand to each other.
-bool is_coarse(const std::vector<Diagnosis>& of_units, const Vehicle& nominal) {
-  constexpr double kCoarse_m = 0.004;
-  const double least_m = std::max(kCoarse_m, rounding_from_inside(nominal).position_m);
-  return std::all_of(of_units.begin(), of_units.end(),
-                     [&](const Diagnosis& d) { return d.calibration_alone.noise.truth_position_m > least_m; });
-}
-
-bool has_a_lasting_cause(const Diagnosis& d) {
-  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
-    return lasts(f) && !is_of_the_truth(f.effect) && !is_data_fault(f.effect) && f.effect != "clock_rate";
-  });
-}
-
-// A unit's answer with what was found on it from the inside, all else `asked_again` without it. Counts that were put
-// right are no whole ones any more: the faults of its data are those that were there before.
-Diagnosis with_causes_from_inside(const Diagnosis& before, Diagnosis asked_again, const std::vector<Finding>& causes) {
-  std::vector<Finding>& findings = asked_again.findings;
-  std::erase_if(findings, [](const Finding& f) { return is_data_fault(f.effect); });
-  for (const Finding& f : before.findings)
-    if (is_data_fault(f.effect)) findings.push_back(f);
-  for (const Finding& f : causes) {
-    findings.push_back(f);
-    findings.back().sentence += " (the units contradict each other so; the truth is too coarse to see it)";
-  }
-  if (asked_again.verdict == Verdict::nothing_missing || asked_again.verdict == Verdict::cannot_say)
-    asked_again.verdict = Verdict::found;
-  return asked_again;
-}
-
 using Read = std::vector<std::vector<UnitSample>>;  // of each recording
-using AskUnit = std::function<Result<Diagnosis>(std::size_t unit, const Read& read, const Read& read_held_out,
-                                                const Progress& progress)>;
 
-// Adds to the units' answers what they contradict each other in. Where that cannot be asked they stay as they were.
-void ask_units_of_each_other(std::vector<Diagnosis>& of_units, const GeometryFit& geometry,
-                             const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                             const Vehicle& nominal, const DiagnosisOptions& options, const AskUnit& ask,
-                             const Progress& progress) {
-  Vehicle calibrated = geometry.vehicle;
-  for (std::size_t u = 0; u < of_units.size(); ++u)
-    calibrated = with_drive(calibrated, u, std::get<DifferentialDrive>(of_units[u].calibration.vehicle.kind));
-  const Result<std::vector<ErringUnit>> erring =
-      units_that_err(understood_without(of_units, train, nominal), understood_without(of_units, held_out, nominal),
-                     calibrated, options, progress);
-  if (!erring) return;
-  for (const ErringUnit& one : *erring) {
-    Diagnosis& of_unit = of_units[one.unit];
-    if (has_a_lasting_cause(of_unit)) continue;  // it was taken off before they were asked
-    Result<Diagnosis> again = ask(one.unit, one.train, one.held_out, progress);
-    if (again) of_unit = with_causes_from_inside(of_unit, std::move(*again), one.findings);
+Read samples_of(std::vector<Understood> all) {
+  Read read;
+  for (Understood& u : all) read.push_back(std::move(u.samples));
+  return read;
+}
+
+// Biased encoders as all units tell them together, where that is better than by the geometry alone.
+void put_lengths_beside_truth(GeometryFit& geometry, const JoinedModel& model) {
+  for (JointEstimate& e : geometry.joints) {
+    if (e.parameter.effect.empty() || e.parameter.component == "truth") continue;
+    const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
+    if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
+    e.value = e.nominal + known->value;
+    e.stderr_value = known->stderr_value;
+    e.parameter.of(geometry.vehicle) = e.value;
+    e.determined = e.is_from_inside = true;
   }
 }
 
@@ -202,6 +170,14 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     clock_held_out_s.push_back(fitted_geometry({run}, geometry.vehicle).clock_s.front());
   if (!goes_on(progress, 0.1)) return Error{"diagnosis", "stopped before its end", ""};
 
+  std::optional<ToldTogether> told;
+  if (units.size() > 1 && may_be_coarse(runs)) {
+    std::vector<std::string> names;
+    for (const Recording& r : train) names.push_back(r.name);
+    told = told_together(runs, nominal, geometry.clock_s, names, options.family_wise_error,
+                         [&](double share) { return goes_on(progress, 0.1 * share); });
+  }
+
   std::vector<Diagnosis> diagnoses;
   std::optional<ErringJoint> erring;
   DiagnosisOptions of_one = options;
@@ -216,8 +192,8 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     samples.push_back(runs_held_out[r].samples), names.push_back(held_out[r].name);
     held_out_as_read.push_back(unit_samples(held_out[r], nominal));
   }
-  const AskUnit judged = [&](std::size_t u, const Read& read, const Read& read_held_out,
-                             const Progress& part) -> Result<Diagnosis> {
+  const auto judged = [&](std::size_t u, const Read& read, const Read& read_held_out,
+                          const Progress& part) -> Result<Diagnosis> {
     std::vector<Recording> own, own_held_out;
     for (std::size_t r = 0; r < runs.size(); ++r)
       own.push_back(recording_of_unit(train[r], read[r], runs[r].tracked, geometry.vehicle, u, geometry.clock_s[r],
@@ -245,19 +221,34 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     }
     diagnoses.push_back(std::move(*one));
   }
-  if (is_coarse(diagnoses, nominal))
-    ask_units_of_each_other(diagnoses, geometry, train, held_out, nominal, options, judged,
-                            [&](double) { return goes_on(progress, 0.9); });
+  if (told)
+    for (std::size_t u = 0; u < units.size(); ++u) {
+      if (!acts_on(*told, u)) {
+        diagnoses[u] = with_names(*told, u, diagnoses[u], diagnoses[u]);
+        continue;
+      }
+      Result<Diagnosis> again =
+          judged(u, samples_of(understood_without(*told, train, runs, geometry.clock_s, nominal)),
+                 samples_of(understood_without(*told, held_out, runs_held_out, clock_held_out_s, nominal)),
+                 [&](double) { return goes_on(progress, 0.9); });
+      if (!again) return again.error();
+      diagnoses[u] = with_names(*told, u, diagnoses[u], std::move(*again));
+    }
   if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
   const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
-  if (are_trucks)
+  if (told) {
+    put_lengths_beside_truth(geometry, told->model);
+    set_most_pivots_right(geometry);
+  } else if (are_trucks) {
     put_inside_beside_truth(geometry, train, nominal, diagnoses, [&](double) { return goes_on(progress, 0.95); });
+  }
   if (!goes_on(progress, 0.95)) return Error{"diagnosis", "stopped before its end", ""};
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   Vehicle as_mounted = nominal;
   if (is_towed) as_mounted.truth.axle_T_tracked.heading_rad = geometry.vehicle.truth.axle_T_tracked.heading_rad;
   prove_biases(d, runs, geometry, as_mounted);
-  if (erring && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
+  if (told) put_names_into(*told, d);
+  if (erring && !told && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
     add_erring_joint(*erring, nominal, d);
     leave_out_biases_beside_erring_joints(d.findings);
   }

@@ -8,6 +8,7 @@
 #include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
+#include "core/diagnosis/units/together/told_together.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -28,8 +29,9 @@ double gain_of(const Diagnosis& d) {
 void keep_names_of_wheels(Diagnosis& d, const VehicleUnit& unit, const JointRounding& rounding) {
   d.findings.erase(std::remove_if(d.findings.begin(), d.findings.end(),
                                   [&](const Finding& f) {
-                                    return may_be_rounding(f, unit, rounding) || f.effect.rfind("truth_", 0) == 0 ||
-                                           f.effect == "clock_rate" || f.effect == "floor_slope_creep" ||
+                                    return lasts(f) || may_be_rounding(f, unit, rounding) ||
+                                           f.effect.rfind("truth_", 0) == 0 || f.effect == "clock_rate" ||
+                                           f.effect == "floor_slope_creep" ||
                                            (f.effect == "wheel_toe" && !f.alternatives.empty() &&
                                             f.alternatives.front().effect == "truth_mounting_offset");
                                   }),
@@ -187,37 +189,7 @@ Result<Blamed> blamed_one_by_one(const Judge& judge, Sets sets, const std::vecto
   return Blamed{std::move(sets), std::move(*judged), std::move(blamed), std::move(instead)};
 }
 
-// What lasts on a unit's own wheels, and nothing else could be; what all units may do alike a truth must say.
-bool is_sure_from_inside(const Finding& f) {
-  return f.alternatives.empty() && f.effect != "unknown" && !is_data_fault(f.effect) && lasts(f) &&
-         std::find(common_effects().begin(), common_effects().end(), f.effect) == common_effects().end();
-}
-
 }  // namespace
-
-Result<std::vector<ErringUnit>> units_that_err(const std::vector<Understood>& train,
-                                               const std::vector<Understood>& held_out, const Vehicle& calibrated,
-                                               const DiagnosisOptions& options, const Progress& progress) {
-  const std::vector<VehicleUnit> units = units_of(calibrated);
-  if (units.size() < 2) return std::vector<ErringUnit>();
-  if (const auto* platform = std::get_if<MultiCastor>(&calibrated.kind); platform && platform->castors.size() < 3)
-    return std::vector<ErringUnit>();
-  const Judge judge(without_mounting(calibrated), options, progress);
-  const Result<Blamed> blamed = blamed_one_by_one(judge, {train, held_out}, units);
-  if (!blamed) return blamed.error();
-  std::vector<ErringUnit> erring;
-  if (!blamed->instead.empty()) return erring;  // which of two is not told
-  for (std::size_t u = 0; u < units.size(); ++u) {
-    if (!blamed->is[u]) continue;
-    const std::vector<Finding>& found = blamed->judged.units[u].findings;
-    if (!std::all_of(found.begin(), found.end(), is_sure_from_inside)) continue;
-    ErringUnit one{u, found, {}, {}};
-    for (const Understood& r : blamed->sets.train) one.train.push_back(r.samples);
-    for (const Understood& r : blamed->sets.held_out) one.held_out.push_back(r.samples);
-    erring.push_back(std::move(one));
-  }
-  return erring;
-}
 
 Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                   const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
@@ -226,15 +198,30 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
                  "such a truth, or three castors and more, of which the others judge one"};
   Sets sets;
-  for (const Recording& r : train) sets.train.push_back({&r, unit_samples(r, nominal)});
-  for (const Recording& r : held_out) sets.held_out.push_back({&r, unit_samples(r, nominal)});
+  // What lasts all of them tell together; then what happened once is asked of each against the others.
+  const auto runs_of = [&](const std::vector<Recording>& set) {
+    std::vector<JoinedRun> runs;
+    for (const Recording& r : set) runs.push_back({without_held_counts(unit_samples(r, nominal), nominal), {}});
+    return runs;
+  };
+  std::vector<std::string> names;
+  for (const Recording& r : train) names.push_back(r.name);
+  const std::vector<JoinedRun> runs = runs_of(train), runs_held_out = runs_of(held_out);
+  const ToldTogether told = *told_together(runs, without_mounting(nominal), {}, names, options.family_wise_error,
+                                           [&](double share) { return goes_on(progress, 0.3 * share); });
+  if (!goes_on(progress, 0.3)) return Error{"diagnosis", "stopped before its end", ""};
+  sets.train = understood_without(told, train, runs, std::vector<double>(runs.size()), nominal);
+  sets.held_out = understood_without(told, held_out, runs_held_out, std::vector<double>(runs_held_out.size()), nominal);
   const Judge judge(nominal, options, [&](double) { return goes_on(progress, 0.5); });
 
-  const Result<Blamed> blamed = blamed_one_by_one(judge, std::move(sets), units);
+  Result<Blamed> blamed = blamed_one_by_one(judge, std::move(sets), units);
   if (!blamed) return blamed.error();
   const std::vector<Alternative>& instead = blamed->instead;
+  std::vector<Diagnosis>& of_units = blamed->judged.units;
+  for (std::size_t u = 0; u < units.size(); ++u) of_units[u] = with_names(told, u, of_units[u], of_units[u]);
 
-  Diagnosis d = merged(blamed->judged.units, blamed->judged.geometry, nominal, train, false);
+  Diagnosis d = merged(of_units, blamed->judged.geometry, nominal, train, false);
+  put_names_into(told, d);
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;
   if (!instead.empty() && !d.findings.empty()) {
     d.findings.front().alternatives.insert(d.findings.front().alternatives.end(), instead.begin(), instead.end());

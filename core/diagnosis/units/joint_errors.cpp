@@ -194,7 +194,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
       }
       return values;
     });
-    errors->push_back(error_of(by_reading, name, "what it reads", kSteps * steps[j]));
+    errors->push_back(error_of(by_reading, name, kWhatItReads, kSteps * steps[j]));
+    errors->back().is_of_a_length = range.is_length;
     errors->back().curves = {curve_over(range, name)};
     const auto add = [&](const char* variable,
                          const std::function<std::vector<double>(const std::vector<UnitSample>&)>& of) {

@@ -12,6 +12,8 @@
 
 namespace odolab {
 
+inline constexpr const char* kWhatItReads = "what it reads";
+
 // Of a unit that carries no truth, whose truth the joints tell; null where none does. `samples`: of each recording, and
 // `names` what these are called; null too where two have one name.
 std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<std::vector<UnitSample>>& samples,

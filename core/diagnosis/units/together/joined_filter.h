@@ -1,0 +1,105 @@
+// The poses of all units of a vehicle in one filter: each unit's wheels carry it on, its joints hold it to the others,
+// and the outside truth, as much as there is of it, to the room. README.md in the folder above, Eqs. 1 to 3.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/diagnosis/effects/motions.h"
+#include "core/diagnosis/units/geometry_fit.h"
+
+namespace odolab {
+
+// Sizes of the random errors, of all units alike.
+struct JoinedNoise {
+  double wheel_m_per_sqrt_m = 5e-4;     // each wheel's way
+  double sideways_m_per_sqrt_m = 5e-5;  // of each unit's axle, where nothing rolls
+  double joint_steps = 0.4;             // what a joint reads, in steps of its encoder
+  double apart_m = 1e-4;                // by how much a unit stands elsewhere than rigid joints would have it
+  double truth_position_m = 0.01, truth_heading_rad = 0.01;
+};
+
+// What a change of the model by one does to a recording.
+struct JoinedColumn {
+  std::vector<Eigen::Matrix3Xd> moved;  // of each unit's axle in each epoch, in the frame of its start; may be empty
+  Eigen::MatrixXd read;  // of what is read at each epoch's end, the first column before them all; may be empty
+};
+
+// One recording, cut into epochs: it is looked at where encoders or the truth are read.
+class JoinedFilter {
+ public:
+  // `vehicle`: its lengths, the joints' biases, the truth's mounting and clock, and the drives.
+  JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double clock_s);
+
+  std::size_t units() const { return way_.size(); }
+  std::size_t readings() const { return readings_.size(); }  // one more than epochs
+  // Numbers of each reading: where each unit but the first stands against the first, along, across and in heading; then
+  // the truth.
+  Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(units()); }
+
+  // Minus twice the log-likelihood; and all that is asked for below, of the filter as it ran last.
+  double run(const JoinedNoise& noise);
+  const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
+  int used() const { return used_; }                             // numbers that were not left out
+  int restarts() const { return restarts_; }
+  Track track(std::size_t unit) const;  // as corrected
+
+  // Whitened columns, side by side: what the residual would be if the world did so and the model did not know.
+  Eigen::MatrixXd carried(const std::vector<JoinedColumn>& columns) const;
+
+  JoinedColumn nothing() const;
+  // Adds what motions between the samples of a unit's wheels come to.
+  void add_motions(const Motions& motions, std::size_t unit, JoinedColumn& column) const;
+  JoinedColumn by_wheels(std::size_t unit, int which) const;  // left radius, right radius, wheelbase: as a share
+  // By a number that `add` adds something to, and that says where units stand; the drives' own do not count here.
+  JoinedColumn by_length(const std::function<void(Vehicle&, double)>& add) const;
+  JoinedColumn by_clock() const;  // by the truth's offset, s
+
+ private:
+  struct Reading {
+    double time_s = 0.0;
+    std::vector<double> joints;
+    std::optional<Pose> truth;                // of the tracked point
+    bool joints_are_read = true;              // else they are only known, from their readings before and after
+    std::vector<Pose> unit_T_body;            // the tracked point as each unit has it
+    std::vector<std::vector<Pose>> by_joint;  // [joint][unit] what that moves by where the joint reads more by one
+  };
+  // What the filter did to arrive at a reading.
+  struct Step {
+    bool starts = false;
+    std::vector<Pose> predicted, corrected;  // of each unit
+    Eigen::Index first_row = 0, count = 0;   // of what was read
+    Eigen::MatrixXd gain, whitener, on,
+        out;  // of what it reads; of what the poses are off by: that goes on, and is seen
+  };
+  std::vector<Pose> units_T_body(const Vehicle& vehicle, const std::vector<double>& joints) const;
+  Eigen::VectorXd read_at(const std::vector<Pose>& units, const std::vector<Pose>& unit_T_body,
+                          const std::optional<Pose>& truth) const;
+
+  // The part of a step between two samples that lies in an epoch, and what a unit's motion in it comes to at the
+  // epoch's end, in the frame of its start: turned by an angle, and what is still to come swung about.
+  struct Piece {
+    int epoch = 0;
+    double share = 0.0, cosine = 1.0, sine = 0.0;
+    Vec2 rest;
+  };
+  void cut_into_pieces();
+
+  Vehicle vehicle_;
+  std::vector<UnitSample> samples_;
+  std::vector<DifferentialDrive> drives_;
+  std::vector<Track> way_;  // of each unit, by its wheels alone
+  std::vector<Reading> readings_;
+  std::vector<std::vector<Pose>> moved_;                      // [unit][epoch]
+  std::vector<std::vector<std::array<double, 2>>> rolled_m_;  // [unit][epoch] by each wheel, to and fro
+  std::vector<std::vector<Piece>> pieces_;                    // of each unit
+  std::vector<std::size_t> first_piece_;                      // of each step, alike in all units; one more at the end
+  std::vector<Step> steps_;
+  Eigen::VectorXd residual_;
+  int used_ = 0, restarts_ = 0;
+};
+
+}  // namespace odolab

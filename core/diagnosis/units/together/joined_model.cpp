@@ -1,0 +1,334 @@
+#include "core/diagnosis/units/together/joined_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/calibration/smoothed_readings.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kAsidePrior_m = 0.01, kScaleHeld = 1e-5;
+constexpr double kLeastSurviving = 0.01;
+constexpr double kWorthAsking = 10.0;  // how it scatters: less says nothing anyway
+
+InnovationRun seen_by_effects(const JoinedRun& run, const std::string& name, std::size_t unit) {
+  InnovationRun seen;
+  seen.name = name;
+  seen.wheels = wheels_of(run.samples, unit);
+  seen.smooth = smoothed(seen.wheels);
+  seen.truth = {TruthSample{seen.wheels.front().time_s, {}, 0.0}};
+  return seen;
+}
+
+}  // namespace
+
+JoinedModel::JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, std::vector<double> clock_s,
+                         std::vector<std::string> names)
+    : given_(std::move(runs)), vehicle_(vehicle), clock_s_(std::move(clock_s)), names_(std::move(names)) {
+  clock_s_.resize(given_.size(), 0.0);
+  for (const JoinedRun& run : given_) has_truth_ = has_truth_ || !run.tracked.empty();
+  for (JointParameter& p : joint_parameters(vehicle_))
+    if (has_truth_ || p.component != "truth")
+      lengths_.push_back({p.name, p.prior, [of = p.of](Vehicle& v, double by) { of(v) += by; }});
+  if (const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind))
+    for (std::size_t i = 0; i < platform->castors.size(); ++i)  // where the pivot's line meets the axle
+      lengths_.push_back({"castor[" + std::to_string(i + 1) + "].aside_m", kAsidePrior_m, [i](Vehicle& v, double by) {
+                            Castor& castor = std::get<MultiCastor>(v.kind).castors[i];
+                            castor.wheel_offset_left_m += by;
+                            castor.wheel_offset_right_m -= by;
+                          }});
+  for (const VehicleUnit& u : units_of(vehicle_)) drives_of_file_.push_back(u.drive);
+  make_filters();
+  linearise();
+}
+
+void JoinedModel::make_filters() {
+  std::vector<std::optional<JoinedFilter>> made(given_.size());
+  parallel_for(static_cast<int>(given_.size()), [&](int r) {
+    const auto k = static_cast<std::size_t>(r);
+    made[k].emplace(given_[k], vehicle_, clock_s_[k]);
+  });
+  filters_.clear();
+  for (auto& one : made) filters_.push_back(std::move(*one));
+}
+
+double JoinedModel::minus_two_log_likelihood(const JoinedNoise& noise) {
+  std::vector<double> of_run(filters_.size());
+  parallel_for(static_cast<int>(filters_.size()),
+               [&](int r) { of_run[static_cast<std::size_t>(r)] = filters_[static_cast<std::size_t>(r)].run(noise); });
+  double sum = 0.0;
+  for (double one : of_run) sum += one;
+  return sum;
+}
+
+void JoinedModel::fit_all() {
+  for (int rounds = 0; rounds < 2; ++rounds) {
+    fit(2);
+    fit_noise();
+  }
+}
+
+void JoinedModel::fit_noise() {
+  struct One {
+    double JoinedNoise::*of;
+    double least, most;
+  };
+  std::vector<One> all = {{&JoinedNoise::wheel_m_per_sqrt_m, 2e-5, 2e-2},
+                          {&JoinedNoise::joint_steps, 0.29, 20.0},
+                          {&JoinedNoise::apart_m, 2e-5, 5e-3},
+                          {&JoinedNoise::sideways_m_per_sqrt_m, 2e-5, 1e-2}};
+  if (has_truth_) {
+    all.push_back({&JoinedNoise::truth_position_m, 1e-4, 0.5});
+    all.push_back({&JoinedNoise::truth_heading_rad, 1e-4, 0.5});
+  }
+  double here = minus_two_log_likelihood(noise_);
+  for (double factor : {2.0, 1.4, 1.15})
+    for (const One& one : all)
+      for (int tries = 0; tries < 6; ++tries) {  // downhill by factors
+        JoinedNoise more = noise_, less = noise_;
+        more.*one.of = std::min(more.*one.of * factor, one.most);
+        less.*one.of = std::max(less.*one.of / factor, one.least);
+        const double up = minus_two_log_likelihood(more);
+        if (up < here) {
+          noise_ = more, here = up;
+          continue;
+        }
+        const double down = minus_two_log_likelihood(less);
+        if (down >= here) break;
+        noise_ = less, here = down;
+      }
+  linearise();
+}
+
+void JoinedModel::fit(int iterations) {
+  for (int i = 0; i < iterations; ++i) {
+    Index c = 0;
+    const VectorXd step = at_best_;
+    for (Length& length : lengths_) {
+      length.add(vehicle_, step[c]);
+      length.moved += step[c++];
+    }
+    for (std::size_t u = 0; u < units(); ++u) {
+      DifferentialDrive drive = units_of(vehicle_)[u].drive;
+      drive.wheel_radius_left_m *= 1.0 + step[c++];
+      drive.wheel_radius_right_m *= 1.0 + step[c++];
+      drive.wheelbase_m *= 1.0 + step[c++];
+      vehicle_ = with_drive(vehicle_, u, drive);
+    }
+    if (has_truth_)
+      for (double& clock : clock_s_) clock += step[c++];
+    make_filters();
+    linearise();
+  }
+}
+
+void JoinedModel::solve() {
+  gram_.compute(z_.transpose() * z_ + prior_);
+  at_best_ = gram_.solve(z_.transpose() * residual_ + toward_file_);
+}
+
+void JoinedModel::linearise() {
+  minus_two_log_likelihood(noise_);
+  const Index columns = static_cast<Index>(lengths_.size() + 3 * units() + (has_truth_ ? given_.size() : 0));
+  std::vector<MatrixXd> z(filters_.size());
+  parallel_for(static_cast<int>(filters_.size()), [&](int r) {
+    const auto k = static_cast<std::size_t>(r);
+    const JoinedFilter& run = filters_[k];
+    std::vector<JoinedColumn> own;
+    for (const Length& length : lengths_) own.push_back(run.by_length(length.add));
+    for (std::size_t u = 0; u < units(); ++u)
+      for (int which = 0; which < 3; ++which) own.push_back(run.by_wheels(u, which));
+    if (has_truth_)
+      for (std::size_t other = 0; other < given_.size(); ++other)
+        own.push_back(other == k ? run.by_clock() : run.nothing());
+    z[k] = run.carried(own);
+  });
+  Index rows = 0;
+  for (const MatrixXd& one : z) rows += one.rows();
+  z_.resize(rows, columns);
+  residual_.resize(rows);
+  batch_ends_.clear();
+  Index at = 0;
+  const Index reading = filters_.front().rows();
+  for (std::size_t r = 0; r < z.size(); ++r) {
+    z_.middleRows(at, z[r].rows()) = z[r];
+    residual_.segment(at, z[r].rows()) = filters_[r].residual();
+    at += z[r].rows();
+  }
+  const Index readings = rows / reading;
+  for (Index b = 1; b <= kBatches; ++b) batch_ends_.push_back(reading * (readings * b / kBatches));
+
+  VectorXd weight(columns), from_file = VectorXd::Zero(columns), scale = VectorXd::Zero(columns);
+  Index c = 0;
+  for (const Length& length : lengths_) {
+    weight[c] = 1.0 / (length.prior * length.prior);
+    from_file[c++] = -length.moved;
+  }
+  for (std::size_t u = 0; u < units(); ++u) {
+    const DifferentialDrive now = units_of(vehicle_)[u].drive, &then = drives_of_file_[u];
+    scale[c] = scale[c + 1] = 0.5 / static_cast<double>(units());
+    for (double share : {then.wheel_radius_left_m / now.wheel_radius_left_m,
+                         then.wheel_radius_right_m / now.wheel_radius_right_m, then.wheelbase_m / now.wheelbase_m}) {
+      weight[c] = 1.0 / (kWheelPrior * kWheelPrior);
+      from_file[c++] = share - 1.0;
+    }
+  }
+  for (; c < columns; ++c) weight[c] = 1.0 / (kClockPrior_s * kClockPrior_s);
+  prior_ = weight.asDiagonal();
+  hold_the_body(prior_);
+  // Between the units nothing shows how large they all are: were they smaller, they would contradict each other less.
+  if (!has_truth_) prior_ += scale * scale.transpose() / (kScaleHeld * kScaleHeld);
+  toward_file_ = prior_ * from_file;
+  solve();
+
+  views_.assign(units(), {});
+  for (std::size_t u = 0; u < units(); ++u)
+    for (std::size_t r = 0; r < given_.size(); ++r) {
+      const InnovationRun seen = seen_by_effects(given_[r], names_[r], u);
+      views_[u].push_back(drive_view(static_cast<int>(r), seen, units_of(vehicle_)[u].drive, false,
+                                     filters_[r].track(u), Way::smoothed));
+    }
+}
+
+// The body of a platform is where its pivots are: were all of them elsewhere, or turned, its own axes would be.
+void JoinedModel::hold_the_body(MatrixXd& prior) const {
+  const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind);
+  if (!platform) return;
+  constexpr double kHeld_m = 1e-6;
+  MatrixXd held = MatrixXd::Zero(3, prior.cols());  // along x and y, turned
+  for (std::size_t k = 0; k < lengths_.size(); ++k)
+    for (std::size_t c = 0; c < platform->castors.size(); ++c) {
+      const std::string key = "castor[" + std::to_string(c + 1) + "].";
+      const double radius_m = platform->castors[c].pivot_radius_m;
+      const Vec2 out = rotated({1.0, 0.0}, platform->castors[c].pivot_angle_rad);
+      if (lengths_[k].name == key + "pivot_radius_m") held.col(static_cast<Index>(k)) << out.x_m, out.y_m, 0.0;
+      if (lengths_[k].name == key + "pivot_angle_rad")
+        held.col(static_cast<Index>(k)) << -radius_m * out.y_m, radius_m * out.x_m, radius_m;
+    }
+  prior += held.transpose() * held / (kHeld_m * kHeld_m);
+}
+
+std::optional<JoinedModel::Known> JoinedModel::length(const std::string& name) const {
+  for (std::size_t k = 0; k < lengths_.size(); ++k) {
+    if (lengths_[k].name != name) continue;
+    const auto c = static_cast<Index>(k);
+    const VectorXd unit = VectorXd::Unit(z_.cols(), c);
+    const VectorXd of = gram_.solve(unit);
+    ScoreByBatches score;  // along what this length alone moves
+    const VectorXd direction = z_ * of;
+    Index from = 0;
+    for (Index to : batch_ends_) {
+      const auto d = direction.segment(from, to - from);
+      score.add(d.dot(residual_.segment(from, to - from)), d.squaredNorm());
+      from = to;
+    }
+    score.finish();
+    const double wider = score.u.empty() ? 1.0 : score.inflation(kFewestBatchesBelieved);
+    return Known{lengths_[k].moved + at_best_[c], std::sqrt(wider * of[c])};
+  }
+  return std::nullopt;
+}
+
+int JoinedModel::used() const {
+  int sum = 0;
+  for (const JoinedFilter& f : filters_) sum += f.used();
+  return sum;
+}
+
+int JoinedModel::restarts() const {
+  int sum = 0;
+  for (const JoinedFilter& f : filters_) sum += f.restarts();
+  return sum;
+}
+
+JoinedColumns JoinedModel::columns_of(const MotionsOf& motions, std::size_t amplitudes,
+                                      const std::vector<std::size_t>& units) const {
+  JoinedColumns all(z_.rows(), static_cast<Index>(amplitudes));
+  std::vector<Index> first{0};
+  for (const JoinedFilter& f : filters_) first.push_back(first.back() + f.residual().size());
+  for (std::size_t r = 0; r < filters_.size(); ++r) {
+    std::vector<JoinedColumn> own(amplitudes, filters_[r].nothing());
+    for (std::size_t u : units) {
+      const std::vector<Motions> of_unit = motions(views_[u][r]);
+      for (std::size_t a = 0; a < of_unit.size() && a < amplitudes; ++a)
+        if (!of_unit[a].empty()) filters_[r].add_motions(of_unit[a], u, own[a]);
+    }
+    all.middleRows(first[r], first[r + 1] - first[r]) = filters_[r].carried(own);
+  }
+  return all;
+}
+
+ScoreByBatches JoinedModel::score_by_batches(const JoinedColumns& columns) const {
+  const JoinedTest by = test(columns, -1.0);
+  ScoreByBatches score;
+  if (by.statistic <= 0.0) return score;
+  const MatrixXd cross = z_.transpose() * columns;
+  const VectorXd direction = (columns - z_ * gram_.solve(cross)) * by.value;
+  Index from = 0;
+  for (Index to : batch_ends_) {
+    const auto d = direction.segment(from, to - from);
+    score.add(d.dot(residual_.segment(from, to - from)), d.squaredNorm());
+    from = to;
+  }
+  score.finish();
+  return score;
+}
+
+JoinedTest JoinedModel::test(const JoinedColumns& columns, double batches_believed_white) const {
+  JoinedTest t;
+  const MatrixXd cross = z_.transpose() * columns;
+  const MatrixXd own = columns.transpose() * columns;
+  const MatrixXd information = own - cross.transpose() * gram_.solve(cross);
+  const VectorXd score = columns.transpose() * residual_ - cross.transpose() * at_best_;
+  // In units in which each amplitude by itself has information one.
+  VectorXd size = own.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const MatrixXd scaled = size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
+  const MatrixXd scaled_own = size.cwiseInverse().asDiagonal() * own * size.cwiseInverse().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(
+      scaled, scaled_own + 1e-9 * MatrixXd::Identity(own.rows(), own.cols()));
+  const VectorXd s = size.cwiseInverse().cwiseProduct(score);
+  t.value = VectorXd::Zero(columns.cols());
+  t.covariance = MatrixXd::Zero(columns.cols(), columns.cols());
+  for (Index k = 0; k < eigen.eigenvalues().size(); ++k) {
+    const double survives = eigen.eigenvalues()[k];
+    t.survives = std::max(t.survives, survives);
+    if (survives < kLeastSurviving) continue;
+    const VectorXd v = eigen.eigenvectors().col(k);
+    const double along = v.dot(s);
+    t.statistic += along * along / survives;
+    t.value += v * (along / survives);
+    t.covariance += v * v.transpose() / survives;
+    ++t.freedom;
+  }
+  t.value = size.cwiseInverse().cwiseProduct(t.value);
+  t.covariance = size.cwiseInverse().asDiagonal() * t.covariance * size.cwiseInverse().asDiagonal();
+  if (batches_believed_white >= 0.0 && t.statistic > kWorthAsking) {
+    const ScoreByBatches by = score_by_batches(columns);
+    t.inflation = by.u.empty() ? 1.0 : by.inflation(batches_believed_white);
+    t.cross_validated = by.cross_validated();
+  }
+  return t;
+}
+
+void JoinedModel::let_in(const JoinedColumns& columns) {
+  const Index c = columns.cols();
+  MatrixXd more(z_.rows(), z_.cols() + c);
+  more << z_, columns;
+  z_ = std::move(more);
+  MatrixXd prior = MatrixXd::Zero(z_.cols(), z_.cols());
+  prior.topLeftCorner(prior_.rows(), prior_.cols()) = prior_;
+  prior_ = std::move(prior);
+  VectorXd toward = VectorXd::Zero(z_.cols());
+  toward.head(toward_file_.size()) = toward_file_;
+  toward_file_ = std::move(toward);
+  solve();
+}
+
+}  // namespace odolab

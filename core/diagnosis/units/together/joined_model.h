@@ -1,0 +1,98 @@
+// All recordings of a linked or castor vehicle under one model: every unit's wheels, the joints, the truth's mounting
+// and clocks; and the tests of what is not in it. README.md in the folder above, Eqs. 4 to 6.
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/model/score_by_batches.h"
+#include "core/diagnosis/units/together/joined_filter.h"
+
+namespace odolab {
+
+// The efficient score of columns that are not in the model: as CandidateTest (core/diagnosis/model/joint_model.h).
+struct JoinedTest {
+  double statistic = 0.0, inflation = 1.0, survives = 0.0, cross_validated = 0.0;
+  int freedom = 0;
+  Eigen::VectorXd value;
+  Eigen::MatrixXd covariance;
+  double judged() const { return statistic / inflation; }
+};
+
+// Columns of all recordings, side by side: rows of all recordings below each other.
+using JoinedColumns = Eigen::MatrixXd;
+
+class JoinedModel {
+ public:
+  JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, std::vector<double> clock_s,
+              std::vector<std::string> names);
+
+  // Lengths, wheels, clocks and noise, until they agree.
+  void fit_all();
+  void fit(int iterations);
+  void fit_noise();
+
+  std::size_t units() const { return drives_of_file_.size(); }
+  const std::vector<JoinedFilter>& runs() const { return filters_; }
+  const std::vector<JoinedRun>& given() const { return given_; }
+  const std::vector<std::string>& names() const { return names_; }
+  const Vehicle& vehicle() const { return vehicle_; }
+  bool has_truth() const { return has_truth_; }
+  const JoinedNoise& noise() const { return noise_; }
+  const std::vector<DriveView>& views(std::size_t unit) const { return views_[unit]; }  // of each recording
+  // What a length comes to, and how well it is known: the vehicle file's key. Unset where there is none of that name.
+  struct Known {
+    double value = 0.0, stderr_value = 0.0;  // of what it is more than in the file
+  };
+  std::optional<Known> length(const std::string& name) const;
+  int used() const;
+  int restarts() const;
+  double chi2() const { return residual_.squaredNorm(); }
+
+  // Of motions that each amplitude makes on a unit.
+  using MotionsOf = std::function<std::vector<Motions>(const DriveView&)>;
+  JoinedColumns columns_of(const MotionsOf& motions, std::size_t amplitudes,
+                           const std::vector<std::size_t>& units) const;
+
+  JoinedTest test(const JoinedColumns& columns, double batches_believed_white = 6.0) const;
+  ScoreByBatches score_by_batches(const JoinedColumns& columns) const;
+  // Puts columns into the model, at what fits best: what is tested from now on is tested beside them.
+  void let_in(const JoinedColumns& columns);
+
+ private:
+  void make_filters();
+  void linearise();
+  void solve();  // for what has been put into z_
+  void hold_the_body(Eigen::MatrixXd& prior) const;
+  double minus_two_log_likelihood(const JoinedNoise& noise);
+
+  std::vector<JoinedRun> given_;
+  Vehicle vehicle_;
+  std::vector<double> clock_s_;
+  std::vector<std::string> names_;
+  struct Length {
+    std::string name;
+    double prior = 0.0;
+    std::function<void(Vehicle&, double)> add;
+    double moved = 0.0;  // from the file
+  };
+  std::vector<Length> lengths_;
+  std::vector<DifferentialDrive> drives_of_file_;
+  bool has_truth_ = false;
+  JoinedNoise noise_;
+  std::vector<JoinedFilter> filters_;
+  std::vector<std::vector<DriveView>> views_;  // [unit][recording]
+  Eigen::MatrixXd z_;                          // the model's own columns
+  Eigen::MatrixXd prior_;                      // of these: an information
+  Eigen::VectorXd toward_file_;                // its score, from here
+  Eigen::VectorXd residual_;                   // with all that was let in at its best
+  Eigen::LLT<Eigen::MatrixXd> gram_;
+  Eigen::VectorXd at_best_;  // of the model's own, where the residual would be least
+  std::vector<Eigen::Index> batch_ends_;
+};
+
+}  // namespace odolab

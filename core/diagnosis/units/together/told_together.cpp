@@ -1,0 +1,157 @@
+#include "core/diagnosis/units/together/told_together.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/calibration/smoothed_readings.h"
+#include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/joint_errors.h"
+#include "core/diagnosis/units/unit_models.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kShortestStep_s = 0.045;  // between samples of the truth: more say nothing about what lasts
+constexpr double kCoarse_m = 0.004, kCoarseRate_hz = 25.0;
+
+// What each unit is not asked any more, since all together know it better.
+bool is_told_together(const Finding& f) {
+  static const std::set<std::string> others = {"clock_rate",      "wheel_toe",        "unknown",
+                                               "link_angle_bias", "link_length_bias", "pivot_angle_bias"};
+  return (lasts(f) || f.effect == "slip_zone" || f.effect == "payload_radius_change") && !is_of_the_truth(f.effect) &&
+         !is_data_fault(f.effect) && others.count(f.effect) == 0;
+}
+
+// A name in the unit's own words.
+Finding of_unit(const JoinedName& name, const VehicleUnit& unit, const std::vector<VehicleUnit>& all) {
+  Finding f = name.finding;
+  f.component = component_in_unit(unit.name, f.component, all).value_or(f.component);
+  f.alternatives.clear();
+  return f;
+}
+
+std::vector<Finding> findings_of(const ToldTogether& told, std::size_t unit) {
+  const std::vector<VehicleUnit> units = units_of(told.model.vehicle());
+  std::vector<Finding> all;
+  for (const JoinedName& name : told.said.names)
+    if (std::find(name.units.begin(), name.units.end(), unit) != name.units.end())
+      all.push_back(of_unit(name, units[unit], units));
+  return all;
+}
+
+}  // namespace
+
+std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Vehicle& nominal,
+                                          std::vector<double> clock_s, std::vector<std::string> names,
+                                          double family_wise_error, const Progress& progress) {
+  for (JoinedRun& run : runs) {
+    Track fewer;
+    for (const TimedPose& t : run.tracked)
+      if (fewer.empty() || t.time_s >= fewer.back().time_s + kShortestStep_s) fewer.push_back(t);
+    run.tracked = std::move(fewer);
+  }
+  ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
+  told.model.fit_all();
+  if (told.model.has_truth() && told.model.noise().truth_position_m < kCoarse_m) return std::nullopt;
+  told.said = joined_names(told.model, family_wise_error, progress);
+  return told;
+}
+
+bool may_be_coarse(const std::vector<JoinedRun>& runs) {
+  // Third differences of what comes often hold no motion, but noise: of white noise they have 20 times its variance.
+  for (const JoinedRun& run : runs) {
+    const Track& t = run.tracked;
+    if (t.size() < 5 || static_cast<double>(t.size() - 1) < kCoarseRate_hz * (t.back().time_s - t.front().time_s))
+      return true;
+    std::vector<double> sizes;
+    for (std::size_t i = 3; i < t.size(); ++i) {
+      const Vec2 third = t[i].pose.position() - 3.0 * t[i - 1].pose.position() + 3.0 * t[i - 2].pose.position() -
+                         t[i - 3].pose.position();
+      sizes.push_back(std::hypot(third.x_m, third.y_m));
+    }
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+    // the median length of two normal numbers is 1.18 times their size
+    if (sizes[sizes.size() / 2] / (1.177 * std::sqrt(20.0)) > kCoarse_m) return true;
+  }
+  return false;
+}
+
+std::vector<Understood> understood_without(const ToldTogether& told, const std::vector<Recording>& recordings,
+                                           const std::vector<JoinedRun>& runs, const std::vector<double>& clock_s,
+                                           const Vehicle& nominal) {
+  const std::vector<VehicleUnit> units = units_of(told.model.vehicle());
+  std::vector<Understood> all;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    all.push_back({&recordings[r], unit_samples(recordings[r], nominal)});
+    if (told.said.names.empty()) continue;
+    JoinedFilter where(runs[r], told.model.vehicle(), clock_s[r]);
+    where.run(told.model.noise());
+    std::vector<std::vector<BodyMotion>> motions(units.size());
+    for (std::size_t u = 0; u < units.size(); ++u) {
+      FittedModel model;
+      for (const Finding& f : findings_of(told, u)) model.effects.push_back({f.as_active(), {}, f.where.recording});
+      InnovationRun run;
+      run.wheels = wheels_of(all.back().samples, u);
+      run.smooth = smoothed(run.wheels);
+      motions[u] =
+          motions_of(drive_view(0, run, units[u].drive, false, where.track(u)), model.effects_in(recordings[r].name));
+    }
+    all.back().samples = without_effects(all.back().samples, units, motions).samples;
+  }
+  return all;
+}
+
+bool acts_on(const ToldTogether& told, std::size_t unit) { return !findings_of(told, unit).empty(); }
+
+Diagnosis with_names(const ToldTogether& told, std::size_t unit, const Diagnosis& as_read, Diagnosis again) {
+  std::vector<Finding>& findings = again.findings;
+  std::erase_if(findings,
+                [](const Finding& f) { return is_told_together(f) || is_of_a_joint(f) || is_data_fault(f.effect); });
+  for (const Finding& f : as_read.findings)
+    if (is_data_fault(f.effect)) findings.push_back(f);
+  for (const Finding& f : findings_of(told, unit)) findings.push_back(f);
+  for (FitTable Diagnosis::*table : {&Diagnosis::train, &Diagnosis::held_out}) {
+    (again.*table).nominal = (as_read.*table).nominal;
+    (again.*table).calibrated = (as_read.*table).calibrated;
+  }
+  again.calibration_alone = as_read.calibration_alone;
+  again.residuals_before = as_read.residuals_before;
+  again.responses = as_read.responses;
+  if (std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.effect == "unknown"; }))
+    return again;
+  if (!findings.empty())
+    again.verdict = Verdict::found;
+  else if (again.verdict != Verdict::cannot_say)
+    again.verdict = Verdict::nothing_missing;
+  return again;
+}
+
+void put_names_into(const ToldTogether& told, Diagnosis& d) {
+  std::erase_if(d.findings, [](const Finding& f) { return is_told_together(f); });
+  if (told.said.unknown) {
+    std::erase_if(d.findings, [](const Finding& f) { return f.effect == "unknown"; });
+    d.findings.insert(d.findings.begin(), *told.said.unknown);
+    d.verdict = Verdict::unknown_effect;
+    return;
+  }
+  for (const JoinedName& name : told.said.names) d.findings.push_back(name.finding);
+  std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
+    if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
+    return comes_first(a, b);
+  });
+  double gain = 0.0;
+  for (const Finding& f : d.findings) gain += f.log_likelihood_gain;
+  for (Finding& f : d.findings)
+    if (gain > 0.0 && f.effect != "unknown") f.share_of_mismatch = f.log_likelihood_gain / gain;
+  if (told.said.names.empty() || d.verdict == Verdict::unknown_effect) return;
+  d.verdict =
+      std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return !f.alternatives.empty(); })
+          ? Verdict::ambiguous
+          : Verdict::found;
+}
+
+}  // namespace odolab
