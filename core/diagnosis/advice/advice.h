@@ -1,5 +1,5 @@
-// What these recordings could not have shown, and which drive would decide what is still open. README.md, Eqs. 13
-// and 14.
+// What these recordings could not have shown, and which drive would decide what is still open:
+// core/diagnosis/README.md, Eqs. 13 and 14.
 #pragma once
 
 #include <string>

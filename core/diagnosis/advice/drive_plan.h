@@ -1,4 +1,4 @@
-// Which drives decide what is still open: README.md, Eq. 14.
+// Which drives decide what is still open: core/diagnosis/README.md, Eq. 14.
 #pragma once
 
 #include <Eigen/Dense>

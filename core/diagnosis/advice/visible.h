@@ -1,4 +1,4 @@
-// How large an effect would have had to be to be seen in these recordings: README.md, Eq. 13.
+// How large an effect would have had to be to be seen in these recordings: core/diagnosis/README.md, Eq. 13.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The same test as JointModel::test for very many candidates, one after another: README.md in this folder, Eq. 15.
+// The same test as JointModel::test for very many candidates, one after another: core/diagnosis/README.md, Eq. 15.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What motions of the body do to a linearised run: README.md in this folder, Eqs. 3 and 15.
+// What motions of the body do to a linearised run: core/diagnosis/README.md, Eqs. 3 and 15.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Products of very many candidates' columns with each other, with the model's and with what is left, in one
-// linearisation: README.md in this folder, Eq. 15.
+// linearisation: core/diagnosis/README.md, Eq. 15.
 #pragma once
 
 #include <map>

@@ -1,5 +1,6 @@
 // How well a fitted model's parameters are known: amplitudes and calibration from the joint curvature, shapes (a place,
-// a time, a threshold) from the profile of the likelihood, which need not be smooth. README.md, Eqs. 10 to 12.
+// a time, a threshold) from the profile of the likelihood, which need not be smooth: core/diagnosis/README.md, Eqs. 10
+// to 12.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,7 @@ constexpr double kMaterial = 0.985;  // for each number that is fitted
 // Whether a term of so many numbers is to be believed. Where the innovations are correlated the truth's noise is not
 // what the likelihood takes it for, and small gains of likelihood mean little: the error must be lower by 1.5 % for
 // each number, and by more where the truth was smoothed, since its own turns are then late. Where they are white the
-// likelihood is believed, unless dead reckoning contradicts it: README.md in this folder, Eq. 7. `distrust`: of the
+// likelihood is believed, unless dead reckoning contradicts it: core/diagnosis/README.md, Eq. 7. `distrust`: of the
 // joint model before.
 bool is_material(double distrust, bool truth_noise_lasts, const JointModel::GatheredError& before,
                  const JointModel::GatheredError& after, std::size_t numbers = 1);
