@@ -19,14 +19,21 @@ using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows
 
 constexpr double kEpoch_s = 0.075;  // and more, from one reading of the joints to the next that is looked at
 constexpr double kUnknown_m = 0.5, kUnknown_rad = 0.3;  // where the filter starts
-constexpr double kGateOfTruth = 25.0,
-                 kGateOfNumber = 30.0;  // squared, of all joints together for each of their numbers
+constexpr double kGateOfTruth = 25.0, kGateOfNumber = 30.0;
 
 Eigen::Matrix2d turned(double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);
   Eigen::Matrix2d r;
   r << c, -s, s, c;
   return r;
+}
+
+// No wheel errs by so much between two readings: an encoder lost its place.
+bool are_torn_apart(const VectorXd& read, Index of_joints) {
+  constexpr double kMost_m = 0.1, kMost_rad = 0.3;
+  for (Index k = 0; k < of_joints; k += 3)
+    if (std::hypot(read[k], read[k + 1]) > kMost_m || std::abs(read[k + 2]) > kMost_rad) return true;
+  return false;
 }
 
 // The pose between two samples, on the arc that joins them.
@@ -121,6 +128,16 @@ VectorXd JoinedFilter::read_at(const std::vector<Pose>& units, const std::vector
     all.tail<3>() << off.x_m, off.y_m, wrapped(off.heading_rad);
   }
   return all;
+}
+
+void JoinedFilter::put_in(const JoinedColumn& column, double value) {
+  for (std::size_t u = 0; u < column.moved.size(); ++u)
+    for (Index e = 0; e < column.moved[u].cols(); ++e) {
+      Pose& moved = moved_[u][static_cast<std::size_t>(e)];
+      moved.x_m += value * column.moved[u](0, e);
+      moved.y_m += value * column.moved[u](1, e);
+      moved.heading_rad += value * column.moved[u](2, e);
+    }
 }
 
 double JoinedFilter::run(const JoinedNoise& noise) {
@@ -256,8 +273,7 @@ double JoinedFilter::run(const JoinedNoise& noise) {
       s += err.block(from, from, count, count);
       return read.segment(from, count).dot(s.llt().solve(read.segment(from, count)));
     };
-    if (reading.joints_are_read && r > 0 && of_joints > 0 &&
-        squared(0, of_joints) > kGateOfNumber * static_cast<double>(of_joints)) {
+    if (reading.joints_are_read && r > 0 && are_torn_apart(read, of_joints)) {
       const Eigen::Matrix3d of_first = p.topLeftCorner<3, 3>();  // what joins the units has jumped: they are put anew
       start(first, reading, true);
       p.topLeftCorner<3, 3>() = of_first;
@@ -357,6 +373,43 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
   return out;
 }
 
+std::vector<JoinedFilter::Impact> JoinedFilter::impacts(const VectorXd& left) const {
+  const Index n = rows();
+  std::vector<Impact> all(readings() - 1);
+  VectorXd score = VectorXd::Zero(n);
+  MatrixXd information = MatrixXd::Zero(n, n);
+  for (std::size_t r = readings() - 1; r > 0; --r) {
+    const Step& step = steps_[r];
+    if (step.starts) {  // what went before is known by the first unit alone
+      score.tail(n - 3).setZero();
+      information.rightCols(n - 3).setZero();
+      information.bottomRows(n - 3).setZero();
+    } else if (step.count > 0) {
+      score = step.out.transpose() * left.segment(static_cast<Index>(r) * n + step.first_row, step.count) + score -
+              step.on.transpose() * score;
+      const MatrixXd behind = information - information * step.on;
+      information = step.out.transpose() * step.out + behind - step.on.transpose() * behind;
+    }
+    Impact& here = all[r - 1];
+    here.time_s = 0.5 * (readings_[r - 1].time_s + readings_[r].time_s);
+    here.units = step.predicted;
+    here.score = score;
+    here.information = information;
+    for (std::size_t u = 0; u < units(); ++u) {  // back over the way: a heading before swings what follows
+      const auto k = 3 * static_cast<Index>(u);
+      const Vec2 ahead = step.predicted[u].position() - steps_[r - 1].corrected[u].position();
+      score[k + 2] += -ahead.y_m * score[k] + ahead.x_m * score[k + 1];
+      information.col(k + 2) += -ahead.y_m * information.col(k) + ahead.x_m * information.col(k + 1);
+    }
+    for (std::size_t u = 0; u < units(); ++u) {
+      const auto k = 3 * static_cast<Index>(u);
+      const Vec2 ahead = step.predicted[u].position() - steps_[r - 1].corrected[u].position();
+      information.row(k + 2) += -ahead.y_m * information.row(k) + ahead.x_m * information.row(k + 1);
+    }
+  }
+  return all;
+}
+
 JoinedColumn JoinedFilter::nothing() const {
   JoinedColumn column;
   column.moved.resize(units());
@@ -415,7 +468,8 @@ JoinedColumn JoinedFilter::by_wheels(std::size_t unit, int which) const {
   moved.resize(3, static_cast<Index>(readings() - 1));
   for (std::size_t e = 0; e + 1 < readings(); ++e) {
     const Pose then = between(on_the_way(way, readings_[e].time_s), on_the_way(way, readings_[e + 1].time_s));
-    const Pose& now = moved_[unit][e];
+    const Pose now =
+        between(on_the_way(way_[unit], readings_[e].time_s), on_the_way(way_[unit], readings_[e + 1].time_s));
     moved.col(static_cast<Index>(e)) << then.x_m - now.x_m, then.y_m - now.y_m, then.heading_rad - now.heading_rad;
   }
   moved /= kStep;

@@ -40,6 +40,9 @@ class JoinedFilter {
   // the truth.
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(units()); }
 
+  // The world as it would be with so much of a column's motions in it; adds to what was put in before.
+  void put_in(const JoinedColumn& column, double value);
+
   // Minus twice the log-likelihood; and all that is asked for below, of the filter as it ran last.
   double run(const JoinedNoise& noise);
   const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
@@ -49,6 +52,16 @@ class JoinedFilter {
 
   // Whitened columns, side by side: what the residual would be if the world did so and the model did not know.
   Eigen::MatrixXd carried(const std::vector<JoinedColumn>& columns) const;
+
+  // What a sudden motion of the units on the way to each reading would say, of what is left of the whitened numbers:
+  // the score of each unit's x, y and heading in the room, and their information.
+  struct Impact {
+    double time_s = 0.0;  // in the middle of that way
+    std::vector<Pose> units;
+    Eigen::VectorXd score;
+    Eigen::MatrixXd information;
+  };
+  std::vector<Impact> impacts(const Eigen::VectorXd& left) const;
 
   JoinedColumn nothing() const;
   // Adds what motions between the samples of a unit's wheels come to.

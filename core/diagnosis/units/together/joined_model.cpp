@@ -57,6 +57,12 @@ void JoinedModel::make_filters() {
   });
   filters_.clear();
   for (auto& one : made) filters_.push_back(std::move(*one));
+  for (std::size_t r = 0; r < filters_.size(); ++r)
+    for (const Acting& a : acting_) {
+      const std::vector<JoinedColumn> columns =
+          moved_by(r, a.motions, static_cast<std::size_t>(a.value.size()), a.units);
+      for (std::size_t k = 0; k < columns.size(); ++k) filters_[r].put_in(columns[k], a.value[static_cast<Index>(k)]);
+    }
 }
 
 double JoinedModel::minus_two_log_likelihood(const JoinedNoise& noise) {
@@ -248,21 +254,50 @@ int JoinedModel::restarts() const {
   return sum;
 }
 
+std::vector<JoinedColumn> JoinedModel::moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
+                                                const std::vector<std::size_t>& units) const {
+  std::vector<JoinedColumn> columns(amplitudes, filters_[run].nothing());
+  for (std::size_t u : units) {
+    const std::vector<Motions> of_unit = motions(views_[u][run]);
+    for (std::size_t a = 0; a < of_unit.size() && a < amplitudes; ++a)
+      if (!of_unit[a].empty()) filters_[run].add_motions(of_unit[a], u, columns[a]);
+  }
+  return columns;
+}
+
 JoinedColumns JoinedModel::columns_of(const MotionsOf& motions, std::size_t amplitudes,
                                       const std::vector<std::size_t>& units) const {
   JoinedColumns all(z_.rows(), static_cast<Index>(amplitudes));
-  std::vector<Index> first{0};
-  for (const JoinedFilter& f : filters_) first.push_back(first.back() + f.residual().size());
+  Index first = 0;
   for (std::size_t r = 0; r < filters_.size(); ++r) {
-    std::vector<JoinedColumn> own(amplitudes, filters_[r].nothing());
-    for (std::size_t u : units) {
-      const std::vector<Motions> of_unit = motions(views_[u][r]);
-      for (std::size_t a = 0; a < of_unit.size() && a < amplitudes; ++a)
-        if (!of_unit[a].empty()) filters_[r].add_motions(of_unit[a], u, own[a]);
-    }
-    all.middleRows(first[r], first[r + 1] - first[r]) = filters_[r].carried(own);
+    const Index count = filters_[r].residual().size();
+    all.middleRows(first, count) = filters_[r].carried(moved_by(r, motions, amplitudes, units));
+    first += count;
   }
   return all;
+}
+
+void JoinedModel::fit_noise_beside(const std::vector<Acting>& acting) {
+  acting_ = acting;
+  make_filters();
+  fit_noise();
+  acting_.clear();
+  make_filters();
+  linearise();
+}
+
+void JoinedModel::put_in(const std::vector<Acting>& acting) {
+  acting_ = acting;
+  make_filters();
+  linearise();
+  fit(2);
+}
+
+std::vector<JoinedFilter::Impact> JoinedModel::impacts(std::size_t run) const {
+  Index first = 0;
+  for (std::size_t r = 0; r < run; ++r) first += filters_[r].residual().size();
+  const Index count = filters_[run].residual().size();
+  return filters_[run].impacts(residual_.segment(first, count) - z_.middleRows(first, count) * at_best_);
 }
 
 ScoreByBatches JoinedModel::score_by_batches(const JoinedColumns& columns) const {

@@ -58,13 +58,26 @@ class JoinedModel {
   JoinedColumns columns_of(const MotionsOf& motions, std::size_t amplitudes,
                            const std::vector<std::size_t>& units) const;
 
+  struct Acting {
+    MotionsOf motions;
+    Eigen::VectorXd value;
+    std::vector<std::size_t> units;
+  };
+  // The noise that is left where all of these act, everything else as it was; they are not in the model afterwards.
+  void fit_noise_beside(const std::vector<Acting>& acting);
+  // All else fitted where they act, which they do from now on.
+  void put_in(const std::vector<Acting>& acting);
+
   JoinedTest test(const JoinedColumns& columns, double batches_believed_white = 6.0) const;
+  std::vector<JoinedFilter::Impact> impacts(std::size_t run) const;  // of what is left beside all that was let in
   ScoreByBatches score_by_batches(const JoinedColumns& columns) const;
   // Puts columns into the model, at what fits best: what is tested from now on is tested beside them.
   void let_in(const JoinedColumns& columns);
 
  private:
   void make_filters();
+  std::vector<JoinedColumn> moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
+                                     const std::vector<std::size_t>& units) const;
   void linearise();
   void solve();  // for what has been put into z_
   void hold_the_body(Eigen::MatrixXd& prior) const;
@@ -83,6 +96,7 @@ class JoinedModel {
   std::vector<Length> lengths_;
   std::vector<DifferentialDrive> drives_of_file_;
   bool has_truth_ = false;
+  std::vector<Acting> acting_;
   JoinedNoise noise_;
   std::vector<JoinedFilter> filters_;
   std::vector<std::vector<DriveView>> views_;  // [unit][recording]

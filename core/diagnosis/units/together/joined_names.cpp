@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "core/base/chi_square.h"
@@ -12,13 +13,17 @@
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/together/joined_groups.h"
+#include "core/diagnosis/units/together/joined_moments.h"
 
 namespace odolab {
 
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-constexpr double kLeast = 25.0;  // twice what the likelihood gains
+constexpr double kLeast = 25.0, kLeastOfAMoment = 35.0;  // twice what the likelihood gains
+constexpr double kAsMuchOfAPush = 0.85;
+constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
+constexpr double kNearlyLeast = 20.0;   // of a moment, before its form and time are sought
 constexpr double kUneven = 2.5,
                  kBeyondDoubt = 200.0;  // the scatter of what acts in a few places, unless it says so much
 constexpr double kTrace = 0.03;         // of the strongest name: what is less is its form's
@@ -37,9 +42,10 @@ struct Candidate {
 struct Scored {
   Candidate candidate;
   std::vector<double> shape;
-  JoinedColumns columns;
+  std::shared_ptr<const JoinedColumns> columns;
   JoinedTest test;
   double log_tests = 0.0, p_value = 1.0;
+  double of_moments = 0.0;  // above 0: it happens at one, and its inflation is that of so many
   double says() const { return test.judged() - 2.0 * test.freedom - 2.0 * log_tests; }
 };
 
@@ -88,9 +94,30 @@ std::vector<std::vector<double>> shapes_of(const Effect& e, const std::vector<Dr
   return with_forms;
 }
 
+// A push turns all units about the first one.
+std::vector<Motions> swung(std::vector<Motions> push, const DriveView& view, const DriveView& of_first) {
+  for (const Motions::Stretch& stretch : push[2].stretches())
+    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+      const Vec2 arm = view.steps[i].position - of_first.steps[i].position;
+      const Vec2 by = rotated({-arm.y_m, arm.x_m}, -view.steps[i].heading_rad);
+      push[2][i].forward_m = push[2][i].turn_rad * by.x_m;
+      push[2][i].sideways_m = push[2][i].turn_rad * by.y_m;
+    }
+  return push;
+}
+
+JoinedModel::MotionsOf motions_at(const JoinedModel& model, const Candidate& c, const std::vector<double>& shape) {
+  if (c.effect->name != "collision" || c.units.size() < 2)
+    return [&e = *c.effect, shape](const DriveView& view) { return e.motions(view, shape); };
+  return [&e = *c.effect, shape, &model, first = c.units.front()](const DriveView& view) {
+    const DriveView& of_first = model.views(first)[static_cast<std::size_t>(view.number)];
+    std::vector<Motions> motions = e.motions(view, shape);
+    return &view == &of_first || motions[2].empty() ? motions : swung(std::move(motions), view, of_first);
+  };
+}
+
 JoinedColumns columns_at(const JoinedModel& model, const Candidate& c, const std::vector<double>& shape) {
-  return model.columns_of([&](const DriveView& view) { return c.effect->motions(view, shape); },
-                          c.effect->amplitudes.size(), c.units);
+  return model.columns_of(motions_at(model, c, shape), c.effect->amplitudes.size(), c.units);
 }
 
 // To where between the shapes that were tried it says most.
@@ -111,7 +138,7 @@ void climb(const JoinedModel& model, const Candidate& c, double believed_white,
         if (test.judged() <= best.test.judged()) continue;
         best.test = test;
         best.shape = std::move(shape);
-        best.columns = std::move(columns);
+        best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
         break;
       }
     }
@@ -126,10 +153,10 @@ Scored at_its_best(const JoinedModel& model, const Candidate& c, double believed
   const auto try_shape = [&](std::size_t k) {
     JoinedColumns columns = columns_at(model, c, shapes[k]);
     const JoinedTest test = model.test(columns, believed_white);
-    if (best.columns.size() > 0 && test.judged() <= best.test.judged()) return false;
+    if (best.columns && test.judged() <= best.test.judged()) return false;
     best.test = test;
     best.shape = shapes[k];
-    best.columns = std::move(columns);
+    best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
     return true;
   };
   const std::size_t stride = !c.effect->local && shapes.size() > kFewShapes ? shapes.size() / kFewShapes + 1 : 1;
@@ -155,7 +182,23 @@ bool lasts_throughout(const JoinedTest& test) {
 }
 
 bool holds(const Scored& s, double family_wise_error) {
-  return s.p_value < family_wise_error && s.test.judged() > kLeast && lasts_throughout(s.test);
+  const double least = s.of_moments > 0.0 ? kLeastOfAMoment : kLeast;
+  return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
+}
+
+// Whether it moves a wheel by more than counts and the joints' rounding make of nothing.
+bool is_more_than_rounding(const Scored& s, const Vehicle& vehicle) {
+  constexpr double kCounts = 1.5;
+  double least_m = 0.0;
+  const std::vector<VehicleUnit> units = units_of(vehicle);
+  for (std::size_t u : s.candidate.units) {
+    const DifferentialDrive& d = units[u].drive;
+    least_m = std::max({least_m, kCounts * 2.0 * kPi * d.wheel_radius_left_m / d.counts_per_wheel_turn(),
+                        rounding_of_joints(vehicle, u).position_m});
+  }
+  if (s.test.value.size() < 3) return std::abs(s.test.value[0]) > least_m;
+  const double base_m = units[s.candidate.units.front()].drive.wheelbase_m;
+  return std::max(std::hypot(s.test.value[0], s.test.value[1]), 0.5 * base_m * std::abs(s.test.value[2])) > least_m;
 }
 
 // Whether values lie within what any vehicle has.
@@ -168,35 +211,68 @@ bool is_physical(const Scored& s) {
   return true;
 }
 
+// Two things of the same moment.
+bool is_one_moment(const Scored& a, const Scored& b) {
+  constexpr double kClose_s = 1.0;
+  if (!a.candidate.effect->of_one_recording || !b.candidate.effect->of_one_recording) return false;
+  return a.shape[0] == b.shape[0] && std::abs(a.shape[1] - b.shape[1]) < kClose_s;
+}
+
+// One number that says as much as the three of a push at that moment.
+bool is_simpler(const Scored& s, const Scored& than) {
+  return s.of_moments > 0.0 && than.of_moments > 0.0 && is_one_moment(s, than) && s.test.freedom < than.test.freedom &&
+         s.test.judged() > kAsMuchOfAPush * than.test.judged();
+}
+
 class Naming {
  public:
   Naming(JoinedModel& model, double family_wise_error) : model_(model), p_(family_wise_error) {}
 
   JoinedNames run(const Progress& progress) {
+    name_all(progress);
+    if (!named_.empty()) {  // what they left had made the noise too large
+      model_.fit_noise_beside(acting());
+      named_.clear();
+      name_all(progress);
+    }
+    JoinedNames result;
+    for (std::size_t k = 0; k < named_.size(); ++k) result.names.push_back(name_of(k));
+    look_for_the_unnamed(result);
+    if (!named_.empty()) model_.put_in(acting());
+    return result;
+  }
+
+ private:
+  std::vector<JoinedModel::Acting> acting() const {
+    std::vector<JoinedModel::Acting> all;
+    for (const Scored& s : named_)
+      all.push_back({motions_at(model_, s.candidate, s.shape), s.test.value, s.candidate.units});
+    return all;
+  }
+
+  // One after the other, the best first.
+  void name_all(const Progress& progress) {
     score_all(progress);
     JoinedModel with = model_;
     while (named_.size() < kMostNames && goes_on(progress, 0.5)) {
       Scored* best = nullptr;
       std::vector<Scored> now = scored_;
+      if (!named_.empty()) ask_again(with, now);
+      for (Scored& s : scored_moments(with)) now.push_back(std::move(s));
       for (Scored& s : now) {
-        if (!named_.empty()) ask_again(with, s);
         if (!holds(s, p_) || !is_physical(s) || is_named(s)) continue;
         if (!named_.empty() && s.test.judged() < kTrace * named_.front().test.judged()) continue;
         if (!best || s.says() > best->says()) best = &s;
       }
       if (!best) break;
-      with.let_in(best->columns);
+      for (Scored& s : now)
+        if (is_simpler(s, *best) && holds(s, p_) && is_physical(s)) best = &s;
+      with.let_in(*best->columns);
       named_.push_back(*best);
     }
     leave_out_what_no_longer_holds();
-    JoinedNames result;
-    for (std::size_t k = 0; k < named_.size(); ++k) result.names.push_back(name_of(k));
-    look_for_the_unnamed(result);
-    for (const Scored& s : named_) model_.let_in(s.columns);
-    return result;
   }
 
- private:
   void score_all(const Progress& progress) {
     const std::vector<Candidate> list = candidates(model_);
     scored_.resize(list.size());
@@ -206,24 +282,103 @@ class Naming {
         [&](int k) {
           const auto i = static_cast<std::size_t>(k);
           scored_[i] = at_its_best(model_, list[i], kFewestBatchesBelieved);
-          if (!list[i].effect->scan) scores[i] = model_.score_by_batches(scored_[i].columns);
+          if (!list[i].effect->scan) scores[i] = model_.score_by_batches(*scored_[i].columns);
         },
         {}, progress);
     std::erase_if(scores, [](const ScoreByBatches& s) { return s.u.empty(); });
     believed_white_ = batches_of_prior(scores);
-    for (Scored& s : scored_) {
-      s.test = model_.test(s.columns, believed_white_);
-      judge(s, scored_.size());
+    parallel_for(static_cast<int>(scored_.size()),
+                 [&](int k) { ask_again(model_, scored_[static_cast<std::size_t>(k)]); });
+  }
+
+  // The strongest moments, each as a bump, as one that comes back at its place, and as a push, as it suits them.
+  std::vector<Scored> scored_moments(const JoinedModel& with) const {
+    struct Asked {
+      const Effect* effect;
+      const JoinedMoments* kind;
+      const JoinedMoment* moment;
+    };
+    std::vector<Asked> asked;
+    const std::vector<JoinedMoments> kinds = joined_moments(with);
+    for (const JoinedMoments& kind : kinds)
+      for (const Effect& e : catalogue()) {
+        const bool is_push = kind.wheel == Wheel::both;
+        if (e.name != (is_push ? "collision" : "bump") || (!is_push && e.component != component_of(kind.wheel)))
+          continue;
+        for (const JoinedMoment& moment : kind.strongest)
+          if (moment.statistic / kind.inflation > kNearlyLeast) asked.push_back({&e, &kind, &moment});
+      }
+    std::vector<Scored> all(asked.size());
+    parallel_for(static_cast<int>(asked.size()), [&](int k) {
+      const Asked& one = asked[static_cast<std::size_t>(k)];
+      all[static_cast<std::size_t>(k)] = scored_moment(with, *one.effect, *one.kind, *one.moment);
+    });
+    std::erase_if(all, [&](const Scored& s) { return !is_more_than_rounding(s, model_.vehicle()); });
+    return all;
+  }
+
+  Scored scored_moment(const JoinedModel& with, const Effect& e, const JoinedMoments& kind,
+                       const JoinedMoment& moment) const {
+    Scored best;
+    best.candidate = {&e, kind.units,
+                      kind.units.size() > 1
+                          ? "vehicle"
+                          : component_of_unit(units_of(model_.vehicle())[kind.units.front()].name, e.component)};
+    best.of_moments = kind.inflation;
+    best.log_tests = std::log(std::max(1.0, kind.count));
+    const std::vector<double> first = shape_at(e, moment, kind, with);
+    for (std::size_t form = 0; form < std::max<std::size_t>(1, e.forms.size()); ++form) {
+      std::vector<double> shape = first;
+      if (e.forms.size() > 1) shape.push_back(static_cast<double>(form));
+      try_moment(with, shape, best);
     }
+    for (double step : {0.1, 0.05, 0.025})
+      for (std::size_t i = 0; i < e.shapes.size(); ++i)
+        for (double side : {-step, step}) {
+          if (!is_estimated(e.shapes[i])) continue;
+          std::vector<double> shape = best.shape;
+          shape[i] += side;
+          try_moment(with, shape, best);
+        }
+    judge(best, scored_.size());
+    return best;
+  }
+
+  static std::vector<double> shape_at(const Effect& e, const JoinedMoment& moment, const JoinedMoments& kind,
+                                      const JoinedModel& model) {
+    if (e.of_one_recording) return {static_cast<double>(moment.run), moment.time_s};
+    const DriveView& view = model.views(kind.units.front())[static_cast<std::size_t>(moment.run)];
+    const EffectStep& s = view.steps[std::min(view.step_at(moment.time_s), view.steps.size() - 1)];
+    const double side = kind.wheel == Wheel::left ? 0.5 : -0.5;
+    const Vec2 place = s.position + rotated({0.0, side * view.drive.wheelbase_m}, s.heading_rad);
+    return {place.x_m, place.y_m};
+  }
+
+  static void try_moment(const JoinedModel& with, const std::vector<double>& shape, Scored& best) {
+    JoinedColumns columns = columns_at(with, best.candidate, shape);
+    JoinedTest test = with.test(columns, -1.0);
+    test.inflation = best.of_moments;
+    if (best.columns && test.judged() <= best.test.judged()) return;
+    best.test = test;
+    best.shape = shape;
+    best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
+  }
+
+  // Of all that said something by itself.
+  void ask_again(const JoinedModel& with, std::vector<Scored>& all) const {
+    std::erase_if(all, [](const Scored& s) { return s.test.statistic < kSaysSomething; });
+    parallel_for(static_cast<int>(all.size()), [&](int k) { ask_again(with, all[static_cast<std::size_t>(k)]); });
   }
 
   void ask_again(const JoinedModel& with, Scored& s) const {
-    s.test = with.test(s.columns, believed_white_);
+    s.test = with.test(*s.columns, s.of_moments > 0.0 ? -1.0 : believed_white_);
+    if (s.of_moments > 0.0) s.test.inflation = s.of_moments;
     judge(s, scored_.size());
   }
 
   bool is_named(const Scored& s) const {
     return std::any_of(named_.begin(), named_.end(), [&](const Scored& n) {
+      if (s.candidate.effect->local || n.candidate.effect->local) return is_one_moment(s, n);
       return n.candidate.effect == s.candidate.effect && n.candidate.component == s.candidate.component;
     });
   }
@@ -231,7 +386,7 @@ class Naming {
   JoinedModel without(std::size_t left_out) const {
     JoinedModel others = model_;
     for (std::size_t k = 0; k < named_.size(); ++k)
-      if (k != left_out) others.let_in(named_[k].columns);
+      if (k != left_out) others.let_in(*named_[k].columns);
     return others;
   }
 
@@ -273,13 +428,20 @@ class Naming {
       if (p.name == "at_s") f.where.time_s = {{p.value - k95 * p.stderr_value, p.value + k95 * p.stderr_value}};
 
     JoinedModel others = without(k), with = others;
-    with.let_in(s.columns);
-    for (Scored other : scored_) {
+    with.let_in(*s.columns);
+    std::vector<Scored> instead = scored_;
+    std::erase_if(instead, [&](const Scored& other) { return other.test.judged() < 0.3 * s.test.judged(); });
+    if (s.of_moments > 0.0)
+      for (Scored& other : scored_moments(others))
+        if (other.candidate.effect->of_one_recording == e.of_one_recording &&
+            (!e.of_one_recording || is_one_moment(other, s)))
+          instead.push_back(std::move(other));
+    ask_again(others, instead);
+    for (Scored& other : instead) {
       if (other.candidate.effect->name == e.name && other.candidate.component == s.candidate.component) continue;
-      ask_again(others, other);
       if (!is_physical(other) || other.test.judged() < kLeast) continue;
       const double less_tried = 2.0 * std::max(0.0, s.log_tests - other.log_tests);
-      if (other.test.judged() < s.test.judged() - kClearlyBeaten - less_tried) continue;
+      if (other.test.judged() < s.test.judged() - kClearlyBeaten - less_tried || is_simpler(s, other)) continue;
       const double alone = other.test.judged();
       ask_again(with, other);
       if (other.test.judged() > kSaysAsMuch * alone) continue;
@@ -319,7 +481,7 @@ class Naming {
     JoinedModel with = model_;
     double named = 0.0;
     for (const Scored& s : named_) {
-      with.let_in(s.columns);
+      with.let_in(*s.columns);
       named += s.test.judged();
     }
     const std::vector<JoinedGroup> groups = joined_groups(model_);

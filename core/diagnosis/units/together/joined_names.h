@@ -23,7 +23,7 @@ struct JoinedNames {
   std::optional<Finding> unknown;  // what is left beside them, or instead of them
 };
 
-// Of a model as it was fitted with nothing let in; `model` has what is named in it afterwards.
+// Of a model as it was fitted with nothing let in; what is named acts in `model` afterwards, all else fitted beside it.
 JoinedNames joined_names(JoinedModel& model, double family_wise_error, const Progress& progress = {});
 
 }  // namespace odolab

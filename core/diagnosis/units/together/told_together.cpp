@@ -22,8 +22,7 @@ constexpr double kCoarse_m = 0.004, kCoarseRate_hz = 25.0;
 bool is_told_together(const Finding& f) {
   static const std::set<std::string> others = {"clock_rate",      "wheel_toe",        "unknown",
                                                "link_angle_bias", "link_length_bias", "pivot_angle_bias"};
-  return (lasts(f) || f.effect == "slip_zone" || f.effect == "payload_radius_change") && !is_of_the_truth(f.effect) &&
-         !is_data_fault(f.effect) && others.count(f.effect) == 0;
+  return !is_of_the_truth(f.effect) && !is_data_fault(f.effect) && others.count(f.effect) == 0;
 }
 
 // A name in the unit's own words.

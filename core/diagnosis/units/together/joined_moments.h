@@ -1,0 +1,31 @@
+// What happens at one moment: how much every moment of every run has to say of a wheel that went further, and of a
+// push.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/units/together/joined_model.h"
+
+namespace odolab {
+
+struct JoinedMoment {
+  int run = 0;
+  double time_s = 0.0;  // of the encoders
+  double statistic = 0.0;
+};
+
+// One wheel of one unit; or a push of one unit, or of all of them.
+struct JoinedMoments {
+  std::vector<std::size_t> units;
+  Wheel wheel = Wheel::both;  // both: a push
+  std::vector<JoinedMoment> strongest;
+  double count = 0.0;      // moments that were looked at
+  double inflation = 1.0;  // of their statistics against chi-square: by the middle and by the strongest tenth
+};
+
+// Of what the model leaves with all that was let in.
+std::vector<JoinedMoments> joined_moments(const JoinedModel& model);
+
+}  // namespace odolab
