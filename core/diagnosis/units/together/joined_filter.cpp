@@ -140,6 +140,28 @@ void JoinedFilter::put_in(const JoinedColumn& column, double value) {
     }
 }
 
+// What the units are off by is known against the first one, as it stands: corrected poses turn that with them, or
+// joints that are read again and again would seem to tell where the room is (G. P. Huang, A. I. Mourikis and S. I.
+// Roumeliotis, "Observability-based rules for designing consistent EKF SLAM estimators", International Journal of
+// Robotics Research 29(5):502-528, 2010).
+MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
+                                   const std::vector<Pose>& unit_T_body) const {
+  MatrixXd turn = MatrixXd::Identity(rows(), rows());
+  const auto swing = [&](const std::vector<Pose>& poses, std::size_t u) {  // of the body, by the unit's heading
+    const Vec2 arm = rotated(unit_T_body[u].position(), poses[u].heading_rad);
+    return Eigen::Vector2d(-arm.y_m, arm.x_m);
+  };
+  const Eigen::Matrix2d by = turned(after[0].heading_rad - before[0].heading_rad);
+  for (std::size_t u = 1; u < units(); ++u) {
+    const auto k = 3 * static_cast<Index>(u);
+    turn.block<2, 2>(k, k) = by;
+    turn.block<2, 1>(k, k + 2) = by * swing(before, u) - swing(after, u);
+    turn.block<2, 2>(k, 0) = Eigen::Matrix2d::Identity() - by;
+    turn.block<2, 1>(k, 2) = swing(after, 0) - by * swing(before, 0);
+  }
+  return turn;
+}
+
 double JoinedFilter::run(const JoinedNoise& noise) {
   const Index n = rows();  // of the state, too: three numbers of each unit
   steps_.resize(readings());
@@ -297,9 +319,8 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     const Eigen::LLT<Small> root(s);
     const VectorXd white = root.matrixL().solve(-read.segment(from, m));
     step.whitener = root.matrixL().solve(Small::Identity(m, m));
-    step.gain = root.solve(ph.transpose()).transpose();
+    const Small gain = root.solve(ph.transpose()).transpose();
     step.out = step.whitener * h;
-    step.on = step.gain * h;
     step.first_row = from;
     step.count = m;
     for (Index a = 0; a < m; ++a) {
@@ -307,14 +328,18 @@ double JoinedFilter::run(const JoinedNoise& noise) {
       minus_two_log += white[a] * white[a] + 2.0 * std::log(root.matrixLLT()(a, a));
       ++used_;
     }
-    by = step.gain * -read.segment(from, m);
-    p -= step.gain * ph.transpose();
-    p = 0.5 * (p + p.transpose()).eval();
+    by = gain * -read.segment(from, m);
+    p -= gain * ph.transpose();
     for (std::size_t u = 0; u < units(); ++u) {
       const auto k = 3 * static_cast<Index>(u);
       at[u] = {at[u].x_m + by[k], at[u].y_m + by[k + 1], at[u].heading_rad + by[k + 2]};
     }
     step.corrected = at;
+    const Small turn = turned_with(step.predicted, at, reading.unit_T_body);
+    p = turn * p * turn.transpose();
+    p = 0.5 * (p + p.transpose()).eval();
+    step.gain = turn * gain;
+    step.on = turn - step.gain * h;
   }
   return minus_two_log;
 }
@@ -366,9 +391,9 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
       if (column.read.cols() == 0) continue;
       const auto by = column.read.col(static_cast<Index>(r)).segment(step.first_row, step.count);
       here.col(c).noalias() += step.whitener * by;
-      passed.col(c).noalias() += step.gain * by;
+      passed.col(c).noalias() -= step.gain * by;
     }
-    off -= passed;
+    off.swap(passed);
   }
   return out;
 }
@@ -385,10 +410,9 @@ std::vector<JoinedFilter::Impact> JoinedFilter::impacts(const VectorXd& left) co
       information.rightCols(n - 3).setZero();
       information.bottomRows(n - 3).setZero();
     } else if (step.count > 0) {
-      score = step.out.transpose() * left.segment(static_cast<Index>(r) * n + step.first_row, step.count) + score -
+      score = step.out.transpose() * left.segment(static_cast<Index>(r) * n + step.first_row, step.count) +
               step.on.transpose() * score;
-      const MatrixXd behind = information - information * step.on;
-      information = step.out.transpose() * step.out + behind - step.on.transpose() * behind;
+      information = step.out.transpose() * step.out + step.on.transpose() * information * step.on;
     }
     Impact& here = all[r - 1];
     here.time_s = 0.5 * (readings_[r - 1].time_s + readings_[r].time_s);

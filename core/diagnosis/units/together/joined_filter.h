@@ -85,9 +85,11 @@ class JoinedFilter {
     bool starts = false;
     std::vector<Pose> predicted, corrected;  // of each unit
     Eigen::Index first_row = 0, count = 0;   // of what was read
-    Eigen::MatrixXd gain, whitener, on,
-        out;  // of what it reads; of what the poses are off by: that goes on, and is seen
+    Eigen::MatrixXd whitener, out;           // of what is read; of what the poses are off by, as it is seen
+    Eigen::MatrixXd gain, on;                // what the poses take of it; what goes on of what they were off by
   };
+  Eigen::MatrixXd turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
+                              const std::vector<Pose>& unit_T_body) const;
   std::vector<Pose> units_T_body(const Vehicle& vehicle, const std::vector<double>& joints) const;
   Eigen::VectorXd read_at(const std::vector<Pose>& units, const std::vector<Pose>& unit_T_body,
                           const std::optional<Pose>& truth) const;
