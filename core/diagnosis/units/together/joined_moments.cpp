@@ -88,12 +88,14 @@ std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
     for (std::size_t k = 0; k < kinds.size(); ++k)
       found[k].insert(found[k].end(), of_kinds[k].begin(), of_kinds[k].end());
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    std::vector<double> statistics;
-    for (const JoinedMoment& m : found[k]) statistics.push_back(m.statistic);
-    kinds[k].count = static_cast<double>(statistics.size());
-    kinds[k].inflation = inflation_of(std::move(statistics), kinds[k].wheel == Wheel::both ? 3 : 1);
     std::sort(found[k].begin(), found[k].end(),
               [](const JoinedMoment& a, const JoinedMoment& b) { return a.statistic > b.statistic; });
+    // What happened once makes every moment of its run likelier: by the other runs, where there are any.
+    std::vector<double> statistics;
+    for (const JoinedMoment& m : found[k])
+      if (model.runs().size() < 2 || m.run != found[k].front().run) statistics.push_back(m.statistic);
+    kinds[k].count = static_cast<double>(found[k].size());
+    kinds[k].inflation = inflation_of(std::move(statistics), kinds[k].wheel == Wheel::both ? 3 : 1);
     for (const JoinedMoment& m : found[k]) {
       if (kinds[k].strongest.size() == kStrongest) break;
       if (std::none_of(kinds[k].strongest.begin(), kinds[k].strongest.end(), [&](const JoinedMoment& s) {

@@ -22,7 +22,7 @@ struct JoinedMoments {
   Wheel wheel = Wheel::both;  // both: a push
   std::vector<JoinedMoment> strongest;
   double count = 0.0;      // moments that were looked at
-  double inflation = 1.0;  // of their statistics against chi-square: by the middle and by the strongest tenth
+  double inflation = 1.0;  // of the statistics of all against chi-square: by the middle and by the strongest tenth
 };
 
 // Of what the model leaves with all that was let in.

@@ -20,7 +20,7 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-constexpr double kLeast = 25.0, kLeastOfAMoment = 35.0;  // twice what the likelihood gains
+constexpr double kLeast = 25.0, kLeastSought = 35.0;  // twice what the likelihood gains
 constexpr double kAsMuchOfAPush = 0.85;
 constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
 constexpr double kNearlyLeast = 20.0;   // of a moment, before its form and time are sought
@@ -181,8 +181,14 @@ bool lasts_throughout(const JoinedTest& test) {
   return test.cross_validated > 0.0 && (test.inflation < kUneven || test.judged() > kBeyondDoubt);
 }
 
+// In many places, or from many times on.
+bool is_sought(const Effect& e) {
+  return e.local ||
+         std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
+}
+
 bool holds(const Scored& s, double family_wise_error) {
-  const double least = s.of_moments > 0.0 ? kLeastOfAMoment : kLeast;
+  const double least = s.of_moments > 0.0 || is_sought(*s.candidate.effect) ? kLeastSought : kLeast;
   return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
 }
 
@@ -238,6 +244,7 @@ class Naming {
     JoinedNames result;
     for (std::size_t k = 0; k < named_.size(); ++k) result.names.push_back(name_of(k));
     look_for_the_unnamed(result);
+    if (!result.unknown) result.unknown = pushed_again_and_again();
     if (!named_.empty()) model_.put_in(acting());
     return result;
   }
@@ -518,6 +525,24 @@ class Naming {
     for (const JoinedName& n : result.names)
       result.unknown->alternatives.push_back(
           {n.finding.effect, n.finding.component, n.finding.log_likelihood_gain, ""});
+  }
+
+  // Who pushes a vehicle twice has another cause, which comes and goes.
+  std::optional<Finding> pushed_again_and_again() const {
+    Finding unknown;
+    int pushes = 0;
+    for (const Scored& s : named_) {
+      unknown.log_likelihood_gain += 0.5 * s.test.judged();
+      unknown.p_value = std::min(unknown.p_value, s.p_value);
+      unknown.alternatives.push_back({s.candidate.effect->name, s.candidate.component, 0.5 * s.test.judged(), ""});
+      if (s.candidate.effect->name != "collision") continue;
+      if (++pushes == 1) unknown.component = s.candidate.component;
+    }
+    if (pushes < 2) return std::nullopt;
+    unknown.effect = "unknown";
+    unknown.where.regime = "at moments of their own, as by pushes that no one gave";
+    unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
+    return unknown;
   }
 
   JoinedModel& model_;
