@@ -1,10 +1,7 @@
 #include "core/diagnosis/units/inside.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/diagnosis/naming/select.h"
-#include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"

@@ -291,6 +291,7 @@ void JoinedModel::put_in(const std::vector<Acting>& acting) {
   make_filters();
   linearise();
   fit(2);
+  acting_.clear();  // what it was fitted beside stays in the filters
 }
 
 std::vector<JoinedFilter::Impact> JoinedModel::impacts(std::size_t run) const {

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <memory>
-#include <set>
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
@@ -12,6 +9,7 @@
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/together/joined_candidates.h"
 #include "core/diagnosis/units/together/joined_groups.h"
 #include "core/diagnosis/units/together/joined_moments.h"
 
@@ -28,150 +26,10 @@ constexpr double kUneven = 2.5,
                  kBeyondDoubt = 200.0;  // the scatter of what acts in a few places, unless it says so much
 constexpr double kTrace = 0.03;         // of the strongest name: what is less is its form's
 constexpr double kSaysAsMuch = 0.8;     // beside the name: then it is no other name for the same
-constexpr std::size_t kFewShapes = 40;
 constexpr double kUnnamedInstead = 1.15;
 constexpr double k95 = 1.96;
 
-// An entry of the catalogue on one unit, or on all of them.
-struct Candidate {
-  const Effect* effect = nullptr;
-  std::vector<std::size_t> units;
-  std::string component;
-};
-
-struct Scored {
-  Candidate candidate;
-  std::vector<double> shape;
-  std::shared_ptr<const JoinedColumns> columns;
-  JoinedTest test;
-  double log_tests = 0.0, p_value = 1.0;
-  double of_moments = 0.0;  // above 0: it happens at one, and its inflation is that of so many
-  double says() const { return test.judged() - 2.0 * test.freedom - 2.0 * log_tests; }
-};
-
-// What acts on a vehicle as a whole, through its speed, its load, its tyres or the floor.
-bool is_of_all(const Effect& e) {
-  static const std::set<std::string> names = {
-      "floor_slope_creep", "slip_zone",     "lateral_slip", "turn_speed_loss",       "speed_dependent_radius",
-      "tyre_compression",  "traction_slip", "turn_scrub",   "payload_radius_change", "radius_drift"};
-  return names.count(e.name) > 0 &&
-         (e.component == "both_wheels" || e.component == "vehicle" || e.component == "floor");
-}
-
-std::vector<Candidate> candidates(const JoinedModel& model) {
-  const std::vector<VehicleUnit> units = units_of(model.vehicle());
-  std::vector<std::size_t> all;
-  for (std::size_t u = 0; u < units.size(); ++u) all.push_back(u);
-  std::vector<Candidate> list;
-  const int runs = static_cast<int>(model.runs().size());
-  if (runs > 1)
-    for (const Effect& e : effects::wheel_eccentricity_of_each_run(runs))
-      for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
-  for (const Effect& e : catalogue()) {
-    // A wheel that is not square to its axle is a joint's biased encoder, or where its pivot is: both are in the model.
-    if (e.name == "floor_slope_creep" && !model.has_truth()) continue;  // it is the way of all of them
-    if (!e.acts_on_motion() || !e.motions || e.only_commands || e.of_each_recording || e.name == "wheel_toe") continue;
-    if (e.local && e.name != "slip_zone") continue;
-    if (e.name != "floor_slope_creep")
-      for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
-    if (is_of_all(e) && model.has_truth()) list.push_back({&e, all, e.component == "floor" ? "floor" : "vehicle"});
-  }
-  return list;
-}
-
-std::vector<std::vector<double>> shapes_of(const Effect& e, const std::vector<DriveView>& views) {
-  std::vector<std::vector<double>> shapes{{}};
-  if (e.scan) shapes = e.scan(views);
-  if (e.name == "slip_zone")  // smaller ones are found from these
-    std::erase_if(shapes, [](const std::vector<double>& patch) { return patch[2] < 0.4; });
-  if (e.forms.size() < 2) return shapes;
-  std::vector<std::vector<double>> with_forms;
-  for (std::size_t form = 0; form < e.forms.size(); ++form)
-    for (std::vector<double> shape : shapes) {
-      shape.push_back(static_cast<double>(form));
-      with_forms.push_back(std::move(shape));
-    }
-  return with_forms;
-}
-
-// A push turns all units about the first one.
-std::vector<Motions> swung(std::vector<Motions> push, const DriveView& view, const DriveView& of_first) {
-  for (const Motions::Stretch& stretch : push[2].stretches())
-    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
-      const Vec2 arm = view.steps[i].position - of_first.steps[i].position;
-      const Vec2 by = rotated({-arm.y_m, arm.x_m}, -view.steps[i].heading_rad);
-      push[2][i].forward_m = push[2][i].turn_rad * by.x_m;
-      push[2][i].sideways_m = push[2][i].turn_rad * by.y_m;
-    }
-  return push;
-}
-
-JoinedModel::MotionsOf motions_at(const JoinedModel& model, const Candidate& c, const std::vector<double>& shape) {
-  if (c.effect->name != "collision" || c.units.size() < 2)
-    return [&e = *c.effect, shape](const DriveView& view) { return e.motions(view, shape); };
-  return [&e = *c.effect, shape, &model, first = c.units.front()](const DriveView& view) {
-    const DriveView& of_first = model.views(first)[static_cast<std::size_t>(view.number)];
-    std::vector<Motions> motions = e.motions(view, shape);
-    return &view == &of_first || motions[2].empty() ? motions : swung(std::move(motions), view, of_first);
-  };
-}
-
-JoinedColumns columns_at(const JoinedModel& model, const Candidate& c, const std::vector<double>& shape) {
-  return model.columns_of(motions_at(model, c, shape), c.effect->amplitudes.size(), c.units);
-}
-
-// To where between the shapes that were tried it says most.
-void climb(const JoinedModel& model, const Candidate& c, double believed_white,
-           const std::vector<std::vector<double>>& tried, Scored& best) {
-  for (int k : free_shapes(*c.effect)) {
-    const auto i = static_cast<std::size_t>(k);
-    double step = 1e300;
-    for (const std::vector<double>& shape : tried)
-      if (const double away = std::abs(shape[i] - best.shape[i]); away > 1e-9) step = std::min(step, away);
-    for (int halves = 0; halves < 4 && step < 1e300; ++halves) {
-      step *= 0.5;
-      for (double side : {-step, step}) {
-        std::vector<double> shape = best.shape;
-        shape[i] += side;
-        JoinedColumns columns = columns_at(model, c, shape);
-        const JoinedTest test = model.test(columns, believed_white);
-        if (test.judged() <= best.test.judged()) continue;
-        best.test = test;
-        best.shape = std::move(shape);
-        best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
-        break;
-      }
-    }
-  }
-}
-
-// At the shape that says most; of many, every so many-th first, and then those beside the best.
-Scored at_its_best(const JoinedModel& model, const Candidate& c, double believed_white) {
-  Scored best;
-  best.candidate = c;
-  std::vector<std::vector<double>> shapes = shapes_of(*c.effect, model.views(c.units.front()));
-  const auto try_shape = [&](std::size_t k) {
-    JoinedColumns columns = columns_at(model, c, shapes[k]);
-    const JoinedTest test = model.test(columns, believed_white);
-    if (best.columns && test.judged() <= best.test.judged()) return false;
-    best.test = test;
-    best.shape = shapes[k];
-    best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
-    return true;
-  };
-  const std::size_t stride = !c.effect->local && shapes.size() > kFewShapes ? shapes.size() / kFewShapes + 1 : 1;
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < shapes.size(); k += stride)
-    if (try_shape(k)) at = k;
-  if (stride > 1)
-    for (std::size_t k = at > stride ? at - stride + 1 : 0; k < std::min(at + stride, shapes.size()); ++k) try_shape(k);
-  for (int rounds = 0; rounds < (free_shapes(*c.effect).size() > 1 ? 2 : 1); ++rounds)
-    climb(model, c, believed_white, shapes, best);
-  best.log_tests = std::log(std::max(1.0, static_cast<double>(shapes.size()) * c.effect->tests_of_a_shape));
-  return best;
-}
-
-void judge(Scored& s, std::size_t looked_at) {
+void judge(ScoredTogether& s, std::size_t looked_at) {
   const double p = s.test.freedom > 0 ? chi_square_tail(s.test.judged(), s.test.freedom) : 1.0;
   s.p_value = std::min(1.0, p * static_cast<double>(looked_at) * std::exp(s.log_tests));
 }
@@ -187,13 +45,13 @@ bool is_sought(const Effect& e) {
          std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
 }
 
-bool holds(const Scored& s, double family_wise_error) {
+bool holds(const ScoredTogether& s, double family_wise_error) {
   const double least = s.of_moments > 0.0 || is_sought(*s.candidate.effect) ? kLeastSought : kLeast;
   return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
 }
 
 // Whether it moves a wheel by more than counts and the joints' rounding make of nothing.
-bool is_more_than_rounding(const Scored& s, const Vehicle& vehicle) {
+bool is_more_than_rounding(const ScoredTogether& s, const Vehicle& vehicle) {
   constexpr double kCounts = 1.5;
   double least_m = 0.0;
   const std::vector<VehicleUnit> units = units_of(vehicle);
@@ -208,7 +66,7 @@ bool is_more_than_rounding(const Scored& s, const Vehicle& vehicle) {
 }
 
 // Whether values lie within what any vehicle has.
-bool is_physical(const Scored& s) {
+bool is_physical(const ScoredTogether& s) {
   for (std::size_t a = 0; a < s.candidate.effect->amplitudes.size(); ++a) {
     const Effect::Amplitude& of = s.candidate.effect->amplitudes[a];
     const double value = s.test.value[static_cast<Eigen::Index>(a)];
@@ -218,14 +76,14 @@ bool is_physical(const Scored& s) {
 }
 
 // Two things of the same moment.
-bool is_one_moment(const Scored& a, const Scored& b) {
+bool is_one_moment(const ScoredTogether& a, const ScoredTogether& b) {
   constexpr double kClose_s = 1.0;
   if (!a.candidate.effect->of_one_recording || !b.candidate.effect->of_one_recording) return false;
   return a.shape[0] == b.shape[0] && std::abs(a.shape[1] - b.shape[1]) < kClose_s;
 }
 
 // One number that says as much as the three of a push at that moment.
-bool is_simpler(const Scored& s, const Scored& than) {
+bool is_simpler(const ScoredTogether& s, const ScoredTogether& than) {
   return s.of_moments > 0.0 && than.of_moments > 0.0 && is_one_moment(s, than) && s.test.freedom < than.test.freedom &&
          s.test.judged() > kAsMuchOfAPush * than.test.judged();
 }
@@ -252,7 +110,7 @@ class Naming {
  private:
   std::vector<JoinedModel::Acting> acting() const {
     std::vector<JoinedModel::Acting> all;
-    for (const Scored& s : named_)
+    for (const ScoredTogether& s : named_)
       all.push_back({motions_at(model_, s.candidate, s.shape), s.test.value, s.candidate.units});
     return all;
   }
@@ -262,17 +120,17 @@ class Naming {
     score_all(progress);
     JoinedModel with = model_;
     while (named_.size() < kMostNames && goes_on(progress, 0.5)) {
-      Scored* best = nullptr;
-      std::vector<Scored> now = scored_;
+      ScoredTogether* best = nullptr;
+      std::vector<ScoredTogether> now = scored_;
       if (!named_.empty()) ask_again(with, now);
-      for (Scored& s : scored_moments(with)) now.push_back(std::move(s));
-      for (Scored& s : now) {
+      for (ScoredTogether& s : scored_moments(with)) now.push_back(std::move(s));
+      for (ScoredTogether& s : now) {
         if (!holds(s, p_) || !is_physical(s) || is_named(s)) continue;
         if (!named_.empty() && s.test.judged() < kTrace * named_.front().test.judged()) continue;
         if (!best || s.says() > best->says()) best = &s;
       }
       if (!best) break;
-      for (Scored& s : now)
+      for (ScoredTogether& s : now)
         if (is_simpler(s, *best) && holds(s, p_) && is_physical(s)) best = &s;
       with.let_in(*best->columns);
       named_.push_back(*best);
@@ -281,7 +139,7 @@ class Naming {
   }
 
   void score_all(const Progress& progress) {
-    const std::vector<Candidate> list = candidates(model_);
+    const std::vector<JoinedCandidate> list = joined_candidates(model_);
     scored_.resize(list.size());
     std::vector<ScoreByBatches> scores(list.size());
     parallel_for(
@@ -289,9 +147,10 @@ class Naming {
         [&](int k) {
           const auto i = static_cast<std::size_t>(k);
           scored_[i] = at_its_best(model_, list[i], kFewestBatchesBelieved);
-          if (!list[i].effect->scan) scores[i] = model_.score_by_batches(*scored_[i].columns);
+          if (scored_[i].columns && !list[i].effect->scan) scores[i] = model_.score_by_batches(*scored_[i].columns);
         },
         {}, progress);
+    std::erase_if(scored_, [](const ScoredTogether& s) { return !s.columns; });
     std::erase_if(scores, [](const ScoreByBatches& s) { return s.u.empty(); });
     believed_white_ = batches_of_prior(scores);
     parallel_for(static_cast<int>(scored_.size()),
@@ -299,7 +158,7 @@ class Naming {
   }
 
   // The strongest moments, each as a bump, as one that comes back at its place, and as a push, as it suits them.
-  std::vector<Scored> scored_moments(const JoinedModel& with) const {
+  std::vector<ScoredTogether> scored_moments(const JoinedModel& with) const {
     struct Asked {
       const Effect* effect;
       const JoinedMoments* kind;
@@ -315,18 +174,18 @@ class Naming {
         for (const JoinedMoment& moment : kind.strongest)
           if (moment.statistic / kind.inflation > kNearlyLeast) asked.push_back({&e, &kind, &moment});
       }
-    std::vector<Scored> all(asked.size());
+    std::vector<ScoredTogether> all(asked.size());
     parallel_for(static_cast<int>(asked.size()), [&](int k) {
       const Asked& one = asked[static_cast<std::size_t>(k)];
       all[static_cast<std::size_t>(k)] = scored_moment(with, *one.effect, *one.kind, *one.moment);
     });
-    std::erase_if(all, [&](const Scored& s) { return !is_more_than_rounding(s, model_.vehicle()); });
+    std::erase_if(all, [&](const ScoredTogether& s) { return !is_more_than_rounding(s, model_.vehicle()); });
     return all;
   }
 
-  Scored scored_moment(const JoinedModel& with, const Effect& e, const JoinedMoments& kind,
-                       const JoinedMoment& moment) const {
-    Scored best;
+  ScoredTogether scored_moment(const JoinedModel& with, const Effect& e, const JoinedMoments& kind,
+                               const JoinedMoment& moment) const {
+    ScoredTogether best;
     best.candidate = {&e, kind.units,
                       kind.units.size() > 1
                           ? "vehicle"
@@ -361,30 +220,27 @@ class Naming {
     return {place.x_m, place.y_m};
   }
 
-  static void try_moment(const JoinedModel& with, const std::vector<double>& shape, Scored& best) {
+  static void try_moment(const JoinedModel& with, const std::vector<double>& shape, ScoredTogether& best) {
     JoinedColumns columns = columns_at(with, best.candidate, shape);
     JoinedTest test = with.test(columns, -1.0);
     test.inflation = best.of_moments;
-    if (best.columns && test.judged() <= best.test.judged()) return;
-    best.test = test;
-    best.shape = shape;
-    best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
+    best.take_if_better(test, shape, std::move(columns));
   }
 
   // Of all that said something by itself.
-  void ask_again(const JoinedModel& with, std::vector<Scored>& all) const {
-    std::erase_if(all, [](const Scored& s) { return s.test.statistic < kSaysSomething; });
+  void ask_again(const JoinedModel& with, std::vector<ScoredTogether>& all) const {
+    std::erase_if(all, [](const ScoredTogether& s) { return s.test.statistic < kSaysSomething; });
     parallel_for(static_cast<int>(all.size()), [&](int k) { ask_again(with, all[static_cast<std::size_t>(k)]); });
   }
 
-  void ask_again(const JoinedModel& with, Scored& s) const {
+  void ask_again(const JoinedModel& with, ScoredTogether& s) const {
     s.test = with.test(*s.columns, s.of_moments > 0.0 ? -1.0 : believed_white_);
     if (s.of_moments > 0.0) s.test.inflation = s.of_moments;
     judge(s, scored_.size());
   }
 
-  bool is_named(const Scored& s) const {
-    return std::any_of(named_.begin(), named_.end(), [&](const Scored& n) {
+  bool is_named(const ScoredTogether& s) const {
+    return std::any_of(named_.begin(), named_.end(), [&](const ScoredTogether& n) {
       if (s.candidate.effect->local || n.candidate.effect->local) return is_one_moment(s, n);
       return n.candidate.effect == s.candidate.effect && n.candidate.component == s.candidate.component;
     });
@@ -404,12 +260,13 @@ class Naming {
       if (!holds(named_[k], p_)) named_.erase(named_.begin() + static_cast<std::ptrdiff_t>(k));
     }
     for (std::size_t k = 0; k < named_.size(); ++k) ask_again(without(k), named_[k]);
-    std::stable_sort(named_.begin(), named_.end(),
-                     [](const Scored& a, const Scored& b) { return a.test.judged() > b.test.judged(); });
+    std::stable_sort(named_.begin(), named_.end(), [](const ScoredTogether& a, const ScoredTogether& b) {
+      return a.test.judged() > b.test.judged();
+    });
   }
 
   JoinedName name_of(std::size_t k) const {
-    const Scored& s = named_[k];
+    const ScoredTogether& s = named_[k];
     const Effect& e = *s.candidate.effect;
     JoinedName name{{}, s.candidate.units};
     Finding& f = name.finding;
@@ -436,15 +293,15 @@ class Naming {
 
     JoinedModel others = without(k), with = others;
     with.let_in(*s.columns);
-    std::vector<Scored> instead = scored_;
-    std::erase_if(instead, [&](const Scored& other) { return other.test.judged() < 0.3 * s.test.judged(); });
+    std::vector<ScoredTogether> instead = scored_;
+    std::erase_if(instead, [&](const ScoredTogether& other) { return other.test.judged() < 0.3 * s.test.judged(); });
     if (s.of_moments > 0.0)
-      for (Scored& other : scored_moments(others))
+      for (ScoredTogether& other : scored_moments(others))
         if (other.candidate.effect->of_one_recording == e.of_one_recording &&
             (!e.of_one_recording || is_one_moment(other, s)))
           instead.push_back(std::move(other));
     ask_again(others, instead);
-    for (Scored& other : instead) {
+    for (ScoredTogether& other : instead) {
       if (other.candidate.effect->name == e.name && other.candidate.component == s.candidate.component) continue;
       if (!is_physical(other) || other.test.judged() < kLeast) continue;
       const double less_tried = 2.0 * std::max(0.0, s.log_tests - other.log_tests);
@@ -462,7 +319,7 @@ class Naming {
   }
 
   // With what a form is wrong by, and of shapes as wide as what was scanned.
-  Eigen::MatrixXd covariance_of(const Scored& s) const {
+  Eigen::MatrixXd covariance_of(const ScoredTogether& s) const {
     constexpr double kForm = 0.03;
     Eigen::MatrixXd covariance = s.test.inflation * s.test.covariance;
     const double size = s.test.value.norm();
@@ -487,7 +344,7 @@ class Naming {
   void look_for_the_unnamed(JoinedNames& result) const {
     JoinedModel with = model_;
     double named = 0.0;
-    for (const Scored& s : named_) {
+    for (const ScoredTogether& s : named_) {
       with.let_in(*s.columns);
       named += s.test.judged();
     }
@@ -531,7 +388,7 @@ class Naming {
   std::optional<Finding> pushed_again_and_again() const {
     Finding unknown;
     int pushes = 0;
-    for (const Scored& s : named_) {
+    for (const ScoredTogether& s : named_) {
       unknown.log_likelihood_gain += 0.5 * s.test.judged();
       unknown.p_value = std::min(unknown.p_value, s.p_value);
       unknown.alternatives.push_back({s.candidate.effect->name, s.candidate.component, 0.5 * s.test.judged(), ""});
@@ -547,7 +404,7 @@ class Naming {
 
   JoinedModel& model_;
   double p_, believed_white_ = kFewestBatchesBelieved;
-  std::vector<Scored> scored_, named_;
+  std::vector<ScoredTogether> scored_, named_;
 };
 
 }  // namespace

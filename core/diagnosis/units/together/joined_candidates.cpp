@@ -1,0 +1,144 @@
+#include "core/diagnosis/units/together/joined_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/units/component_names.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::size_t kFewShapes = 40;
+
+// What acts on a vehicle as a whole, through its speed, its load, its tyres or the floor.
+bool is_of_all(const Effect& e) {
+  static const std::set<std::string> names = {
+      "floor_slope_creep", "slip_zone",     "lateral_slip", "turn_speed_loss",       "speed_dependent_radius",
+      "tyre_compression",  "traction_slip", "turn_scrub",   "payload_radius_change", "radius_drift"};
+  return names.count(e.name) > 0 &&
+         (e.component == "both_wheels" || e.component == "vehicle" || e.component == "floor");
+}
+
+// A push turns all units about the first one.
+std::vector<Motions> swung(std::vector<Motions> push, const DriveView& view, const DriveView& of_first) {
+  for (const Motions::Stretch& stretch : push[2].stretches())
+    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+      const Vec2 arm = view.steps[i].position - of_first.steps[i].position;
+      const Vec2 by = rotated({-arm.y_m, arm.x_m}, -view.steps[i].heading_rad);
+      push[2][i].forward_m = push[2][i].turn_rad * by.x_m;
+      push[2][i].sideways_m = push[2][i].turn_rad * by.y_m;
+    }
+  return push;
+}
+
+// To where between the shapes that were tried it says most.
+void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_white,
+           const std::vector<std::vector<double>>& tried, ScoredTogether& best) {
+  for (int k : free_shapes(*c.effect)) {
+    const auto i = static_cast<std::size_t>(k);
+    double step = 1e300;
+    for (const std::vector<double>& shape : tried)
+      if (const double away = std::abs(shape[i] - best.shape[i]); away > 1e-9) step = std::min(step, away);
+    for (int halves = 0; halves < 4 && step < 1e300; ++halves) {
+      step *= 0.5;
+      for (double side : {-step, step}) {
+        std::vector<double> shape = best.shape;
+        shape[i] += side;
+        JoinedColumns columns = columns_at(model, c, shape);
+        const JoinedTest test = model.test(columns, believed_white);
+        if (test.judged() <= best.test.judged()) continue;
+        best.take_if_better(test, shape, std::move(columns));
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void ScoredTogether::take_if_better(const JoinedTest& other, const std::vector<double>& at, JoinedColumns of) {
+  if (columns && other.judged() <= test.judged()) return;
+  test = other;
+  shape = at;
+  columns = std::make_shared<const JoinedColumns>(std::move(of));
+}
+
+std::vector<JoinedCandidate> joined_candidates(const JoinedModel& model) {
+  const std::vector<VehicleUnit> units = units_of(model.vehicle());
+  std::vector<std::size_t> all;
+  for (std::size_t u = 0; u < units.size(); ++u) all.push_back(u);
+  std::vector<JoinedCandidate> list;
+  const int runs = static_cast<int>(model.runs().size());
+  if (runs > 1)
+    for (const Effect& e : effects::wheel_eccentricity_of_each_run(runs))
+      for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
+  for (const Effect& e : catalogue()) {
+    // A wheel that is not square to its axle is a joint's biased encoder, or where its pivot is: both are in the model.
+    if (e.name == "floor_slope_creep" && !model.has_truth()) continue;  // it is the way of all of them
+    if (!e.acts_on_motion() || !e.motions || e.only_commands || e.of_each_recording || e.name == "wheel_toe") continue;
+    if (e.local && e.name != "slip_zone") continue;
+    if (e.name != "floor_slope_creep")
+      for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
+    if (is_of_all(e) && model.has_truth()) list.push_back({&e, all, e.component == "floor" ? "floor" : "vehicle"});
+  }
+  return list;
+}
+
+std::vector<std::vector<double>> shapes_of(const Effect& e, const std::vector<DriveView>& views) {
+  std::vector<std::vector<double>> shapes{{}};
+  if (e.scan) shapes = e.scan(views);
+  if (e.name == "slip_zone")  // smaller ones are found from these
+    std::erase_if(shapes, [](const std::vector<double>& patch) { return patch[2] < 0.4; });
+  if (e.forms.size() < 2) return shapes;
+  std::vector<std::vector<double>> with_forms;
+  for (std::size_t form = 0; form < e.forms.size(); ++form)
+    for (std::vector<double> shape : shapes) {
+      shape.push_back(static_cast<double>(form));
+      with_forms.push_back(std::move(shape));
+    }
+  return with_forms;
+}
+
+JoinedModel::MotionsOf motions_at(const JoinedModel& model, const JoinedCandidate& c,
+                                  const std::vector<double>& shape) {
+  if (c.effect->name != "collision" || c.units.size() < 2)
+    return [&e = *c.effect, shape](const DriveView& view) { return e.motions(view, shape); };
+  return [&e = *c.effect, shape, &model, first = c.units.front()](const DriveView& view) {
+    const DriveView& of_first = model.views(first)[static_cast<std::size_t>(view.number)];
+    std::vector<Motions> motions = e.motions(view, shape);
+    return &view == &of_first || motions[2].empty() ? motions : swung(std::move(motions), view, of_first);
+  };
+}
+
+JoinedColumns columns_at(const JoinedModel& model, const JoinedCandidate& c, const std::vector<double>& shape) {
+  return model.columns_of(motions_at(model, c, shape), c.effect->amplitudes.size(), c.units);
+}
+
+ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, double believed_white) {
+  ScoredTogether best;
+  best.candidate = c;
+  std::vector<std::vector<double>> shapes = shapes_of(*c.effect, model.views(c.units.front()));
+  const auto try_shape = [&](std::size_t k) {
+    JoinedColumns columns = columns_at(model, c, shapes[k]);
+    const JoinedTest test = model.test(columns, believed_white);
+    const bool is_better = !best.columns || test.judged() > best.test.judged();
+    best.take_if_better(test, shapes[k], std::move(columns));
+    return is_better;
+  };
+  const std::size_t stride = !c.effect->local && shapes.size() > kFewShapes ? shapes.size() / kFewShapes + 1 : 1;
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < shapes.size(); k += stride)
+    if (try_shape(k)) at = k;
+  if (stride > 1)
+    for (std::size_t k = at > stride ? at - stride + 1 : 0; k < std::min(at + stride, shapes.size()); ++k) try_shape(k);
+  if (!best.columns) return best;
+  for (int rounds = 0; rounds < (free_shapes(*c.effect).size() > 1 ? 2 : 1); ++rounds)
+    climb(model, c, believed_white, shapes, best);
+  best.log_tests = std::log(std::max(1.0, static_cast<double>(shapes.size()) * c.effect->tests_of_a_shape));
+  return best;
+}
+
+}  // namespace odolab

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/together/joined_model.h"
+#include "core/diagnosis/units/unit_recordings.h"
+#include "test/support/linked_runs.h"
+
+namespace odolab::test {
+namespace {
+
+// A camera of 10 Hz that errs by a centimetre and a degree.
+LinkedRunSettings under_a_coarse_truth() {
+  LinkedRunSettings s;
+  s.duration_s = 60.0;
+  s.truth_m = 0.01;
+  s.truth_rad = 0.017;
+  return s;
+}
+
+std::vector<JoinedRun> joined(const std::vector<Recording>& recordings, const Vehicle& vehicle) {
+  std::vector<JoinedRun> runs;
+  for (const Recording& r : recordings) runs.push_back({unit_samples(r, vehicle), tracked_poses(r)});
+  return runs;
+}
+
+// At rest the joints are read a thousand times: the heading is known by the mean of what the truth says of it, and by
+// nothing else.
+TEST(JoinedFilter, LearnsNothingOfTheRoomFromJointsThatAreReadAtRest) {
+  const MultiCastor platform = three_castor_vehicle();
+  const Vehicle vehicle = vehicle_of(platform);
+  CastorKinematics machine(platform, {}, trailing_angles(platform, {0.3, 0.0, 0.0, 1.0}));
+  Random random(5);
+  JoinedRun run;
+  const Recording at_rest = recording_of(std::vector<CastorSample>{machine.reading(), machine.reading()});
+  const std::vector<double> joints = unit_samples(at_rest, vehicle).front().joints;
+  double mean_rad = 0.0;
+  constexpr int kTruths = 100, kEach = 10;
+  for (int i = 0; i < kTruths * kEach; ++i) {
+    UnitSample sample{0.1 * i, std::vector<WheelRotation>(platform.castors.size()), joints};
+    for (double& joint : sample.joints) joint += 0.0005 * random.normal();
+    run.samples.push_back(std::move(sample));
+    if (i % kEach != 0) continue;
+    const double heading_rad = 0.02 * random.normal();
+    mean_rad += heading_rad / kTruths;
+    run.tracked.push_back({0.1 * i, {0.0, 0.0, heading_rad}});
+  }
+  JoinedFilter filter(run, vehicle, 0.0);
+  JoinedNoise noise;
+  noise.truth_heading_rad = 0.02;
+  filter.run(noise);
+  const Pose body = filter.track(0).back().pose * inverse(tracked_T_axle(vehicle, 0, joints));
+  EXPECT_NEAR(body.heading_rad, mean_rad, 0.001);  // the mean itself errs by 0.002; one truth's error is 0.02
+}
+
+// The score of a sudden motion, gathered backward, is the product of its column, carried forward, with what is left.
+TEST(JoinedFilter, GathersTheScoreOfEachMomentAsItsColumnCarriesIt) {
+  const Clapper trucks;
+  const Vehicle vehicle = vehicle_of(trucks);
+  LinkedRunSettings s = under_a_coarse_truth();
+  s.duration_s = 10.0;
+  JoinedFilter filter(joined({linked_run(trucks, s, 3)}, vehicle).front(), vehicle, 0.0);
+  filter.run({});
+  const std::vector<JoinedFilter::Impact> impacts = filter.impacts(filter.residual());
+  for (const std::size_t epoch : {std::size_t{20}, impacts.size() / 2}) {
+    JoinedColumn column = filter.nothing();
+    column.moved[1] = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(impacts.size()));
+    column.moved[1](2, static_cast<Eigen::Index>(epoch)) = 1.0;  // truck B turns
+    const Eigen::VectorXd z = filter.carried({column}).col(0);
+    const JoinedFilter::Impact& at = impacts[epoch];
+    EXPECT_NEAR(at.score[5], z.dot(filter.residual()), 1e-9 * z.norm() * filter.residual().norm());
+    EXPECT_NEAR(at.information(5, 5), z.squaredNorm(), 1e-9 * z.squaredNorm());
+  }
+}
+
+// Truck B's left wheel is out of round by a quarter of a percent: 0.19 mm to either side of a truth that errs by 10 mm.
+TEST(DiagnoseTogether, NamesAnOvalWheelOfATruckUnderATruthThatErrsFiftyTimesAsMuch) {
+  constexpr double kAmplitude = 0.0025;
+  LinkedRunSettings s = under_a_coarse_truth();
+  s.b_left = [](double, double rotation_rad, double by_rad) { return kAmplitude * std::cos(rotation_rad) * by_rad; };
+  Clapper trucks;
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  const std::vector<Recording> runs = {linked_run(trucks, s, 301), linked_run(trucks, s, 302),
+                                       linked_run(trucks, s, 303)};
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  ASSERT_FALSE(d->findings.empty());
+  EXPECT_EQ(d->verdict, Verdict::found);
+  EXPECT_EQ(d->findings[0].effect, "wheel_eccentricity");
+  EXPECT_EQ(d->findings[0].component, "truck_b.left_wheel");
+  const FoundParameter& amplitude = d->findings[0].parameters[0];
+  EXPECT_NEAR(amplitude.value, kAmplitude, 3.0 * amplitude.stderr_value);
+  EXPECT_LT(amplitude.stderr_value, 0.2 * kAmplitude);
+}
+
+// The wheel once counts 6 mm too much, at 22 s of the second run.
+TEST(DiagnoseTogether, FeelsABumpUnderATruthThatErrsByMore) {
+  const LinkedRunSettings even = under_a_coarse_truth();
+  LinkedRunSettings bumped = even;
+  constexpr double kAt_s = 22.0, kLasts_s = 0.1, kExtra_m = 0.006;
+  Clapper trucks;
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  bumped.b_left = [&](double time_s, double, double) {
+    return std::abs(time_s - kAt_s) < 0.5 * kLasts_s
+               ? kExtra_m / trucks.truck_b.wheel_radius_left_m * bumped.step_s / kLasts_s
+               : 0.0;
+  };
+  const std::vector<Recording> runs = {linked_run(trucks, even, 311), linked_run(trucks, bumped, 312),
+                                       linked_run(trucks, even, 313)};
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->findings.size(), 1u);
+  const Finding& f = d->findings[0];
+  EXPECT_EQ(f.effect, "bump");
+  EXPECT_EQ(f.component, "truck_b.left_wheel");
+  EXPECT_EQ(f.where.recording, runs[1].name);
+  for (const FoundParameter& p : f.parameters) {
+    if (p.name == "at_s") {
+      EXPECT_NEAR(p.value, kAt_s, 0.2);
+    }
+    if (p.name == "extra_distance_m") {
+      EXPECT_NEAR(p.value, kExtra_m, 4.0 * p.stderr_value);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace odolab::test
