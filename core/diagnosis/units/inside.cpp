@@ -90,8 +90,11 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
       understood_without(told, held_out, runs_held_out, std::vector<double>(runs_held_out.size()), nominal), nominal,
       options, [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
   if (!judged) return judged.error();
-  for (std::size_t u = 0; u < units.size(); ++u)
-    judged->units[u] = with_names(told, u, judged->units[u], judged->units[u]);
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    Diagnosis& one = judged->units[u];
+    if (acts_on(told, u)) std::erase_if(one.findings, [](const Finding& f) { return is_data_fault(f.effect); });
+    one = with_names(told, u, one, one);  // counts from which something was taken off are no whole ones
+  }
   Diagnosis d = merged(judged->units, judged->geometry, nominal, train, false);
   put_names_into(told, d);
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;

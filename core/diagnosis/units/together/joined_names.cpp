@@ -18,7 +18,9 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-constexpr double kLeast = 25.0, kLeastSought = 35.0;  // twice what the likelihood gains
+// Twice what the likelihood gains, at least: of what lasts; of what was sought in many places or from many times on; and
+// of a push that one unit feels alone, which as a rule is a joint that errs.
+constexpr double kLeast = 25.0, kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
 constexpr double kAsMuchOfAPush = 0.85;
 constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
 constexpr double kNearlyLeast = 20.0;   // of a moment, before its form and time are sought
@@ -46,7 +48,10 @@ bool is_sought(const Effect& e) {
 }
 
 bool holds(const ScoredTogether& s, double family_wise_error) {
-  const double least = s.of_moments > 0.0 || is_sought(*s.candidate.effect) ? kLeastSought : kLeast;
+  const bool is_push_of_one = s.candidate.effect->name == "collision" && s.candidate.units.size() == 1;
+  const double least = is_push_of_one                                         ? kLeastOfOneUnit
+                       : s.of_moments > 0.0 || is_sought(*s.candidate.effect) ? kLeastSought
+                                                                              : kLeast;
   return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
 }
 
