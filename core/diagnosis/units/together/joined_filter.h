@@ -1,5 +1,5 @@
 // The poses of all units of a vehicle in one filter: each unit's wheels carry it on, its joints hold it to the others,
-// and the outside truth, as much as there is of it, to the room. README.md in the folder above, Eqs. 1 to 3.
+// and the outside truth, as much as there is of it, to the room. README.md in the folder above, "Together".
 #pragma once
 
 #include <Eigen/Core>

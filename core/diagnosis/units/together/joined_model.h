@@ -1,5 +1,5 @@
 // All recordings of a linked or castor vehicle under one model: every unit's wheels, the joints, the truth's mounting
-// and clocks; and the tests of what is not in it. README.md in the folder above, Eqs. 4 to 6.
+// and clocks; and the tests of what is not in it. README.md in the folder above, "Together".
 #pragma once
 
 #include <Eigen/Dense>

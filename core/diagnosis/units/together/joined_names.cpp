@@ -18,8 +18,8 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-// Twice what the likelihood gains, at least: of what lasts; of what was sought in many places or from many times on; and
-// of a push that one unit feels alone, which as a rule is a joint that errs.
+// Twice what the likelihood gains, at least: of what lasts; of what was sought in many places or from many times on;
+// and of a push that one unit feels alone, which as a rule is a joint that errs.
 constexpr double kLeast = 25.0, kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
 constexpr double kAsMuchOfAPush = 0.85;
 constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
