@@ -171,7 +171,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   if (!goes_on(progress, 0.1)) return Error{"diagnosis", "stopped before its end", ""};
 
   std::optional<ToldTogether> told;
-  if (units.size() > 1 && may_be_coarse(runs)) {
+  if (units.size() > 1 && units.size() <= kMostJoinedUnits && may_be_coarse(runs)) {
     std::vector<std::string> names;
     for (const Recording& r : train) names.push_back(r.name);
     told = told_together(runs, nominal, geometry.clock_s, names, options.family_wise_error,

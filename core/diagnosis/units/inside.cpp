@@ -74,6 +74,10 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   if (const auto* platform = std::get_if<MultiCastor>(&nominal.kind); platform && platform->castors.size() < 3)
     return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
                  "such a truth, or three castors and more, of which the others judge one"};
+  if (units.size() > kMostJoinedUnits)
+    return Error{nominal.name,
+                 std::to_string(units.size()) + " units and no outside truth with headings, a sample a second or more",
+                 "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
   const auto runs_of = [&](const std::vector<Recording>& set) {
     std::vector<JoinedRun> runs;
     for (const Recording& r : set) runs.push_back({without_held_counts(unit_samples(r, nominal), nominal), {}});

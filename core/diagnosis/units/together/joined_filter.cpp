@@ -14,12 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostRows = 24;  // three of each unit
+constexpr int kMostRows = 3 * static_cast<int>(kMostJoinedUnits);
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
 constexpr double kEpoch_s = 0.075;  // and more, from one reading of the joints to the next that is looked at
 constexpr double kUnknown_m = 0.5, kUnknown_rad = 0.3;  // where the filter starts
-constexpr double kGateOfTruth = 25.0, kGateOfNumber = 30.0;
+constexpr double kGateOfTruth = 25.0;                   // squared, of its three numbers
 
 Eigen::Matrix2d turned(double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);

@@ -13,6 +13,8 @@
 
 namespace odolab {
 
+inline constexpr std::size_t kMostJoinedUnits = 8;
+
 // Sizes of the random errors, of all units alike.
 struct JoinedNoise {
   double wheel_m_per_sqrt_m = 5e-4;     // each wheel's way
@@ -31,7 +33,8 @@ struct JoinedColumn {
 // One recording, cut into epochs: it is looked at where encoders or the truth are read.
 class JoinedFilter {
  public:
-  // `vehicle`: its lengths, the joints' biases, the truth's mounting and clock, and the drives.
+  // `vehicle`, of kMostJoinedUnits at most: its lengths, the joints' biases, the truth's mounting and clock, and the
+  // drives.
   JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double clock_s);
 
   std::size_t units() const { return way_.size(); }
