@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
@@ -58,6 +60,12 @@ double shrunk_inflation(double scatter, double count, double batches_believed_wh
   const double shrunk = (batches_believed_white + count * scatter) / (batches_believed_white + count);
   const double by_itself = count > kFewestToScatter ? scatter / largest_by_chance(count - 1.0) : 1.0;
   return std::max({1.0, shrunk, by_itself});
+}
+
+double scatter_of_statistics(const std::vector<double>& statistics, int freedom) {
+  constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.706, 4.605, 6.251};
+  const int k = std::min(3, freedom);
+  return std::max(quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]);
 }
 
 double batches_of_prior(const std::vector<ScoreByBatches>& scores) {

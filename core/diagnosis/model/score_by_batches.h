@@ -29,6 +29,10 @@ double unbiased_scatter(double about_fit, double count);
 // An inflation of 1 or more from a scatter that so many batches give, and the belief of so many that there is none.
 double shrunk_inflation(double scatter, double count, double batches_believed_white);
 
+// How much wider the statistics of all shapes scatter than chi-square of 1 to 3 numbers: by the median or the ninetieth
+// hundredth, whichever is further out.
+double scatter_of_statistics(const std::vector<double>& statistics, int freedom);
+
 // With the weight of how many batches it is to be believed that innovations are white: as many as there are where
 // these scores scatter no more than chance makes them, fewer the more their scatters differ from one (empirical Bayes:
 // C. N. Morris, "Parametric empirical Bayes inference", J. American Statistical Association 78(381):47-55, 1983).

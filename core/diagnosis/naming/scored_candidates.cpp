@@ -5,15 +5,12 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
-#include "core/base/quantile.h"
+#include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
 
 namespace {
-
-// Median and 90 % quantile of chi-square for freedom 1 to 3.
-constexpr double kMedian[4] = {0.0, 0.455, 1.386, 2.366}, kNinety[4] = {0.0, 2.706, 4.605, 6.251};
 
 // Whether the only amplitude has one sign, so that chance makes it the other way, which is none, as often. Not of
 // places and moments, where floors are uneven a little in earnest.
@@ -115,12 +112,6 @@ bool rests_at(const JointModel& joint, const std::vector<double>& moment) {
   return any;
 }
 
-// The median and the ninetieth hundredth of statistics, against those of chance.
-double scatter_of(const std::vector<double>& statistics, int freedom) {
-  const int k = std::min(3, freedom);
-  return std::max(quantile(statistics, 0.5) / kMedian[k], quantile(statistics, 0.9) / kNinety[k]);
-}
-
 // Whether a candidate that is another one and more says too little beside that.
 bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
   // Phases or rates of their own need to gain what so many more parameters gain by chance one time in a thousand.
@@ -171,7 +162,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
     }
   }
   if (e.local && statistics.size() >= kFewestElsewhere) {
-    best.test.inflation = std::max(1.0, scatter_of(statistics, best.test.freedom));
+    best.test.inflation = std::max(1.0, scatter_of_statistics(statistics, best.test.freedom));
     best.test.cross_validated = best.test.statistic;
     // While the wheels rest nothing hides the truth's own slow noise: there it is judged by other rests too.
     if (e.of_one_recording && rests_at(joint, shape)) {
@@ -179,7 +170,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
       for (std::size_t n = 0; n < statistics.size(); ++n)
         if (rests_at(joint, searched.shapes[searched.of_shape[n]])) at_rest.push_back(statistics[n]);
       if (at_rest.size() >= kFewestElsewhere)
-        best.test.inflation = std::max(best.test.inflation, scatter_of(at_rest, best.test.freedom));
+        best.test.inflation = std::max(best.test.inflation, scatter_of_statistics(at_rest, best.test.freedom));
     }
   }
   // A truth that is worse for a while, as of a tracker that loses a marker, tells as much less of what happens then.

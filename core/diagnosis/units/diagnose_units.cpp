@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
@@ -213,7 +212,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
       return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
     });
     if (!one) return one.error();
-    if (!units[u].carries_truth) {
+    if (!units[u].carries_truth && !told) {
       const auto& calibrated = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
       std::optional<ErringJoint> of_unit =
           erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, calibrated), u);
@@ -221,19 +220,20 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     }
     diagnoses.push_back(std::move(*one));
   }
-  if (told)
+  if (told) {
+    const Read without = samples_of(understood_without(*told, train, runs, geometry.clock_s, nominal)),
+               held_out_without =
+                   samples_of(understood_without(*told, held_out, runs_held_out, clock_held_out_s, nominal));
     for (std::size_t u = 0; u < units.size(); ++u) {
       if (!acts_on(*told, u)) {
         diagnoses[u] = with_names(*told, u, diagnoses[u], diagnoses[u]);
         continue;
       }
-      Result<Diagnosis> again =
-          judged(u, samples_of(understood_without(*told, train, runs, geometry.clock_s, nominal)),
-                 samples_of(understood_without(*told, held_out, runs_held_out, clock_held_out_s, nominal)),
-                 [&](double) { return goes_on(progress, 0.9); });
+      Result<Diagnosis> again = judged(u, without, held_out_without, [&](double) { return goes_on(progress, 0.9); });
       if (!again) return again.error();
       diagnoses[u] = with_names(*told, u, diagnoses[u], std::move(*again));
     }
+  }
   if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
   const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
   if (told) {
@@ -248,7 +248,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   if (is_towed) as_mounted.truth.axle_T_tracked.heading_rad = geometry.vehicle.truth.axle_T_tracked.heading_rad;
   prove_biases(d, runs, geometry, as_mounted);
   if (told) put_names_into(*told, d);
-  if (erring && !told && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
+  if (erring && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
     add_erring_joint(*erring, nominal, d);
     leave_out_biases_beside_erring_joints(d.findings);
   }

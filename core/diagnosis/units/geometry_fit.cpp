@@ -296,19 +296,14 @@ void hold_the_body(const Vehicle& nominal, const Unknowns& unknowns, MatrixXd& o
   const auto* platform = std::get_if<MultiCastor>(&nominal.kind);
   if (!platform) return;
   constexpr double kHeld_m = 1e-6;
-  MatrixXd held = MatrixXd::Zero(4, unknowns.count());  // along x and y, turned, further apart
+  std::vector<std::string> names;
   bool mounting = false;
-  for (int k = 0; k < unknowns.joint_count(); ++k) {
-    const std::string& name = unknowns.joints[static_cast<std::size_t>(k)].name;
-    mounting = mounting || unknowns.joints[static_cast<std::size_t>(k)].component == "truth";
-    for (std::size_t c = 0; c < platform->castors.size(); ++c) {
-      const std::string key = "castor[" + std::to_string(c + 1) + "].";
-      const double radius_m = platform->castors[c].pivot_radius_m;
-      const Vec2 out = rotated({1.0, 0.0}, platform->castors[c].pivot_angle_rad);
-      if (name == key + "pivot_radius_m") held.col(k) << out.x_m, out.y_m, 0.0, 1.0;
-      if (name == key + "pivot_angle_rad") held.col(k) << -radius_m * out.y_m, radius_m * out.x_m, radius_m, 0.0;
-    }
+  for (const JointParameter& joint : unknowns.joints) {
+    names.push_back(joint.name);
+    mounting = mounting || joint.component == "truth";
   }
+  MatrixXd held = MatrixXd::Zero(4, unknowns.count());
+  held.leftCols(unknowns.joint_count()) = moved_bodies(*platform, names);
   if (mounting) held.row(3).setZero();
   of_prior += held.transpose() * held / (kHeld_m * kHeld_m);
 }
@@ -333,6 +328,20 @@ double squares_of(const JoinedRun& run, const GeometryFit& fit, double clock_s, 
 }
 
 }  // namespace
+
+MatrixXd moved_bodies(const MultiCastor& platform, const std::vector<std::string>& lengths) {
+  MatrixXd moved = MatrixXd::Zero(4, static_cast<Eigen::Index>(lengths.size()));
+  for (std::size_t k = 0; k < lengths.size(); ++k)
+    for (std::size_t c = 0; c < platform.castors.size(); ++c) {
+      const std::string key = "castor[" + std::to_string(c + 1) + "].";
+      const double radius_m = platform.castors[c].pivot_radius_m;
+      const Vec2 out = rotated({1.0, 0.0}, platform.castors[c].pivot_angle_rad);
+      auto by = moved.col(static_cast<Eigen::Index>(k));
+      if (lengths[k] == key + "pivot_radius_m") by << out.x_m, out.y_m, 0.0, 1.0;
+      if (lengths[k] == key + "pivot_angle_rad") by << -radius_m * out.y_m, radius_m * out.x_m, radius_m, 0.0;
+    }
+  return moved;
+}
 
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
                             const std::vector<std::string>& held, const std::vector<double>& from) {

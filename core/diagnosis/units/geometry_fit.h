@@ -2,6 +2,7 @@
 // encoders on links, hitches and pivots. README.md, Eqs. 1 to 4.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ inline constexpr const char *kClockHeld = "clock", *kWheelsHeld = "wheels";
 // the same runs and joints, to a truth that was nearly this, ended.
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
                             const std::vector<std::string>& held = {}, const std::vector<double>& from = {});
+
+// By how much the places of all pivots move together, along x and y, in turn and apart, where each of these lengths
+// grows by one: 4 rows, a column for each of the vehicle file's keys. The body of a platform is where its pivots are.
+Eigen::MatrixXd moved_bodies(const MultiCastor& platform, const std::vector<std::string>& lengths);
 
 // A turn of all pivots' readings, and of the pivots' places the other way, is a turn of the body's own x axis, which
 // nothing tells: most readings are taken to be right. Three castors or more.

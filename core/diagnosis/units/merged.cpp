@@ -123,14 +123,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   leave_out_biases_beside_erring_joints(d.findings);
   if (leave_out_small_rest(d.findings))
     d.warnings.push_back("beside the names given something small is left that no name describes");
-  std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
-    if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
-    return comes_first(a, b);
-  });
-  double gain = 0.0;
-  for (const Finding& f : d.findings) gain += f.log_likelihood_gain;
-  for (Finding& f : d.findings)
-    if (gain > 0.0 && f.effect != "unknown") f.share_of_mismatch = f.log_likelihood_gain / gain;
+  put_in_order(d.findings);
   d.verdict = verdict_of(diagnoses, d.findings);
   d.train = joined(diagnoses, &Diagnosis::train);
   d.held_out = joined(diagnoses, &Diagnosis::held_out);

@@ -251,6 +251,17 @@ void leave_out_biases_beside_erring_joints(std::vector<Finding>& all) {
   });
 }
 
+void put_in_order(std::vector<Finding>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const Finding& a, const Finding& b) {
+    if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
+    return comes_first(a, b);
+  });
+  double gain = 0.0;
+  for (const Finding& f : all) gain += f.log_likelihood_gain;
+  for (Finding& f : all)
+    if (gain > 0.0 && f.effect != "unknown") f.share_of_mismatch = f.log_likelihood_gain / gain;
+}
+
 void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {
   Finding mounting;
   bool material = false;

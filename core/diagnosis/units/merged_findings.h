@@ -34,6 +34,9 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
 // Where an encoder of a joint errs in a way that has no name, a bias of that or another is what its mean makes of it.
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 
+// What has no name first, then the strongest; and of the evidence of all the share of each that has one.
+void put_in_order(std::vector<Finding>& all);
+
 // Mounting and clock of the truth where no unit carries it.
 void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);
 

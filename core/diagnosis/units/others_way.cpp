@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/odometry/cast.h"
@@ -65,10 +64,7 @@ std::vector<Understood> understood_without(const std::vector<Diagnosis>& of_unit
 void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
               const std::vector<VehicleUnit>& units) {
   for (Understood& u : all) {
-    InnovationRun run;
-    run.wheels = wheels_of(u.samples, unit);
-    run.smooth = smoothed(run.wheels);
-    run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
+    const InnovationRun run = run_of_wheels(u.samples, unit);
     std::vector<std::vector<BodyMotion>> motions(units.size());
     motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),
                                model.effects_in(u.recording->name));

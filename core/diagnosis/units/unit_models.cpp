@@ -1,5 +1,6 @@
 #include "core/diagnosis/units/unit_models.h"
 
+#include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -53,6 +54,14 @@ std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordin
         recording_of_unit(recording, samples, tracked, vehicle, unit, 0.0, !units_of(vehicle)[unit].carries_truth));
   }
   return own;
+}
+
+InnovationRun run_of_wheels(const std::vector<UnitSample>& samples, std::size_t unit) {
+  InnovationRun run;
+  run.wheels = wheels_of(samples, unit);
+  run.smooth = smoothed(run.wheels);
+  run.truth = {TruthSample{run.wheels.front().time_s, {}, 0.0}};
+  return run;
 }
 
 TrueUnits without_effects(const std::vector<UnitSample>& samples, const std::vector<VehicleUnit>& units,

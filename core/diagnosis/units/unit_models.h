@@ -21,6 +21,9 @@ FittedModel model_of_unit(const FittedModel& model, std::size_t unit);
 std::vector<Recording> recordings_of_unit(const std::vector<Recording>& recordings, const FittedModel& model,
                                           std::size_t unit);
 
+// A unit's wheels by themselves, as effects look at them; of the truth there is no more than a beginning.
+InnovationRun run_of_wheels(const std::vector<UnitSample>& samples, std::size_t unit);
+
 // What the units really did, as far as the effects are known: wheels as if they had rolled truly, and how far each unit
 // moved to its left in the interval that ends at each sample.
 struct TrueUnits {

@@ -49,9 +49,7 @@ class JoinedFilter {
   // Minus twice the log-likelihood; and all that is asked for below, of the filter as it ran last.
   double run(const JoinedNoise& noise);
   const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
-  int used() const { return used_; }                             // numbers that were not left out
-  int restarts() const { return restarts_; }
-  Track track(std::size_t unit) const;  // as corrected
+  Track track(std::size_t unit) const;                           // as corrected
 
   // Whitened columns, side by side: what the residual would be if the world did so and the model did not know.
   Eigen::MatrixXd carried(const std::vector<JoinedColumn>& columns) const;
@@ -91,6 +89,8 @@ class JoinedFilter {
     Eigen::MatrixXd whitener, out;           // of what is read; of what the poses are off by, as it is seen
     Eigen::MatrixXd gain, on;                // what the poses take of it; what goes on of what they were off by
   };
+  // The pose between two samples; the ends hold beyond them.
+  static Pose on_the_way(const Track& track, double time_s);
   Eigen::MatrixXd turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
                               const std::vector<Pose>& unit_T_body) const;
   std::vector<Pose> units_T_body(const Vehicle& vehicle, const std::vector<double>& joints) const;
@@ -117,7 +117,6 @@ class JoinedFilter {
   std::vector<std::size_t> first_piece_;                      // of each step, alike in all units; one more at the end
   std::vector<Step> steps_;
   Eigen::VectorXd residual_;
-  int used_ = 0, restarts_ = 0;
 };
 
 }  // namespace odolab

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/calibration/smoothed_readings.h"
+#include "core/diagnosis/units/unit_models.h"
 
 namespace odolab {
 
@@ -17,15 +17,6 @@ using Eigen::VectorXd;
 constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kAsidePrior_m = 0.01, kScaleHeld = 1e-5;
 constexpr double kLeastSurviving = 0.01;
 constexpr double kWorthAsking = 10.0;  // how it scatters: less says nothing anyway
-
-InnovationRun seen_by_effects(const JoinedRun& run, const std::string& name, std::size_t unit) {
-  InnovationRun seen;
-  seen.name = name;
-  seen.wheels = wheels_of(run.samples, unit);
-  seen.smooth = smoothed(seen.wheels);
-  seen.truth = {TruthSample{seen.wheels.front().time_s, {}, 0.0}};
-  return seen;
-}
 
 }  // namespace
 
@@ -197,7 +188,8 @@ void JoinedModel::linearise() {
   views_.assign(units(), {});
   for (std::size_t u = 0; u < units(); ++u)
     for (std::size_t r = 0; r < given_.size(); ++r) {
-      const InnovationRun seen = seen_by_effects(given_[r], names_[r], u);
+      InnovationRun seen = run_of_wheels(given_[r].samples, u);
+      seen.name = names_[r];
       views_[u].push_back(drive_view(static_cast<int>(r), seen, units_of(vehicle_)[u].drive, false,
                                      filters_[r].track(u), Way::smoothed));
     }
@@ -208,16 +200,10 @@ void JoinedModel::hold_the_body(MatrixXd& prior) const {
   const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind);
   if (!platform) return;
   constexpr double kHeld_m = 1e-6;
+  std::vector<std::string> names;
+  for (const Length& length : lengths_) names.push_back(length.name);
   MatrixXd held = MatrixXd::Zero(3, prior.cols());  // along x and y, turned
-  for (std::size_t k = 0; k < lengths_.size(); ++k)
-    for (std::size_t c = 0; c < platform->castors.size(); ++c) {
-      const std::string key = "castor[" + std::to_string(c + 1) + "].";
-      const double radius_m = platform->castors[c].pivot_radius_m;
-      const Vec2 out = rotated({1.0, 0.0}, platform->castors[c].pivot_angle_rad);
-      if (lengths_[k].name == key + "pivot_radius_m") held.col(static_cast<Index>(k)) << out.x_m, out.y_m, 0.0;
-      if (lengths_[k].name == key + "pivot_angle_rad")
-        held.col(static_cast<Index>(k)) << -radius_m * out.y_m, radius_m * out.x_m, radius_m;
-    }
+  held.leftCols(static_cast<Index>(names.size())) = moved_bodies(*platform, names).topRows(3);
   prior += held.transpose() * held / (kHeld_m * kHeld_m);
 }
 
@@ -227,31 +213,11 @@ std::optional<JoinedModel::Known> JoinedModel::length(const std::string& name) c
     const auto c = static_cast<Index>(k);
     const VectorXd unit = VectorXd::Unit(z_.cols(), c);
     const VectorXd of = gram_.solve(unit);
-    ScoreByBatches score;  // along what this length alone moves
-    const VectorXd direction = z_ * of;
-    Index from = 0;
-    for (Index to : batch_ends_) {
-      const auto d = direction.segment(from, to - from);
-      score.add(d.dot(residual_.segment(from, to - from)), d.squaredNorm());
-      from = to;
-    }
-    score.finish();
+    const ScoreByBatches score = score_along(z_ * of);  // what this length alone moves
     const double wider = score.u.empty() ? 1.0 : score.inflation(kFewestBatchesBelieved);
     return Known{lengths_[k].moved + at_best_[c], std::sqrt(wider * of[c])};
   }
   return std::nullopt;
-}
-
-int JoinedModel::used() const {
-  int sum = 0;
-  for (const JoinedFilter& f : filters_) sum += f.used();
-  return sum;
-}
-
-int JoinedModel::restarts() const {
-  int sum = 0;
-  for (const JoinedFilter& f : filters_) sum += f.restarts();
-  return sum;
 }
 
 std::vector<JoinedColumn> JoinedModel::moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
@@ -303,10 +269,13 @@ std::vector<JoinedFilter::Impact> JoinedModel::impacts(std::size_t run) const {
 
 ScoreByBatches JoinedModel::score_by_batches(const JoinedColumns& columns) const {
   const JoinedTest by = test(columns, -1.0);
-  ScoreByBatches score;
-  if (by.statistic <= 0.0) return score;
+  if (by.statistic <= 0.0) return {};
   const MatrixXd cross = z_.transpose() * columns;
-  const VectorXd direction = (columns - z_ * gram_.solve(cross)) * by.value;
+  return score_along((columns - z_ * gram_.solve(cross)) * by.value);
+}
+
+ScoreByBatches JoinedModel::score_along(const VectorXd& direction) const {
+  ScoreByBatches score;
   Index from = 0;
   for (Index to : batch_ends_) {
     const auto d = direction.segment(from, to - from);

@@ -49,9 +49,6 @@ class JoinedModel {
     double value = 0.0, stderr_value = 0.0;  // of what it is more than in the file
   };
   std::optional<Known> length(const std::string& name) const;
-  int used() const;
-  int restarts() const;
-  double chi2() const { return residual_.squaredNorm(); }
 
   // Of motions that each amplitude makes on a unit.
   using MotionsOf = std::function<std::vector<Motions>(const DriveView&)>;
@@ -68,7 +65,7 @@ class JoinedModel {
   // All else fitted where they act, which they do from now on.
   void put_in(const std::vector<Acting>& acting);
 
-  JoinedTest test(const JoinedColumns& columns, double batches_believed_white = 6.0) const;
+  JoinedTest test(const JoinedColumns& columns, double batches_believed_white = kFewestBatchesBelieved) const;
   std::vector<JoinedFilter::Impact> impacts(std::size_t run) const;  // of what is left beside all that was let in
   ScoreByBatches score_by_batches(const JoinedColumns& columns) const;
   // Puts columns into the model, at what fits best: what is tested from now on is tested beside them.
@@ -79,6 +76,8 @@ class JoinedModel {
   std::vector<JoinedColumn> moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
                                      const std::vector<std::size_t>& units) const;
   void linearise();
+  // Of the score along a direction of what is left.
+  ScoreByBatches score_along(const Eigen::VectorXd& direction) const;
   void solve();  // for what has been put into z_
   void hold_the_body(Eigen::MatrixXd& prior) const;
   double minus_two_log_likelihood(const JoinedNoise& noise);

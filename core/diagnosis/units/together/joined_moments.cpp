@@ -12,15 +12,10 @@ namespace {
 constexpr std::size_t kStrongest = 3;
 constexpr double kApart_s = 0.5;  // of the strongest
 constexpr double kNearTheEnd_s = 0.3;
-// Chi-square of one and three numbers: its middle, and what a tenth of them are above.
-constexpr double kMiddle[] = {0.455, 2.366}, kTenth[] = {2.706, 6.251};
+constexpr std::size_t kFewestToScatter = 20;
 
-double inflation_of(std::vector<double> statistics, int freedom) {
-  if (statistics.size() < 20) return 1.0;
-  std::sort(statistics.begin(), statistics.end());
-  const int k = freedom == 1 ? 0 : 1;
-  return std::max(
-      {1.0, statistics[statistics.size() / 2] / kMiddle[k], statistics[statistics.size() * 9 / 10] / kTenth[k]});
+double inflation_of(const std::vector<double>& statistics, int freedom) {
+  return statistics.size() < kFewestToScatter ? 1.0 : std::max(1.0, scatter_of_statistics(statistics, freedom));
 }
 
 // When a drive has left its first centimetres behind, which take up whatever play there is.
@@ -95,7 +90,7 @@ std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
     for (const JoinedMoment& m : found[k])
       if (model.runs().size() < 2 || m.run != found[k].front().run) statistics.push_back(m.statistic);
     kinds[k].count = static_cast<double>(found[k].size());
-    kinds[k].inflation = inflation_of(std::move(statistics), kinds[k].wheel == Wheel::both ? 3 : 1);
+    kinds[k].inflation = inflation_of(statistics, kinds[k].wheel == Wheel::both ? 3 : 1);
     for (const JoinedMoment& m : found[k]) {
       if (kinds[k].strongest.size() == kStrongest) break;
       if (std::none_of(kinds[k].strongest.begin(), kinds[k].strongest.end(), [&](const JoinedMoment& s) {

@@ -93,6 +93,13 @@ bool is_simpler(const ScoredTogether& s, const ScoredTogether& than) {
          s.test.judged() > kAsMuchOfAPush * than.test.judged();
 }
 
+// Says of a finding that it has no name, and what it goes with.
+void put_words(Finding& unknown, const std::string& goes_with) {
+  unknown.effect = "unknown";
+  unknown.where.regime = goes_with;
+  unknown.sentence = "something that no entry of the catalogue describes: " + goes_with;
+}
+
 class Naming {
  public:
   Naming(JoinedModel& model, double family_wise_error) : model_(model), p_(family_wise_error) {}
@@ -373,12 +380,10 @@ class Naming {
         if (!groups[k].is_more_than_rounding(std::vector<double>(value.begin(), value.end()))) return;
       }
       Finding& f = found[k];
-      f.effect = "unknown";
+      put_words(f, groups[k].words);
       f.component = groups[k].component;
-      f.where.regime = groups[k].words;
       f.log_likelihood_gain = 0.5 * (named_.empty() ? beside.judged() : std::max(beside.judged(), instead.judged()));
       f.p_value = std::min(1.0, p);
-      f.sentence = "something that no entry of the catalogue describes: " + groups[k].words;
       excess[k] = f.log_likelihood_gain - 0.5 * beside.freedom;
     });
     const auto most = std::max_element(excess.begin(), excess.end());
@@ -401,9 +406,7 @@ class Naming {
       if (++pushes == 1) unknown.component = s.candidate.component;
     }
     if (pushes < 2) return std::nullopt;
-    unknown.effect = "unknown";
-    unknown.where.regime = "at moments of their own, as by pushes that no one gave";
-    unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
+    put_words(unknown, "at moments of their own, as by pushes that no one gave");
     return unknown;
   }
 

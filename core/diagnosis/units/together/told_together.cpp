@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/calibration/smoothed_readings.h"
+#include "core/base/quantile.h"
 #include "core/diagnosis/effects/effect_motions.h"
-#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joint_errors.h"
+#include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/unit_models.h"
 
 namespace odolab {
@@ -72,9 +72,8 @@ bool may_be_coarse(const std::vector<JoinedRun>& runs) {
                          t[i - 3].pose.position();
       sizes.push_back(std::hypot(third.x_m, third.y_m));
     }
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
     // the median length of two normal numbers is 1.18 times their size
-    if (sizes[sizes.size() / 2] / (1.177 * std::sqrt(20.0)) > kCoarse_m) return true;
+    if (median(std::move(sizes)) / (1.177 * std::sqrt(20.0)) > kCoarse_m) return true;
   }
   return false;
 }
@@ -93,11 +92,9 @@ std::vector<Understood> understood_without(const ToldTogether& told, const std::
     for (std::size_t u = 0; u < units.size(); ++u) {
       FittedModel model;
       for (const Finding& f : findings_of(told, u)) model.effects.push_back({f.as_active(), {}, f.where.recording});
-      InnovationRun run;
-      run.wheels = wheels_of(all.back().samples, u);
-      run.smooth = smoothed(run.wheels);
       motions[u] =
-          motions_of(drive_view(0, run, units[u].drive, false, where.track(u)), model.effects_in(recordings[r].name));
+          motions_of(drive_view(0, run_of_wheels(all.back().samples, u), units[u].drive, false, where.track(u)),
+                     model.effects_in(recordings[r].name));
     }
     all.back().samples = without_effects(all.back().samples, units, motions).samples;
   }
@@ -138,14 +135,7 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
     return;
   }
   for (const JoinedName& name : told.said.names) d.findings.push_back(name.finding);
-  std::stable_sort(d.findings.begin(), d.findings.end(), [](const Finding& a, const Finding& b) {
-    if ((a.effect == "unknown") != (b.effect == "unknown")) return a.effect == "unknown";
-    return comes_first(a, b);
-  });
-  double gain = 0.0;
-  for (const Finding& f : d.findings) gain += f.log_likelihood_gain;
-  for (Finding& f : d.findings)
-    if (gain > 0.0 && f.effect != "unknown") f.share_of_mismatch = f.log_likelihood_gain / gain;
+  put_in_order(d.findings);
   if (told.said.names.empty() || d.verdict == Verdict::unknown_effect) return;
   d.verdict =
       std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return !f.alternatives.empty(); })
