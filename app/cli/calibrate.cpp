@@ -76,7 +76,9 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
 bool has_truth(const Recording& recording) { return truth_samples(recording).size() > 1; }
 
 int execute(const CalibrateOptions& options) {
-  if (const std::optional<Error> lost = overwritten({options.out}, options.recordings)) return bad_input(*lost);
+  std::vector<std::string> inputs = options.recordings;
+  inputs.push_back(options.vehicle);
+  if (const std::optional<Error> lost = overwritten({options.out}, inputs)) return bad_input(*lost);
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
   const bool from_outside = can_calibrate_externally(*nominal), from_inside = can_calibrate_internally(*nominal);

@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/cli/command.h"
 #include "app/cli/terminal.h"
+#include "core/base/nearest_word.h"
 
 namespace odolab {
 
@@ -41,7 +43,7 @@ class CliArguments : public Arguments {
 };
 
 // What is wrong with the command line. What is not known comes before what is missing: it may be the same, misspelt.
-std::string in_words(const CLI::ParseError& error, const std::vector<CLI::App*>& subcommands) {
+std::string in_words(const CLI::ParseError& error, const CLI::App& app, const std::vector<CLI::App*>& subcommands) {
   for (const CLI::App* sub : subcommands) {
     if (!sub->parsed()) continue;
     const std::string command = "odolab " + sub->get_name();
@@ -49,6 +51,11 @@ std::string in_words(const CLI::ParseError& error, const std::vector<CLI::App*>&
       if (word.rfind("-", 0) == 0) return command + ": no option " + word + "; see " + command + " --help";
     return command + ": " + error.what() + "; see " + command + " --help";
   }
+  std::vector<std::string> names;
+  for (const CLI::App* sub : subcommands) names.push_back(sub->get_name());
+  for (const std::string& word : app.remaining())
+    if (const std::string* meant = nearest_word(word, names))
+      return "odolab: no command " + word + "; the nearest is " + *meant + "; see odolab --help";
   return "odolab: " + std::string(error.what()) + "; see odolab --help";
 }
 
@@ -70,11 +77,17 @@ int run_command_line(int argc, char** argv) {
     command.declare(arguments);
     subcommands.push_back(sub);
   }
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {  // `odolab help diagnose` as `odolab diagnose --help`
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());  // as the parser wants them
   try {
-    app.parse(argc, argv);
+    app.parse(words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    print_error(in_words(error, subcommands));
+    print_error(in_words(error, app, subcommands));
     return kBadInput;
   }
   catch_interrupts();

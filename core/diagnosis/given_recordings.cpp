@@ -9,18 +9,36 @@
 
 namespace odolab {
 
+namespace {
+
+// What there is instead: " in the columns a, b, c".
+std::string in_columns(const Recording& recording) {
+  constexpr std::size_t kMost = 8;
+  std::string text = " in the columns";
+  for (std::size_t k = 0; k < std::min(recording.channels.size(), kMost); ++k)
+    text += (k == 0 ? " " : ", ") + recording.channels[k].name;
+  return recording.channels.empty() ? "" : text + (recording.channels.size() > kMost ? ", ..." : "");
+}
+
+}  // namespace
+
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
   if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
     return Error{path + ": " + problems.front(), "", ""};
   if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
     const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
-    if (inputs < 2) return Error{path, "no wheel samples and no commands", "two samples or more"};
+    if (inputs < 2)
+      return Error{path, "no wheel samples and no commands" + in_columns(recording),
+                   "left_wheel_rad and right_wheel_rad, left_ticks and right_ticks, or commands, with two samples or "
+                   "more (odolab import --map gives columns these names)"};
   } else if (const std::string missing = missing_columns(recording, vehicle); !missing.empty()) {
     return Error{path, "no " + missing, "the encoders of a " + kind_name(vehicle)};
   }
   if (units_of(vehicle).size() > 1) return std::nullopt;  // they judge each other
   const std::size_t truths = truth_samples(recording).size();
-  if (truths < 2) return Error{path, std::to_string(truths) + " truth samples", "two or more, to compare with"};
+  if (truths < 2)
+    return Error{path, std::to_string(truths) + " truth samples" + in_columns(recording),
+                 "truth_x_m and truth_y_m with two or more, to compare with"};
   return std::nullopt;
 }
 

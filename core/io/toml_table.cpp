@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/nearest_word.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -62,21 +63,6 @@ std::string shown(const toml::node& node) {
   return "a date or time";
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -84,20 +70,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// The known word that is most like another; null where none is near.
-const std::string* nearest_to(std::string_view key, const std::vector<std::string>& known) {
-  const std::string* nearest = nullptr;
-  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
-  for (const std::string& candidate : known)
-    if (const std::size_t distance = edit_distance(key, candidate); distance < least) {
-      least = distance;
-      nearest = &candidate;
-    }
-  return nearest;
-}
-
 std::string expected_instead_of(std::string_view key, const std::vector<std::string>& known) {
-  const std::string* nearest = nearest_to(key, known);
+  const std::string* nearest = nearest_word(key, known);
   if (nearest) return "a known key; the nearest is '" + *nearest + "'";
   return known.empty() ? "no key here" : known.size() == 1 ? "the key " + known[0] : "a known key: " + joined(known);
 }
@@ -262,8 +236,9 @@ std::size_t TomlTable::index_of_choice(const char* key, std::size_t otherwise, c
     const auto word = std::find(words.begin(), words.end(), text->get());
     if (word != words.end()) return static_cast<std::size_t>(word - words.begin());
     if (words.size() > kWordsToList)
-      if (const std::string* nearest = nearest_to(text->get(), words)) {
-        fail({place(file_->path, node->source()) + ": " + key, shown(*node), "a known word; the nearest is '" + *nearest + "'"});
+      if (const std::string* nearest = nearest_word(text->get(), words)) {
+        fail({place(file_->path, node->source()) + ": " + key, shown(*node),
+              "a known word; the nearest is '" + *nearest + "'"});
         return otherwise;
       }
   }
@@ -288,7 +263,8 @@ std::vector<TomlTable> TomlTable::tables(const char* key) {
     return {};
   }
   std::vector<TomlTable> result;
-  for (const toml::node& element : *array) result.push_back(TomlTable(file_, file_->visit(element.as_table(), node_->path + key + ".")));
+  for (const toml::node& element : *array)
+    result.push_back(TomlTable(file_, file_->visit(element.as_table(), node_->path + key + ".")));
   return result;
 }
 

@@ -160,6 +160,12 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   expect_refused(calibrate + path("misspelt.toml"), {"misspelt.toml:8", "wheelbase_mm", "nearest", "wheelbase_m"},
                  folder / "v.toml");
   expect_refused(calibrate + path("cut.toml"), {"cut.toml:"}, folder / "v.toml");
+  write(folder / "whole.toml", vehicle);
+  expect_refused("calibrate --vehicle " + path("whole.toml") + " --out " + path("whole.toml") + " " + path("back.csv"),
+                 {"whole.toml", "lost"});
+  EXPECT_EQ(text_of_file(folder / "whole.toml"), vehicle);
+  write(folder / "own_names.csv", "time_s,enc_l,enc_r,truth_x_m,truth_y_m\n0,0,0,0,0\n1,1,1,0,0\n");
+  expect_refused("diagnose --vehicle " + kLabMate + " " + path("own_names.csv"), {"enc_l", "left_wheel_rad", "--map"});
 
   write(folder / "key.toml",
         "name = \"x\"\nvehicle = \"" ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml\"\n[flor]\nfriction = 0.5\n");
@@ -167,6 +173,7 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   expect_refused("run " + path("nothing.toml") + " --out " + path("run"), {"nothing.toml"}, folder / "run");
   expect_refused("run x.toml --no-such-option", {"--no-such-option"});
   expect_refused("no_such_command", {"no_such_command"});
+  expect_refused("diagnoze x.csv", {"diagnoze", "the nearest is diagnose"});
   expect_refused("import " + path("cut.toml") + " --out " + path("i.csv"), {"cut.toml"}, folder / "i.csv");
 }
 
@@ -175,6 +182,7 @@ TEST(CommandLine, HelpShowsAnExampleOfEachCommand) {
     const Outcome help = odolab(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.output.find("odolab " + std::string(command)), std::string::npos) << help.output;
+    EXPECT_EQ(odolab("help " + std::string(command)).output, help.output);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
 #include "core/io/recording_csv.h"
+#include "core/io/unread_columns.h"
 #include "core/io/whole_file.h"
 
 namespace odolab {
@@ -199,7 +200,8 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   if (fs::is_directory(path, failure)) return folder_given(path);
   Result<Recording> recording = read_recording_csv(path);
   if (!recording) return recording.error();
-  return ImportedRecording{std::move(*recording), {}};
+  std::vector<std::string> warnings = unread_columns(*recording);
+  return ImportedRecording{std::move(*recording), std::move(warnings)};
 }
 
 }  // namespace odolab
