@@ -16,8 +16,21 @@ namespace {
 constexpr double kMove_s = 0.7;        // that a simulated track takes to where a switch puts it
 constexpr double kOfDiagnosis = 0.75;  // of the time; the rest drives the tracks that are shown
 
+// Of the axle, where what was recorded is drawn too.
+Track axle_of(Track tracked, const TruthMounting& mounting) {
+  for (TimedPose& p : tracked) p.pose = p.pose * inverse(mounting.axle_T_tracked);
+  return tracked;
+}
+
+// Poses at both ends, or once in a while, draw no way.
+bool draws_a_way(const std::vector<TruthSample>& truth) {
+  constexpr double kEvery_s = 0.5;
+  return truth.size() > 2 && truth.back().time_s - truth.front().time_s < kEvery_s * static_cast<double>(truth.size());
+}
+
 // Where a track is at the times of another; it walks along both.
 Track at_times_of(const Track& track, const std::vector<TruthSample>& times) {
+  if (!draws_a_way(times)) return track;
   Track out;
   std::size_t k = 0;
   for (const TruthSample& t : times) {
@@ -82,6 +95,9 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
         for (const Run& run : answer->runs) {
           answer->units.push_back(unit_mismatches(drawn, run.name, answer->nominal));
           answer->located.push_back(located_stretches(drawn, run.name));
+          answer->truth.push_back(has_units(answer->nominal)
+                                      ? *run.truth
+                                      : axle_of(*run.truth, answer->diagnosis.calibration.vehicle.truth));
         }
         answer->responses = answer->diagnosis.responses;
         for (Response& r : place_responses(answer->diagnosis.residuals_before, answer->diagnosis.residuals_after,
@@ -149,6 +165,7 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
           return;
         }
         out.tracks[r] = at_times_of(replayed->simulated, recorded);
+        if (!has_units(answer.nominal)) out.tracks[r] = axle_of(std::move(out.tracks[r]), model->vehicle.truth);
         if (replayed->truth_has_headings) errors[r] = replayed->simulated_error;
       },
       {}, progress);

@@ -86,6 +86,7 @@ class DiagnosisDesk {
     std::size_t fitted_on = 0;
     std::vector<std::vector<UnitMismatch>> units;  // of each run
     std::vector<std::vector<LocatedStretch>> located;
+    std::vector<Track> truth;  // of each run; of a single drive where its axle was
     std::vector<Response> responses;
     std::vector<Recording> fitted() const;
   };
@@ -117,7 +118,7 @@ class DiagnosisDesk {
   Choice on_;
   std::vector<Track> from_, shown_;
   double share_ = 1.0;  // of the way from `from_` to where the switches say
-  std::string unit_;  // shown of the answer's runs; of those that lack it the first
+  std::string unit_;    // shown of the answer's runs; of those that lack it the first
   std::vector<Vec2> advised_way_;
   int answers_ = 0;
   std::string problem_;

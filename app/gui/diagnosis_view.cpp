@@ -155,7 +155,7 @@ ui::DiagnosisView DiagnosisDesk::view(const Jobs& jobs) const {
         }
       }
       r.located = answer_->located[k];
-      r.truth_track = answer_->runs[k].truth.get();
+      r.truth_track = &answer_->truth[k];
       if (k < shown_.size() && !shown_[k].empty()) r.simulated_track = &shown_[k];
     }
     v.runs.push_back(std::move(r));
