@@ -322,9 +322,16 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     }
     by = gain * -read.segment(from, m);
     p -= gain * ph.transpose();
-    for (std::size_t u = 0; u < units(); ++u) {
-      const auto k = 3 * static_cast<Index>(u);
-      at[u] = {at[u].x_m + by[k], at[u].y_m + by[k + 1], at[u].heading_rad + by[k + 2]};
+    // Where units stand against the first is linear in what they are off by; where they stand in the room is not, once
+    // the first turns.
+    const VectorXd apart = read.head(of_joints) + seen.topRows(of_joints) * by;
+    at[0] = {at[0].x_m + by[0], at[0].y_m + by[1], at[0].heading_rad + by[2]};
+    const Pose body = at[0] * reading.unit_T_body[0];
+    for (std::size_t u = 1; u < units(); ++u) {
+      const Index k = 3 * static_cast<Index>(u);
+      const double about_rad = at[u].heading_rad + by[k + 2];
+      at[u] = body * Pose{apart[k - 3], apart[k - 2], apart[k - 1]} * inverse(reading.unit_T_body[u]);
+      at[u].heading_rad = unwrapped(at[u].heading_rad, about_rad);
     }
     step.corrected = at;
     const Small turn = turned_with(step.predicted, at, reading.unit_T_body);
