@@ -6,6 +6,7 @@
 #include "core/calibration/evened_recording.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/mismatch.h"
+#include "core/diagnosis/refuted.h"
 #include "core/recording/truth_left_out.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
@@ -78,6 +79,12 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   if (!replayed) return replayed.error();
   diagnosis->simulation = replayed->fit;
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);
+  if (!simulator_follows(*diagnosis))
+    diagnosis->warnings.push_back(
+        "the simulator, driven by these recordings, errs by more than twice what the calibrated model does: it does "
+        "not "
+        "go the same ways, or all that it is held against are poses at the ends, and so it neither confirms nor "
+        "refutes");
   return diagnosis;
 }
 

@@ -7,7 +7,9 @@
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/asked_effects.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/adequacy.h"
+#include "core/diagnosis/generic/bursts.h"
 #include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/measurement_findings.h"
@@ -25,7 +27,6 @@ namespace odolab {
 namespace {
 
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
-constexpr int kFewestInnovations = 40;  // beyond the parameters: fewer cannot judge a model
 
 std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
   char buffer[300];
@@ -106,6 +107,7 @@ Finding unknown_of(const Unnamed& more, const JointModel& joint, const std::vect
   unknown.effect = "unknown";
   unknown.component = more.component;
   unknown.where = more.where;
+  unknown.gathered = more.gathered;
   unknown.log_likelihood_gain = 0.5 * more.gain;
   unknown.p_value = more.p_value;
   unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;
@@ -195,6 +197,10 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   Adequacy adequacy = judged_by_both(named, calibrated, predictor, error);
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
+  double explained = 0.0;
+  for (const ScoredCandidate& e : named.selected.evidence)
+    explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
+  if (!adequacy.unnamed) adequacy.unnamed = what_comes_in_bursts(named.joint, explained, error);
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
   return adequacy;
 }
@@ -308,7 +314,9 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const double all = std::max(1e-9, explained + (adequacy.unnamed ? adequacy.unnamed->gain : 0.0));
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     found[k].share_of_mismatch = std::clamp(selected.evidence[k].test.statistic / all, 0.0, 1.0);
-    if (!adequacy.unnamed) found[k].moves = moved_by(joint, k);
+    if (adequacy.unnamed) continue;
+    found[k].moves = moved_by(joint, k);
+    found[k].gathered = gathered_evidence(joint, k, found[k].log_likelihood_gain);
   }
   std::sort(found.begin(), found.end(), comes_first);
   if (adequacy.as_likely && !found.empty())
@@ -339,8 +347,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   } else if (!found.empty()) {
     d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
   } else {
-    const double freedom = joint.scalars() - 7.0;
-    d.verdict = freedom < kFewestInnovations ? Verdict::cannot_say : Verdict::nothing_missing;
+    d.verdict = joint.scalars() - kParameters < kFewestInnovations ? Verdict::cannot_say : Verdict::nothing_missing;
   }
   d.findings = found;
   for (const CheckedRecording& c : ready->train)

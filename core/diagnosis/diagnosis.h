@@ -32,6 +32,7 @@ struct WhereFound {
   std::vector<std::pair<double, double>> time_s;
   std::string recording;
   bool and_later_recordings = false;
+  std::vector<std::string> other_recordings;  // that came to the place too
   struct Zone {
     double x_m = 0.0, y_m = 0.0, radius_m = 0.0;
   };
@@ -51,6 +52,15 @@ struct MovedTrack {
   double position_rms_m = 0.0, heading_rms_rad = 0.0;
 };
 
+// How the evidence of a finding gathers along the recordings, laid end to end; and how it would if this is what was
+// missing, and all of it.
+struct GatheredEvidence {
+  std::vector<std::pair<std::string, double>> begins;  // each recording, and where it begins on the axis below
+  std::vector<double> driven_s;                        // since the first began
+  std::vector<double> gain;                            // of log-likelihood until then
+  std::vector<double> foreseen, low, high;             // in the mean, and in 95 % of such drives at each time
+};
+
 struct Finding {
   std::string effect, component;  // effect is "unknown" where no name fits
   std::vector<FoundParameter> parameters;
@@ -60,6 +70,7 @@ struct Finding {
   std::vector<Alternative> alternatives;
   double share_of_mismatch = 0.0;   // of the chi-square above noise that calibration leaves
   std::optional<MovedTrack> moves;  // unset where it is none of the vehicle's motion
+  GatheredEvidence gathered;        // empty where it is none of the motion
   std::string sentence;             // the finding in plain words
   int form = 0;                     // which of the ways in which the effect shows, and in words where there are several
   std::string form_in_words;
@@ -127,7 +138,10 @@ struct Diagnosis {
   std::vector<Finding> findings;
   FitTable train, held_out;
   bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others
-  FitTable simulation;            // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
+  // By how much likelier the findings make the recordings of `held_out`, log-likelihood, than calibration alone does:
+  // where each sample of the truth errs by more than a metre of dead reckoning, only this shows them.
+  std::optional<double> unseen_gain;
+  FitTable simulation;  // nominal: unused; calibrated: before; with_findings: after; filled in by the physics
   std::vector<AskedEffect> asked;  // every effect once, the likeliest first
   std::vector<NotTestable> not_testable;
   std::string next_drive;

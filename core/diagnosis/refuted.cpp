@@ -20,7 +20,16 @@ bool is_refuted_by_unseen(const Diagnosis& d) {
   return !d.findings.empty() && is_worse(d.held_out.calibrated, d.held_out.with_findings);
 }
 
+bool simulator_follows(const Diagnosis& d) {
+  constexpr double kAsFar = 2.0;
+  const std::optional<FitFigures>&model = d.train.calibrated, &simulated = d.simulation.calibrated;
+  if (!model || !simulated || !model->gathered()) return true;
+  return simulated->position_rms_m < kAsFar * model->position_rms_m ||
+         simulated->heading_rms_rad < kAsFar * model->heading_rms_rad;
+}
+
 bool is_refuted_by_simulator(const Diagnosis& d) {
+  if (!simulator_follows(d)) return false;
   // A base that is late and a clock that is are one and the same, with the finding and without.
   const bool any_physics = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
     return can_be_switched_on(f) && f.effect != "actuator_delay" && f.effect != "clock_rate";

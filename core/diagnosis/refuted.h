@@ -11,4 +11,9 @@ namespace odolab {
 bool is_refuted_by_unseen(const Diagnosis& diagnosis);
 bool is_refuted_by_simulator(const Diagnosis& diagnosis);
 
+// Whether the simulator goes the ways that were recorded: by the calibration alone it errs by no more than twice what
+// the calibrated model does, in place or in heading. Castors that turn over to another side, or poses at both ends
+// alone, of which its error is a whole run's, make it err by more: then it neither confirms nor refutes.
+bool simulator_follows(const Diagnosis& diagnosis);
+
 }  // namespace odolab

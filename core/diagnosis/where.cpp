@@ -88,6 +88,7 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
     const double radius_m = patch ? shape_named(a, "radius_m") : kEventRadius_m;
     w.zone = WhereFound::Zone{shape_named(a, "x_m"), shape_named(a, "y_m"), radius_m};
     double longest_s = 0.0;
+    std::vector<std::string> came;
     for (std::size_t r = 0; r < joint.runs().size(); ++r) {
       const DriveView& view = joint.views()[r];
       const double reach_m = radius_m + (patch ? 0.5 * view.drive.wheelbase_m : 0.0);  // either wheel
@@ -103,8 +104,11 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
           times.push_back({from, to});
         in_all_s += s.duration_s;
       }
+      if (in_all_s > 0.0) came.push_back(joint.runs()[r].name);
       if (in_all_s > longest_s) longest_s = in_all_s, w.time_s = times, w.recording = joint.runs()[r].name;
     }
+    for (std::string& name : came)
+      if (name != w.recording) w.other_recordings.push_back(std::move(name));
   }
   return w;
 }

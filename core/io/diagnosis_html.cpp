@@ -38,8 +38,13 @@ std::string track_of(const Diagnosis& d, const Residuals& r, const ResidualSizes
   ColouredTrackPicture picture;
   picture.title = title;
   picture.track = {r.x_m, r.y_m, times_noise(r, noise)};
+  const auto came_to = [&](const WhereFound& where) {
+    const std::vector<std::string>& others = where.other_recordings;
+    return where.recording.empty() || where.recording == r.recording ||
+           std::find(others.begin(), others.end(), r.recording) != others.end();
+  };
   for (const Finding& f : d.findings)
-    if (with_discs && f.where.zone && (f.where.recording.empty() || f.where.recording == r.recording))
+    if (with_discs && f.where.zone && came_to(f.where))
       picture.discs.push_back({f.where.zone->x_m, f.where.zone->y_m, f.where.zone->radius_m, effect_words(f.effect)});
   return coloured_track_picture(picture);
 }
@@ -75,6 +80,37 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
       report.paragraph(text);
     }
   }
+}
+
+std::string gathered_picture(const GatheredEvidence& g, const std::string& name) {
+  LinePicture picture;
+  picture.title = name + ": the evidence as it gathers";
+  picture.x_label = g.begins.size() > 1 ? "time driven, " + number_text("%.0f", static_cast<double>(g.begins.size())) +
+                                              " recordings end to end [s]"
+                                        : "time driven [s]";
+  picture.y_label = "gain in log-likelihood";
+  picture.bands.push_back({"95 % of drives, if that is what was missing", g.driven_s, g.low, g.high, Look::second});
+  picture.lines.push_back({"these drives", g.driven_s, g.gain, Look::second});
+  picture.height_px = 320.0;
+  for (std::size_t k = 1; k < g.begins.size(); k += 2) {  // every other recording
+    const double to_s = k + 1 < g.begins.size() ? g.begins[k + 1].second : g.driven_s.back();
+    picture.marked.emplace_back(g.begins[k].second, to_s);
+  }
+  picture.marked_label = "every second recording";
+  picture.marked_ink = ink::kShaded;
+  return line_picture(picture);
+}
+
+void add_gathered(HtmlReport& report, const Diagnosis& d) {
+  if (std::all_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.gathered.gain.empty(); }))
+    return;
+  report.heading("How the evidence gathers");
+  for (const Finding& f : d.findings)
+    if (!f.gathered.gain.empty())
+      report.picture(gathered_picture(f.gathered, effect_text(f.effect, f.component)),
+                     "How much better the recordings fit with it than without, all that was driven until then. Where "
+                     "it acts the line climbs, however far it lies below the noise of any moment; elsewhere it is "
+                     "level. What acts at other times, or grows otherwise, than this says would leave the band.");
 }
 
 void add_place_and_time(HtmlReport& report, const Diagnosis& d) {
@@ -269,6 +305,15 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
       "root mean "
       "square. Held-out recordings gave no name and no number; all they may do is take a name away that they "
       "contradict.");
+  if (d.unseen_gain)
+    report.paragraph(number_text(
+        *d.unseen_gain < 0.0
+            ? "Unseen, the recordings are less likely by %.1f in log-likelihood with what was found than "
+              "with the calibration alone."
+            : "Unseen, the recordings are likelier by %.1f in log-likelihood with what was found than with "
+              "the calibration alone. Where each sample of the truth errs by more than the way over a metre, "
+              "this shows what the errors below cannot.",
+        std::abs(*d.unseen_gain)));
   bars.title = "Position error over each metre or radian";
   bars.x_label = "position error [mm]";
   if (!bars.groups.empty()) report.picture(bar_picture(bars));
@@ -301,7 +346,8 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
   for (const std::string& sentence : c.cannot_tell) report.paragraph("Cannot tell: " + sentence);
   report.paragraph(
       number_text("Noise that the fit found: each wheel %.2f mm per root metre", 1e3 * c.noise.wheel_m_per_sqrt_m) +
-      number_text(", the truth %.2f mm", 1e3 * c.noise.truth_position_m) +
+      (c.noise.truth_position_m > 0.0 ? number_text(", the truth %.2f mm", 1e3 * c.noise.truth_position_m)
+                                      : std::string()) +
       (c.noise.truth_heading_rad > 0.0 ? number_text(" and %.3f\xC2\xB0", degrees(c.noise.truth_heading_rad))
                                        : std::string()) +
       ".");
@@ -312,6 +358,7 @@ void add_calibration(HtmlReport& report, const LeastSquaresCalibration& c) {
 HtmlReport diagnosis_report(const Diagnosis& diagnosis) {
   HtmlReport report(verdict_sentence(diagnosis));
   add_findings(report, diagnosis);
+  add_gathered(report, diagnosis);
   add_place_and_time(report, diagnosis);
   add_responses(report, diagnosis);
   add_evidence(report, diagnosis);

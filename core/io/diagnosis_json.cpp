@@ -142,6 +142,7 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   Json& fit = json["fit"] = Json::object();
   fit["train"] = fit_json(diagnosis.train);
   fit["held_out"] = fit_json(diagnosis.held_out);
+  if (diagnosis.unseen_gain) fit["unseen_log_likelihood_gain"] = *diagnosis.unseen_gain;
   Json& simulation = json["simulation"] = Json::object();
   put(simulation, "before", diagnosis.simulation.calibrated);
   put(simulation, "after", diagnosis.simulation.with_findings);

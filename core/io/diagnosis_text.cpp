@@ -313,6 +313,11 @@ std::string where_text(const WhereFound& where) {
   }
   if (where.time_s.size() > shown)
     when += more_of(where.time_s.size() - shown, " and once more", " and %.0f times more");
+  constexpr std::size_t kMostNames = 2;
+  if (where.other_recordings.size() > kMostNames)
+    when += number_text(", and in %.0f others", static_cast<double>(where.other_recordings.size()));
+  else if (!where.other_recordings.empty())
+    when += ", and in " + list_of(where.other_recordings, "and");
   if (!when.empty()) parts.push_back(when);
   if (where.zone)
     parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) +
@@ -433,6 +438,11 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
         fit_line(diagnosis.left_out_in_turn ? "   each run by the others: " : "   held out:  ", diagnosis.held_out) +
             (is_refuted_by_unseen(diagnosis) ? ": it does not bear this out" : "")})
     if (!line.empty()) end.push_back(line);
+  if (diagnosis.unseen_gain)
+    end.push_back("   unseen, the recordings are " +
+                  number_text(*diagnosis.unseen_gain < 0.0 ? "less likely by %.1f" : "likelier by %.1f",
+                              std::abs(*diagnosis.unseen_gain)) +
+                  " with the findings (log-likelihood)");
   if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings) {
     const FitFigures &before = *diagnosis.simulation.calibrated, &after = *diagnosis.simulation.with_findings;
     end.push_back("   simulator: calibrated " + figures_text(before) + "  ->  with findings " + figures_text(after) +

@@ -7,6 +7,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
+#include "core/geometry/angles.h"
 
 namespace odolab {
 
@@ -87,6 +88,16 @@ std::optional<Visible> typical(const JointModel& joint, const Effect& e, double 
   return of[of.size() / 2];
 }
 
+// Of a unit of the catalogue: by what to multiply, and what to write behind it.
+std::pair<double, std::string> as_people_read(const std::string& unit) {
+  const auto per = [&](const std::string& of) { return unit == of || unit.rfind(of + "/", 0) == 0; };
+  if (unit == "1") return {100.0, " %"};
+  if (per("1")) return {100.0, " % per " + unit.substr(2)};
+  if (per("m")) return {1e3, " m" + unit};
+  if (per("rad")) return {180.0 / kPi, "\xC2\xB0" + unit.substr(3)};
+  return {1.0, " " + unit};
+}
+
 }  // namespace
 
 std::vector<Visible> visible(const JointModel& joint, double family_wise_error) {
@@ -144,9 +155,7 @@ std::vector<Visible> unseen(const std::vector<Visible>& visible) {
 std::string because_of(const Visible& v) {
   if (!v.excited) return "these drives hold nothing that would show it";
   const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  const bool of_itself = a.unit == "1" || a.unit.rfind("1/", 0) == 0;
-  const double factor = of_itself ? 100.0 : 1.0;
-  const std::string unit = a.unit == "1" ? " %" : of_itself ? " % per " + a.unit.substr(2) : " " + a.unit;
+  const auto [factor, unit] = as_people_read(a.unit);
   const bool absorbed = v.survives < 0.05;
   const std::string share = absorbed ? formatted("on these drives calibration absorbs %.3g %% of what it would do: ",
                                                  100.0 * (1.0 - v.survives))

@@ -9,6 +9,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
 
@@ -66,6 +67,7 @@ std::vector<const GenericTest*> strongest_first(const std::vector<GenericTest>& 
 
 struct Left {
   const GenericTest* group = nullptr;
+  std::optional<JointModel> with;  // that group, too
   std::vector<Response> shape;
 };
 
@@ -122,12 +124,12 @@ Left what_is_left(const JointModel& joint, const std::vector<GenericTest>& gener
     const double kept = let_in(with, *g) * g->under_own_noise;
     const double p = scaled_chi_square_tail(kept / g->test.inflation, g->test.freedom, g->test.batches) * g->tests;
     if (p >= error) continue;
-    if (g->curves.empty()) return {g, {}};
+    if (g->curves.empty()) return {g, std::move(with), {}};
     // Beside names it would be drawn without what these have taken of it.
     JointModel alone = without_names(joint, Base::stays);
     let_in(alone, *g);
     alone.fit_noise_and_all();
-    return {g, shape_of(*g, alone)};
+    return {g, std::move(with), shape_of(*g, alone)};
   }
   return {};
 }
@@ -164,8 +166,10 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
   return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
 }
 
-Unnamed unnamed_by(const GenericTest& group, std::vector<Response> shape, double gain) {
+// `with`: a model into which that group was let in last.
+Unnamed unnamed_by(const GenericTest& group, const JointModel& with, std::vector<Response> shape, double gain) {
   Unnamed u;
+  u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
   u.component = group.component;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.gain = gain;
@@ -251,7 +255,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = says_more ? beyond(*g, kept, kMostLeft) : kept;
-    if (!which || more > which->gain) which = unnamed_by(*g, shape_of(*g, with), more);
+    if (!which || more > which->gain) which = unnamed_by(*g, with, shape_of(*g, with), more);
   }
   return out;
 }
@@ -300,12 +304,14 @@ InPlaceOfNames simpler_first(InPlaceOfNames instead, const std::vector<ScoredCan
 Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double error) {
   // Groups share most of what they ask, and the bound over all of them is wide: of 116 sets of four programs in which
-  // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged; and
-  // of a base that is driven by its commands, whose lag may be too small to be let in.
+  // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged; of
+  // a base that is driven by its commands, whose lag may be too small to be let in; and where there are few
+  // innovations, which groups of so many terms fit by chance.
   constexpr double kShared = 6.0;
   const std::ptrdiff_t names = names_held_against(joint, Base::goes);
   const bool commands = std::any_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands));
-  const double of_what_is_left = names == 0 && !commands ? kShared * error : error;
+  const bool many = joint.scalars() - kParameters > kFewestInnovations;
+  const double of_what_is_left = names == 0 && !commands && many ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, of_what_is_left);
@@ -324,7 +330,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (!is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > left.group->most_left * explained || is_in_pieces(of_vehicle))
-      out.unnamed = unnamed_by(*left.group, left.shape, gain);
+      out.unnamed = unnamed_by(*left.group, *left.with, left.shape, gain);
   }
   const double fair = beyond_chance(of_vehicle);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {

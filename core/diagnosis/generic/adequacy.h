@@ -11,6 +11,9 @@
 
 namespace odolab {
 
+constexpr int kParameters = 7;          // of the calibration
+constexpr int kFewestInnovations = 40;  // beyond these: fewer cannot judge a model
+
 struct Adequacy {
   std::vector<GenericTest> generic;  // of what the names leave, best first
   std::optional<Unnamed> unnamed;    // where the names are not enough

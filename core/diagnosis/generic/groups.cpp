@@ -213,14 +213,12 @@ std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& 
   std::vector<Group> groups;
   groups.push_back(hats_of(
       "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, shaken.speed_mps));
+  const auto bend_radps = [straight_radps = shaken.straight_radps](const EffectStep& s) {
+    return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
+  };
+  groups.push_back(hats_of("yaw rate [rad/s]", views, bend_radps, 7, shaken.straight_radps));
   groups.push_back(hats_of(
-      "yaw rate [rad/s]", views,
-      [straight_radps = shaken.straight_radps](const EffectStep& s) {
-        return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
-      },
-      7, shaken.straight_radps));
-  groups.push_back(hats_of(
-      "lateral acceleration [m/s2]", views, [](const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }, 6,
+      "lateral acceleration [m/s2]", views, [=](const EffectStep& s) { return s.speed_mps * bend_radps(s); }, 6,
       shaken.speed_mps / shaken.base_m));
   groups.push_back(hats_of(
       "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6,

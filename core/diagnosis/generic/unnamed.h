@@ -15,6 +15,7 @@ struct Unnamed {
   double gain = 0.0;  // twice the log-likelihood that it explains beyond the names and beyond chance
   double p_value = 0.0;
   std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
+  GatheredEvidence gathered;    // of what stands for it; empty where nothing does
 };
 
 }  // namespace odolab

@@ -312,6 +312,21 @@ VectorXd JointModel::beside_all_else(int accepted) const {
   return out;
 }
 
+std::vector<SampleEvidence> JointModel::evidence_of(int accepted_effect, int run) const {
+  const auto r = static_cast<std::size_t>(run);
+  const VectorXd trace = now_->z[r] * now_->acting(r, beside_all_else(accepted_effect));
+  const VectorXd left = residual_[r] - now_->z[r] * now_->acting(r, gram_.ldlt().solve(zr_));
+  const std::vector<FilterStep>& steps = now_->runs[r].steps();
+  std::vector<SampleEvidence> all;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!steps[i].used || steps[i].truth_index < 0) continue;
+    const auto of = trace.segment<3>(3 * static_cast<Eigen::Index>(i));
+    all.push_back({runs_[r].truth[steps[i].truth_index].time_s - clock_s[r],
+                   of.dot(left.segment<3>(3 * static_cast<Eigen::Index>(i))), of.squaredNorm()});
+  }
+  return all;
+}
+
 namespace {
 
 // (sum |a| |b|)^2 / sum a^2, of samples of three innovations each.

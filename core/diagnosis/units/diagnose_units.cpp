@@ -262,9 +262,6 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     d.findings.insert(d.findings.end(), frozen.begin(), frozen.end());
     if (!frozen.empty() && d.verdict == Verdict::nothing_missing) d.verdict = Verdict::found;
   }
-  std::erase_if(d.not_testable, [&](const NotTestable& n) {
-    return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) { return f.effect == n.effect; });
-  });
   mark_named(d);
   return d;
 }

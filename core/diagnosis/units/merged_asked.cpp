@@ -57,15 +57,22 @@ std::vector<AskedEffect> merged_asked(const std::vector<Diagnosis>& diagnoses, c
 }
 
 void mark_named(Diagnosis& of_vehicle) {
+  std::erase_if(of_vehicle.not_testable, [&](const NotTestable& n) {
+    return std::any_of(of_vehicle.findings.begin(), of_vehicle.findings.end(),
+                       [&](const Finding& f) { return f.effect == n.effect; });
+  });
   for (AskedEffect& a : of_vehicle.asked) {
     const auto found = std::find_if(of_vehicle.findings.begin(), of_vehicle.findings.end(),
                                     [&](const Finding& f) { return f.effect == a.effect; });
     a.named = found != of_vehicle.findings.end();
     if (!a.named) continue;
     a.component = found->component;
+    a.log_likelihood_gain = found->log_likelihood_gain;
+    a.p_value = found->p_value;
     a.gain_beside_findings.reset();
     a.least_seen.reset();
   }
+  std::stable_sort(of_vehicle.asked.begin(), of_vehicle.asked.end(), is_likelier);
 }
 
 }  // namespace odolab

@@ -58,6 +58,7 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
     if (units[u].carries_truth) {
       sum.vehicle.truth = one.vehicle.truth;
       sum.time_offset_s = one.time_offset_s;
+      sum.innovations_are_correlated = one.innovations_are_correlated;  // of others joints are rounded
       truth_is_carried = true;
     }
     for (const ParameterEstimate& p : one.parameters) {
@@ -71,6 +72,9 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
     sum.innovations += one.innovations;
     sum.outliers += one.outliers;
     const double share = 1.0 / static_cast<double>(units.size());
+    for (double FittedNoise::*size :
+         {&FittedNoise::wheel_m_per_sqrt_m, &FittedNoise::truth_position_m, &FittedNoise::truth_heading_rad})
+      sum.noise.*size = std::sqrt(sum.noise.*size * sum.noise.*size + share * one.noise.*size * one.noise.*size);
     sum.normalised_chi2 += share * one.normalised_chi2;
     sum.normalised_chi2_nominal += share * one.normalised_chi2_nominal;
   }

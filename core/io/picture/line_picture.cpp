@@ -52,12 +52,11 @@ std::string pale(Look look) {
 
 Stroke solid(Look look) { return {stroke_of(look).colour, 1.5, ""}; }
 
-constexpr const char* kMarked = "#fbf3b4";  // a pale yellow, as of a text marker
-
 std::vector<Point> outline(const DrawnBand& band, const Axis& x, const Axis& y) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < band.x.size(); ++i)
-    if (std::isfinite(band.x[i]) && std::isfinite(band.high[i])) points.push_back({x.px(band.x[i]), y.px(band.high[i])});
+    if (std::isfinite(band.x[i]) && std::isfinite(band.high[i]))
+      points.push_back({x.px(band.x[i]), y.px(band.high[i])});
   for (std::size_t i = band.x.size(); i-- > 0;)
     if (std::isfinite(band.x[i]) && std::isfinite(band.low[i])) points.push_back({x.px(band.x[i]), y.px(band.low[i])});
   return points;
@@ -94,7 +93,7 @@ std::string line_picture(const LinePicture& picture) {
   svg.begin_clip({left, top}, right - left, bottom - top);
   for (const auto& [from, to] : picture.marked) {  // an instant is to be seen too
     const double width_px = std::max(8.0, x.px(to) - x.px(from)), from_px = 0.5 * (x.px(from) + x.px(to) - width_px);
-    svg.rectangle({from_px, top}, width_px, bottom - top, kMarked);
+    svg.rectangle({from_px, top}, width_px, bottom - top, picture.marked_ink);
   }
   for (const DrawnBand& band : picture.bands) svg.polygon(outline(band, x, y), pale(band.look), {});
   svg.end_clip();
@@ -130,7 +129,7 @@ std::string line_picture(const LinePicture& picture) {
     legend_x += 54.0 + 7.4 * static_cast<double>(band.label.size());
   }
   if (!picture.marked.empty() && !picture.marked_label.empty()) {
-    svg.rectangle({legend_x, 41.0}, 30.0, 14.0, kMarked);
+    svg.rectangle({legend_x, 41.0}, 30.0, 14.0, picture.marked_ink);
     svg.text({legend_x + 36.0, 52.0}, picture.marked_label);
   }
   return svg.finished();

@@ -33,6 +33,7 @@ struct LinePicture {
   std::vector<DrawnBand> bands = {};
   std::vector<std::pair<double, double>> marked = {};  // stretches of x with something to see in them
   std::string marked_label = {};
+  const char* marked_ink = ink::kMarked;
 };
 
 // An SVG file's text. Each column of pixels keeps the lowest and the highest value that falls into it.

@@ -19,6 +19,8 @@ inline constexpr const char* kYellow = "#F0E442";
 inline constexpr const char* kText = "#333333";
 inline constexpr const char* kAxis = "#8a8a8a";
 inline constexpr const char* kGrid = "#e3e3e0";
+inline constexpr const char* kMarked = "#fbf3b4";  // a pale yellow, as of a text marker
+inline constexpr const char* kShaded = "#f0f0ee";  // the ground of every second stretch
 inline constexpr const char* kGround = "#fbfbf9";
 }  // namespace ink
 

@@ -40,5 +40,16 @@ TEST(RefutedAnswer, IsOneThatTheSimulatorDoesNotFollow) {
   EXPECT_FALSE(is_refuted_by_simulator(d));
 }
 
+TEST(RefutedAnswer, IsNoneWhereTheSimulatorGoesOtherWaysAnyhow) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.train.calibrated = off_by(0.005, 0.005);
+  d.simulation.calibrated = off_by(0.050, 0.2);  // castors that turned over to another side
+  d.simulation.with_findings = off_by(0.100, 0.2);
+  EXPECT_FALSE(simulator_follows(d));
+  EXPECT_FALSE(is_refuted_by_simulator(d));
+  d.simulation.calibrated = off_by(0.050, 0.006);  // what is missing alone may take it so far
+  EXPECT_TRUE(simulator_follows(d));
+}
+
 }  // namespace
 }  // namespace odolab

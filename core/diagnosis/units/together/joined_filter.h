@@ -39,6 +39,7 @@ class JoinedFilter {
 
   std::size_t units() const { return way_.size(); }
   std::size_t readings() const { return readings_.size(); }  // one more than epochs
+  double time_s(std::size_t reading) const { return readings_[reading].time_s; }
   // Numbers of each reading: where each unit but the first stands against the first, along, across and in heading; then
   // the truth.
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(units()); }

@@ -274,6 +274,22 @@ ScoreByBatches JoinedModel::score_by_batches(const JoinedColumns& columns) const
   return score_along((columns - z_ * gram_.solve(cross)) * by.value);
 }
 
+std::vector<std::vector<SampleEvidence>> JoinedModel::evidence_of(const JoinedColumns& columns,
+                                                                  const VectorXd& value) const {
+  const VectorXd trace = (columns - z_ * gram_.solve(z_.transpose() * columns)) * value;
+  const VectorXd left = residual_ - z_ * at_best_ - trace;
+  std::vector<std::vector<SampleEvidence>> all;
+  Index first = 0;
+  for (const JoinedFilter& run : filters_) {
+    std::vector<SampleEvidence>& of_run = all.emplace_back();
+    for (std::size_t k = 0; k < run.readings(); ++k, first += run.rows()) {
+      const auto of = trace.segment(first, run.rows());
+      of_run.push_back({run.time_s(k), of.dot(left.segment(first, run.rows())), of.squaredNorm()});
+    }
+  }
+  return all;
+}
+
 ScoreByBatches JoinedModel::score_along(const VectorXd& direction) const {
   ScoreByBatches score;
   Index from = 0;

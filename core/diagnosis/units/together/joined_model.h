@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/model/sample_evidence.h"
 #include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/units/together/joined_filter.h"
 
@@ -68,6 +69,9 @@ class JoinedModel {
   JoinedTest test(const JoinedColumns& columns, double batches_believed_white = kFewestBatchesBelieved) const;
   std::vector<JoinedFilter::Impact> impacts(std::size_t run) const;  // of what is left beside all that was let in
   ScoreByBatches score_by_batches(const JoinedColumns& columns) const;
+  // Of each recording, what columns that are not in the model say at these values.
+  std::vector<std::vector<SampleEvidence>> evidence_of(const JoinedColumns& columns,
+                                                       const Eigen::VectorXd& value) const;
   // Puts columns into the model, at what fits best: what is tested from now on is tested beside them.
   void let_in(const JoinedColumns& columns);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/naming/select.h"
@@ -47,11 +48,13 @@ bool is_sought(const Effect& e) {
          std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
 }
 
+double least_of(const Effect& e) { return is_sought(e) ? kLeastSought : kLeast; }
+
 bool holds(const ScoredTogether& s, double family_wise_error) {
   const bool is_push_of_one = s.candidate.effect->name == "collision" && s.candidate.units.size() == 1;
-  const double least = is_push_of_one                                         ? kLeastOfOneUnit
-                       : s.of_moments > 0.0 || is_sought(*s.candidate.effect) ? kLeastSought
-                                                                              : kLeast;
+  const double least = is_push_of_one       ? kLeastOfOneUnit
+                       : s.of_moments > 0.0 ? kLeastSought
+                                            : least_of(*s.candidate.effect);
   return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
 }
 
@@ -113,6 +116,9 @@ class Naming {
     }
     JoinedNames result;
     for (std::size_t k = 0; k < named_.size(); ++k) result.names.push_back(name_of(k));
+    std::vector<ScoredTogether> beside;
+    if (!named_.empty()) ask_again(without(named_.size()), beside = scored_);
+    result.asked = asked_together(scored_, beside, least_of);
     look_for_the_unnamed(result);
     if (!result.unknown) result.unknown = pushed_again_and_again();
     if (!named_.empty()) model_.put_in(acting());
@@ -304,6 +310,7 @@ class Naming {
       if (p.name == "at_s") f.where.time_s = {{p.value - k95 * p.stderr_value, p.value + k95 * p.stderr_value}};
 
     JoinedModel others = without(k), with = others;
+    f.gathered = gathered_evidence(others.evidence_of(*s.columns, s.test.value), model_.names(), f.log_likelihood_gain);
     with.let_in(*s.columns);
     std::vector<ScoredTogether> instead = scored_;
     std::erase_if(instead, [&](const ScoredTogether& other) { return other.test.judged() < 0.3 * s.test.judged(); });
@@ -388,7 +395,11 @@ class Naming {
     });
     const auto most = std::max_element(excess.begin(), excess.end());
     if (most == excess.end() || *most <= 0.0) return;
-    result.unknown = found[static_cast<std::size_t>(most - excess.begin())];
+    const auto best = static_cast<std::size_t>(most - excess.begin());
+    result.unknown = found[best];
+    const JoinedColumns columns = groups[best].columns(model_);
+    result.unknown->gathered = gathered_evidence(with.evidence_of(columns, with.test(columns).value), model_.names(),
+                                                 result.unknown->log_likelihood_gain);
     for (const JoinedName& n : result.names)
       result.unknown->alternatives.push_back(
           {n.finding.effect, n.finding.component, n.finding.log_likelihood_gain, ""});

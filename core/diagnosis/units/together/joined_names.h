@@ -8,6 +8,7 @@
 
 #include "core/base/progress.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/together/joined_asked.h"
 #include "core/diagnosis/units/together/joined_model.h"
 
 namespace odolab {
@@ -21,6 +22,7 @@ struct JoinedName {
 struct JoinedNames {
   std::vector<JoinedName> names;
   std::optional<Finding> unknown;  // what is left beside them, or instead of them
+  std::vector<AskedTogether> asked;
 };
 
 // Of a model as it was fitted with nothing let in; what is named acts in `model` afterwards, all else fitted beside it.

@@ -127,6 +127,14 @@ Diagnosis with_names(const ToldTogether& told, std::size_t unit, const Diagnosis
 }
 
 void put_names_into(const ToldTogether& told, Diagnosis& d) {
+  put_asked_into(told.said.asked, d);
+  d.unseen_gain.reset();  // each unit's own, which has not what all know
+  const JoinedNoise& noise = told.model.noise();
+  for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) {
+    c->noise.wheel_m_per_sqrt_m = noise.wheel_m_per_sqrt_m;
+    c->noise.truth_position_m = told.model.has_truth() ? noise.truth_position_m : 0.0;
+    c->noise.truth_heading_rad = told.model.has_truth() ? noise.truth_heading_rad : 0.0;
+  }
   std::erase_if(d.findings, [](const Finding& f) { return is_told_together(f); });
   if (told.said.unknown) {
     std::erase_if(d.findings, [](const Finding& f) { return f.effect == "unknown"; });

@@ -26,9 +26,11 @@ std::vector<JoinedRun> joined(const std::vector<Recording>& recordings, const Ve
   return runs;
 }
 
-// At rest the joints are read a thousand times: the heading is known by the mean of what the truth says of it, and by
-// nothing else.
-TEST(JoinedFilter, LearnsNothingOfTheRoomFromJointsThatAreReadAtRest) {
+// A platform at rest under truths of its heading that err by so much: as the filter has it in the end, and their mean.
+struct HeadingAtRest {
+  double filtered_rad = 0.0, mean_rad = 0.0;
+};
+HeadingAtRest heading_at_rest(double truth_rad) {
   const MultiCastor platform = three_castor_vehicle();
   const Vehicle vehicle = vehicle_of(platform);
   CastorKinematics machine(platform, {}, trailing_angles(platform, {0.3, 0.0, 0.0, 1.0}));
@@ -36,23 +38,35 @@ TEST(JoinedFilter, LearnsNothingOfTheRoomFromJointsThatAreReadAtRest) {
   JoinedRun run;
   const Recording at_rest = recording_of(std::vector<CastorSample>{machine.reading(), machine.reading()});
   const std::vector<double> joints = unit_samples(at_rest, vehicle).front().joints;
-  double mean_rad = 0.0;
+  HeadingAtRest heading;
   constexpr int kTruths = 100, kEach = 10;
   for (int i = 0; i < kTruths * kEach; ++i) {
     UnitSample sample{0.1 * i, std::vector<WheelRotation>(platform.castors.size()), joints};
     for (double& joint : sample.joints) joint += 0.0005 * random.normal();
     run.samples.push_back(std::move(sample));
     if (i % kEach != 0) continue;
-    const double heading_rad = 0.02 * random.normal();
-    mean_rad += heading_rad / kTruths;
+    const double heading_rad = truth_rad * random.normal();
+    heading.mean_rad += heading_rad / kTruths;
     run.tracked.push_back({0.1 * i, {0.0, 0.0, heading_rad}});
   }
   JoinedFilter filter(run, vehicle, 0.0);
   JoinedNoise noise;
-  noise.truth_heading_rad = 0.02;
+  noise.truth_heading_rad = truth_rad;
   filter.run(noise);
-  const Pose body = filter.track(0).back().pose * inverse(tracked_T_axle(vehicle, 0, joints));
-  EXPECT_NEAR(body.heading_rad, mean_rad, 0.001);  // the mean itself errs by 0.002; one truth's error is 0.02
+  heading.filtered_rad = (filter.track(0).back().pose * inverse(tracked_T_axle(vehicle, 0, joints))).heading_rad;
+  return heading;
+}
+
+// At rest the joints are read a thousand times: the heading is known by the mean of what the truth says of it, and by
+// nothing else.
+TEST(JoinedFilter, LearnsNothingOfTheRoomFromJointsThatAreReadAtRest) {
+  const HeadingAtRest heading = heading_at_rest(0.02);
+  EXPECT_NEAR(heading.filtered_rad, heading.mean_rad, 0.001);  // the mean itself errs by 0.002
+}
+
+TEST(JoinedFilter, LearnsNothingOfTheRoomFromItsJointsUnderATruthOfSixDegrees) {
+  const HeadingAtRest heading = heading_at_rest(0.1);
+  EXPECT_NEAR(heading.filtered_rad, heading.mean_rad, 0.005);  // the mean itself errs by 0.01
 }
 
 // A platform that is turned as one piece, in the middle of a drive, contradicts no joint: however the truth corrects
@@ -128,6 +142,18 @@ TEST(DiagnoseTogether, NamesAnOvalWheelOfATruckUnderATruthThatErrsFiftyTimesAsMu
   const FoundParameter& amplitude = d->findings[0].parameters[0];
   EXPECT_NEAR(amplitude.value, kAmplitude, 3.0 * amplitude.stderr_value);
   EXPECT_LT(amplitude.stderr_value, 0.2 * kAmplitude);
+  // What is said of everything that was asked for says the same.
+  const auto asked = std::find_if(d->asked.begin(), d->asked.end(),
+                                  [](const AskedEffect& a) { return a.effect == "wheel_eccentricity"; });
+  ASSERT_NE(asked, d->asked.end());
+  EXPECT_TRUE(asked->named);
+  EXPECT_EQ(asked->component, "truck_b.left_wheel");
+  EXPECT_DOUBLE_EQ(asked->log_likelihood_gain, d->findings[0].log_likelihood_gain);
+  for (const NotTestable& n : d->not_testable) EXPECT_NE(n.effect, "wheel_eccentricity");
+  EXPECT_NEAR(d->findings[0].gathered.gain.back(), d->findings[0].log_likelihood_gain,
+              1e-6 * d->findings[0].log_likelihood_gain);  // priors take a little
+  EXPECT_EQ(d->findings[0].gathered.begins.size(), runs.size());
+  EXPECT_GT(d->calibration.noise.wheel_m_per_sqrt_m, 0.0);
 }
 
 // The wheel once counts 6 mm too much, at 22 s of the second run.

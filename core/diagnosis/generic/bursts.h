@@ -1,0 +1,29 @@
+// What happens at moments of its own, and is no noise: slip that comes and goes, gusts, counts that are lost in bursts,
+// a stretch of floor that shakes.
+#pragma once
+
+#include <optional>
+
+#include "core/diagnosis/generic/unnamed.h"
+#include "core/diagnosis/model/joint_model.h"
+
+namespace odolab {
+
+// Where motion of a sudden kind, as by a push, is larger at the moments at which it is largest than noise makes it:
+// noise that fits what is usual has a tail that falls off as it is known to. `explained`: twice the log-likelihood that
+// names gain; bursts that say little beside it are what their forms leave.
+std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error);
+
+// The largest statistics of moments that stand apart, as far as they exceed what three of a hundred do where there is
+// nothing but noise; the largest first. `statistics` of three degrees of freedom, each with its recording and time, in
+// this order.
+struct Burst {
+  int run = 0;
+  double at_s = 0.0, excess = 0.0;
+};
+std::vector<Burst> bursts_of(std::vector<Burst> statistics);
+
+// How likely so large excesses are by chance, where noise has as heavy a tail as any that was seen.
+double chance_of(const std::vector<Burst>& bursts);
+
+}  // namespace odolab

@@ -1,0 +1,84 @@
+#include "core/diagnosis/generic/bursts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+double chi_square_of_three(Random& random) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) sum += std::pow(random.normal(), 2);
+  return sum;
+}
+
+// Statistics of two recordings of four minutes each.
+std::vector<Burst> statistics(Random& random, double apart_s) {
+  std::vector<Burst> all;
+  for (int run = 0; run < 2; ++run)
+    for (int k = 0; k * apart_s < 240.0; ++k) all.push_back({run, k * apart_s, chi_square_of_three(random)});
+  return all;
+}
+
+TEST(Bursts, OfNoiseFallOffAsAChiSquareDoes) {
+  Random random(3);
+  double sum = 0.0, count = 0.0;
+  for (int drive = 0; drive < 200; ++drive)
+    for (const Burst& b : bursts_of(statistics(random, 1.1))) sum += b.excess, ++count;
+  // E(X - u | X > u) at the 97 % point of a chi-square of three, from that of five; three standard errors of 2600.
+  EXPECT_NEAR(sum / count, 2.16, 0.13);
+}
+
+TEST(Bursts, OfNoiseAreNotUnlikely) {
+  Random random(3);
+  for (int drive = 0; drive < 200; ++drive) EXPECT_GT(chance_of(bursts_of(statistics(random, 0.3))), 0.005) << drive;
+}
+
+TEST(Bursts, AreNoNoise) {
+  Random random(4);
+  std::vector<Burst> with = statistics(random, 0.3);
+  for (std::size_t k = 40; k < with.size(); k += 80) with[k].excess += 25.0;  // 20 times in eight minutes
+  EXPECT_LT(chance_of(bursts_of(with)), 1e-6);
+}
+
+TEST(Bursts, CountOnceWithinASecond) {
+  std::vector<Burst> all;
+  for (int k = 0; k < 10; ++k) all.push_back({0, 5.0 + 0.3 * k, 20.0 + k});
+  all.push_back({0, 30.0, 12.0});
+  all.push_back({1, 30.0, 11.0});
+  const std::vector<Burst> bursts = bursts_of(all);
+  ASSERT_EQ(bursts.size(), 3u);
+  EXPECT_NEAR(bursts[0].at_s, 7.7, 1e-9);
+  EXPECT_NEAR(bursts[0].excess, 29.0 - 8.947, 1e-9);
+}
+
+// A wheel that slips for a third of a second every few seconds, by half a millimetre: nothing that could be named.
+TEST(Bursts, OfSlipAreSomethingWithoutAName) {
+  Random random(31), slips(32);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
+  g.duration_s = 60.0;
+  const auto slipping = [&](int) {
+    auto until_s = std::make_shared<double>(0.0), rate_mps = std::make_shared<double>(0.0);
+    auto own = std::make_shared<Random>(slips.next());
+    auto next_s = std::make_shared<double>(2.0);
+    return [=](InjectedStep& s) {
+      if (s.time_s > *next_s) {
+        *until_s = s.time_s + 0.3;
+        *next_s = s.time_s + own->uniform(3.0, 6.0);
+        *rate_mps = 0.002 * own->normal();
+      }
+      if (s.time_s < *until_s) s.left_m += *rate_mps * s.dt_s;
+    };
+  };
+  const auto driving = [&](int) { return varied_driving(random, g.duration_s); };
+  const Diagnosis with = diagnose(three_runs(g, random, driving, slipping), {}, Vehicle{}).value();
+  ASSERT_EQ(with.verdict, Verdict::unknown_effect);
+  EXPECT_NE(with.findings[0].where.regime.find("larger and more often than noise"), std::string::npos)
+      << with.findings[0].where.regime;
+}
+
+}  // namespace
+}  // namespace odolab::test
