@@ -6,6 +6,7 @@
 #include "core/base/chi_square.h"
 #include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
@@ -198,6 +199,13 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
       if (selected.evidence[k].p_value > kByChance && !joint.accepted[k].is_held) return k;
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
       if (!stands_out(joint, now.intervals, k)) return to_take_out(joint, selected, k);
+    for (std::size_t k = joint.accepted.size(); k-- > 0;)
+      if (does_not_come_back(joint, k, selected.evidence[k].test.inflation)) {
+        now.warnings.push_back(
+            name_in_words(*joint.accepted[k].effect) +
+            " would describe the recordings together, but none is foretold by what the others say of it");
+        return k;
+      }
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);
     now.by_joint = joint.accepted.empty() ? now.by_calibrated : predictor.of(joint, joint.model.noise);
     if (const auto k = refuted(predictor, joint, now.by_joint, now.by_calibrated)) {

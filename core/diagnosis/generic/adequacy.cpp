@@ -310,7 +310,9 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   constexpr double kShared = 6.0;
   const std::ptrdiff_t names = names_held_against(joint, Base::goes);
   const bool commands = std::any_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands));
-  const bool many = joint.scalars() - kParameters > kFewestInnovations;
+  int stretches = joint.gathered_error().windows;
+  if (stretches == 0) stretches = joint.path_error().windows;
+  const bool many = 3 * stretches > kFewestInnovations;
   const double of_what_is_left = names == 0 && !commands && many ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
