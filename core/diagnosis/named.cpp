@@ -200,7 +200,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
       if (!stands_out(joint, now.intervals, k)) return to_take_out(joint, selected, k);
     for (std::size_t k = joint.accepted.size(); k-- > 0;)
-      if (does_not_come_back(joint, k, selected.evidence[k].test.inflation)) {
+      if (!comes_back(joint, k, selected.evidence[k].test.inflation)) {
         now.warnings.push_back(
             name_in_words(*joint.accepted[k].effect) +
             " would describe the recordings together, but none is foretold by what the others say of it");

@@ -30,16 +30,19 @@ GainOfEach gain_of_each(const std::vector<std::vector<SampleEvidence>>& of_run, 
   return all;
 }
 
-bool does_not_come_back(const JointModel& joint, std::size_t accepted_effect, double inflation) {
+bool comes_back(const GainOfEach& all) {
   constexpr double kAgreed = 0.6;
   constexpr double kFewest = 3.0, kEnough = 6.0;  // foreseen, to be judged at all, and by a share of it
+  return all.foreseen <= kFewest || all.gain >= (all.foreseen > kEnough ? kAgreed * all.foreseen : 0.0);
+}
+
+bool comes_back(const JointModel& joint, std::size_t accepted_effect, double inflation) {
   const AcceptedEffect& a = joint.accepted[accepted_effect];
-  if (!a.acts_on_motion() || a.is_held || a.effect->of_one_recording || a.effect->of_each_recording) return false;
+  if (!a.acts_on_motion() || a.is_held || a.effect->of_one_recording || a.effect->of_each_recording) return true;
   std::vector<std::vector<SampleEvidence>> of_run;
   for (std::size_t r = 0; r < joint.runs().size(); ++r)
     of_run.push_back(joint.evidence_of(static_cast<int>(accepted_effect), static_cast<int>(r)));
-  const GainOfEach all = gain_of_each(of_run, std::max(1.0, inflation));
-  return all.foreseen > kFewest && all.gain < (all.foreseen > kEnough ? kAgreed * all.foreseen : 0.0);
+  return comes_back(gain_of_each(of_run, std::max(1.0, inflation)));
 }
 
 }  // namespace odolab

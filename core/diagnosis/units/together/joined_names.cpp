@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
@@ -274,13 +275,20 @@ class Naming {
   // Beside the others.
   void leave_out_what_no_longer_holds() {
     for (std::size_t k = named_.size(); k-- > 0;) {
-      ask_again(without(k), named_[k]);
-      if (!holds(named_[k], p_)) named_.erase(named_.begin() + static_cast<std::ptrdiff_t>(k));
+      const JoinedModel others = without(k);
+      ask_again(others, named_[k]);
+      if (!holds(named_[k], p_) || !comes_back_in_each(others, named_[k]))
+        named_.erase(named_.begin() + static_cast<std::ptrdiff_t>(k));
     }
     for (std::size_t k = 0; k < named_.size(); ++k) ask_again(without(k), named_[k]);
     std::stable_sort(named_.begin(), named_.end(), [](const ScoredTogether& a, const ScoredTogether& b) {
       return a.test.judged() > b.test.judged();
     });
+  }
+
+  static bool comes_back_in_each(const JoinedModel& others, const ScoredTogether& s) {
+    if (s.candidate.effect->of_one_recording) return true;
+    return comes_back(gain_of_each(others.evidence_of(*s.columns, s.test.value), std::max(1.0, s.test.inflation)));
   }
 
   JoinedName name_of(std::size_t k) const {
