@@ -11,7 +11,7 @@ namespace odolab {
 
 // Where motion of a sudden kind, as by a push, is larger at the moments at which it is largest than noise makes it:
 // noise that fits what is usual has a tail that falls off as it is known to. `explained`: twice the log-likelihood that
-// names gain; bursts that say little beside it are what their forms leave.
+// names gain; bursts that say little beside it are what their forms leave. `error`: of what p-values must be below.
 std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error);
 
 // The largest statistics of moments that stand apart, as far as they exceed what three of a hundred do where there is
