@@ -422,8 +422,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   of_fewer->truth_apart_s = apart_s;
   of_fewer->warnings.push_back(
       text("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses or "
-           "joints round them: "
-           "only samples %.2g s apart were used",
+           "joints round them: only samples %.2g s apart were used",
            next(*all), apart_s));
   return of_fewer;
 }

@@ -31,9 +31,7 @@ void add_visible(AskedEffect& asked, const JointModel& joint, const Visible& v) 
     asked.bends = FoundParameter{kColumns[v.bends][0], v.bends_by, 0.0, kColumns[v.bends][1]};
   else if (v.bends >= 6 && v.bends < 6 + clocks)
     asked.bends = FoundParameter{"truth_mounting.time_offset_s", v.bends_by, 0.0, "s"};
-  constexpr double kNoSize = 1e4;  // of the medium one: none of any size
-  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  if (v.needed < kNoSize) asked.least_seen = FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
+  asked.least_seen = least_seen(v);
 }
 
 }  // namespace

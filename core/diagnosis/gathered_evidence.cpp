@@ -37,20 +37,9 @@ GatheredEvidence gathered_evidence(const std::vector<std::vector<SampleEvidence>
 GatheredEvidence gathered_evidence(const JointModel& joint, std::size_t accepted_effect, double gain) {
   const AcceptedEffect& accepted = joint.accepted[accepted_effect];
   if (!accepted.acts_on_motion() || accepted.is_held) return {};
-  std::vector<std::vector<SampleEvidence>> of_run;
   std::vector<std::string> names;
-  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
-    of_run.push_back(joint.evidence_of(static_cast<int>(accepted_effect), static_cast<int>(r)));
-    names.push_back(joint.runs()[r].name);
-  }
-  return gathered_evidence(of_run, names, gain);
-}
-
-double share_within(const GatheredEvidence& g) {
-  double within = 0.0;
-  for (std::size_t i = 1; i < g.gain.size(); ++i)
-    if (g.gain[i] >= g.low[i] && g.gain[i] <= g.high[i]) within += g.foreseen[i] - g.foreseen[i - 1];
-  return g.gain.empty() ? 1.0 : within / (g.foreseen.back() - g.foreseen.front());
+  for (const InnovationRun& run : joint.runs()) names.push_back(run.name);
+  return gathered_evidence(joint.evidence_of(static_cast<int>(accepted_effect)), names, gain);
 }
 
 }  // namespace odolab

@@ -21,7 +21,4 @@ GatheredEvidence gathered_evidence(const std::vector<std::vector<SampleEvidence>
 // zero there.
 GatheredEvidence gathered_evidence(const JointModel& joint, std::size_t accepted_effect, double gain);
 
-// The share of the way, by its information, on which the gain lies between both bounds.
-double share_within(const GatheredEvidence& gathered);
-
 }  // namespace odolab

@@ -152,6 +152,13 @@ std::vector<Visible> unseen(const std::vector<Visible>& visible) {
   return dark;
 }
 
+std::optional<FoundParameter> least_seen(const Visible& v) {
+  constexpr double kNoSize = 1e4;  // of the medium one: none of any size
+  if (!v.excited || v.needed >= kNoSize) return std::nullopt;
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  return FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
+}
+
 std::string because_of(const Visible& v) {
   if (!v.excited) return "these drives hold nothing that would show it";
   const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];

@@ -1,6 +1,7 @@
 // How large an effect would have had to be to be seen in these recordings: core/diagnosis/README.md, Eq. 13.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ std::vector<Visible> least_visible(const std::vector<Visible>& visible);
 
 // Those of which a medium size would not have been seen.
 std::vector<Visible> unseen(const std::vector<Visible>& visible);
+
+// That size. Unset where none of any size would have been seen.
+std::optional<FoundParameter> least_seen(const Visible& visible);
 
 // Why not, in words.
 std::string because_of(const Visible& v);

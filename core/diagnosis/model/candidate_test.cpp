@@ -312,17 +312,20 @@ VectorXd JointModel::beside_all_else(int accepted) const {
   return out;
 }
 
-std::vector<SampleEvidence> JointModel::evidence_of(int accepted_effect, int run) const {
-  const auto r = static_cast<std::size_t>(run);
-  const VectorXd trace = now_->z[r] * now_->acting(r, beside_all_else(accepted_effect));
-  const VectorXd left = residual_[r] - now_->z[r] * now_->acting(r, gram_.ldlt().solve(zr_));
-  const std::vector<FilterStep>& steps = now_->runs[r].steps();
-  std::vector<SampleEvidence> all;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (!steps[i].used || steps[i].truth_index < 0) continue;
-    const auto of = trace.segment<3>(3 * static_cast<Eigen::Index>(i));
-    all.push_back({runs_[r].truth[steps[i].truth_index].time_s - clock_s[r],
-                   of.dot(left.segment<3>(3 * static_cast<Eigen::Index>(i))), of.squaredNorm()});
+std::vector<std::vector<SampleEvidence>> JointModel::evidence_of(int accepted_effect) const {
+  const VectorXd own = beside_all_else(accepted_effect), to_best = gram_.ldlt().solve(zr_);
+  std::vector<std::vector<SampleEvidence>> all;
+  for (std::size_t r = 0; r < runs_.size(); ++r) {
+    const VectorXd trace = now_->z[r] * now_->acting(r, own);
+    const VectorXd left = residual_[r] - now_->z[r] * now_->acting(r, to_best);
+    const std::vector<FilterStep>& steps = now_->runs[r].steps();
+    std::vector<SampleEvidence>& of_run = all.emplace_back();
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (!steps[i].used || steps[i].truth_index < 0) continue;
+      const auto of = trace.segment<3>(3 * static_cast<Eigen::Index>(i));
+      of_run.push_back({runs_[r].truth[steps[i].truth_index].time_s - clock_s[r],
+                        of.dot(left.segment<3>(3 * static_cast<Eigen::Index>(i))), of.squaredNorm()});
+    }
   }
   return all;
 }

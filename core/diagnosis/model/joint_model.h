@@ -180,7 +180,8 @@ class JointModel {
   // By how much twice the log-likelihood is smaller without an accepted effect, all else fitted anew; and that model. A
   // score is linear about the model that has the effect: where that is much, only this tells.
   double lost_without(int accepted_effect, JointModel* without = nullptr) const;
-  std::vector<SampleEvidence> evidence_of(int accepted_effect, int run) const;
+  // Of each run.
+  std::vector<std::vector<SampleEvidence>> evidence_of(int accepted_effect) const;
   // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
   // what happened in it alone is unknown to the others.
   JointModel left_out(int run) const;

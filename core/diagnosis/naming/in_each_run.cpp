@@ -39,10 +39,7 @@ bool comes_back(const GainOfEach& all) {
 bool comes_back(const JointModel& joint, std::size_t accepted_effect, double inflation) {
   const AcceptedEffect& a = joint.accepted[accepted_effect];
   if (!a.acts_on_motion() || a.is_held || a.effect->of_one_recording || a.effect->of_each_recording) return true;
-  std::vector<std::vector<SampleEvidence>> of_run;
-  for (std::size_t r = 0; r < joint.runs().size(); ++r)
-    of_run.push_back(joint.evidence_of(static_cast<int>(accepted_effect), static_cast<int>(r)));
-  return comes_back(gain_of_each(of_run, std::max(1.0, inflation)));
+  return comes_back(gain_of_each(joint.evidence_of(static_cast<int>(accepted_effect)), std::max(1.0, inflation)));
 }
 
 }  // namespace odolab

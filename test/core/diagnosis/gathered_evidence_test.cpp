@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "test/support/missing_physics.h"
+#include "test/support/pushed_runs.h"
 
 namespace odolab::test {
 namespace {
@@ -34,6 +34,14 @@ double gain_of(const std::vector<std::vector<SampleEvidence>>& of_run) {
   for (const auto& run : of_run)
     for (const SampleEvidence& s : run) square += s.square;
   return 0.5 * square;
+}
+
+// The share of the way, by its information, on which the gain lies between both bounds.
+double share_within(const GatheredEvidence& g) {
+  double within = 0.0;
+  for (std::size_t i = 1; i < g.gain.size(); ++i)
+    if (g.gain[i] >= g.low[i] && g.gain[i] <= g.high[i]) within += g.foreseen[i] - g.foreseen[i - 1];
+  return g.gain.empty() ? 1.0 : within / (g.foreseen.back() - g.foreseen.front());
 }
 
 // Mean over many drives of the share of the way that lies in the band.
@@ -69,23 +77,8 @@ TEST(GatheredEvidence, ComesToTheGainThatIsSaidOfTheFinding) {
   EXPECT_NEAR(g.driven_s.back(), 39.8, 1e-9);
 }
 
-Diagnosis of_a_push_at(double push_s) {
-  Random random(21);
-  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
-  g.duration_s = 40.0;
-  return diagnose(three_runs(
-                      g, random, [&](int) { return varied_driving(random, 40.0); },
-                      [=](int run) -> std::function<void(InjectedStep&)> {
-                        return [=](InjectedStep& s) {
-                          if (run == 1 && std::abs(s.time_s - push_s) < 0.05) s.room_m.x_m += 0.03 * s.dt_s / 0.1;
-                        };
-                      }),
-                  {}, Vehicle{})
-      .value();
-}
-
 TEST(GatheredEvidence, OfAPushComesWhenItIsPushed) {
-  const Diagnosis d = of_a_push_at(17.0);
+  const Diagnosis d = diagnose(runs_with_a_push(0.03, 17.0), {}, Vehicle{}).value();
   ASSERT_EQ(d.findings.size(), 1u);
   const GatheredEvidence& g = d.findings.front().gathered;
   ASSERT_EQ(g.begins.size(), 3u);

@@ -3,30 +3,14 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
-#include "test/support/missing_physics.h"
+#include "test/support/pushed_runs.h"
 
 namespace odolab::test {
 namespace {
 
-// Three runs, in the second of which something shoves the robot along the room's x axis.
-Diagnosis of_a_push(double push_m) {
-  Random random(21);
-  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
-  g.duration_s = 40.0;
-  return diagnose(three_runs(
-                      g, random, [&](int) { return varied_driving(random, 40.0); },
-                      [=](int run) -> std::function<void(InjectedStep&)> {
-                        return [=](InjectedStep& s) {
-                          if (run == 1 && std::abs(s.time_s - 17.0) < 0.05) s.room_m.x_m += push_m * s.dt_s / 0.1;
-                        };
-                      }),
-                  {}, Vehicle{})
-      .value();
-}
-
 TEST(MovedTrack, IsMovedByAPushAsFarAsThatPushes) {
   constexpr double kPush_m = 0.03;
-  const Diagnosis d = of_a_push(kPush_m);
+  const Diagnosis d = diagnose(runs_with_a_push(kPush_m, 17.0), {}, Vehicle{}).value();
   ASSERT_EQ(d.findings.size(), 1u);
   const Finding& f = d.findings.front();
   ASSERT_EQ(f.effect, "collision");

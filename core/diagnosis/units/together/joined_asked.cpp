@@ -62,12 +62,8 @@ std::vector<AskedTogether> asked_together(const std::vector<ScoredTogether>& by_
     all.push_back(std::move(one));
   }
   for (AskedTogether& one : all) {
-    const Visible& v = one.visible;
-    if (!v.excited) continue;
-    constexpr double kNoSize = 1e4;  // of the medium one: none of any size
-    const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-    one.asked.survives = v.survives;
-    if (v.needed < kNoSize) one.asked.least_seen = FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
+    if (one.visible.excited) one.asked.survives = one.visible.survives;
+    one.asked.least_seen = least_seen(one.visible);
   }
   return all;
 }
