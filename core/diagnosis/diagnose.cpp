@@ -302,7 +302,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
         text("the base acts on each change of its command %.2g s sooner or later than on another, as "
              "where it asks for commands every so often: that is taken for noise",
              timing_s));
-  d.something_sways = adequacy.sway.has_value();
   if (adequacy.sway)
     d.warnings.push_back(
         "the vehicle, or the truth by itself, comes and goes by " +

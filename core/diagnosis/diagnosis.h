@@ -148,7 +148,6 @@ struct Diagnosis {
   std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
   std::vector<std::string> sentences;  // the summary that a person reads in a minute
   std::vector<std::string> warnings;
-  bool something_sways = false;  // the vehicle or the truth, by no more than one sample of the truth errs: in a warning
   std::vector<Response> responses;                           // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
 };

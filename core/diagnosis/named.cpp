@@ -7,6 +7,7 @@
 #include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/naming/in_each_run.h"
+#include "core/diagnosis/naming/left_by_form.h"
 #include "core/diagnosis/naming/shape_search.h"
 
 namespace odolab {
@@ -204,6 +205,12 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
         now.warnings.push_back(
             name_in_words(*joint.accepted[k].effect) +
             " would describe the recordings together, but none is foretold by what the others say of it");
+        return k;
+      }
+    for (std::size_t k = joint.accepted.size(); k-- > 0;)
+      if (!joint.accepted[k].is_held && may_be_left_by_form(selected.evidence, k, family_wise_error)) {
+        now.warnings.push_back(name_in_words(*joint.accepted[k].effect) +
+                               " would describe a little of what is left, which may be the form of what was found");
         return k;
       }
     now.by_calibrated = predictor.of(calibrated, joint.model.noise);

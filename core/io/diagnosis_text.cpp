@@ -240,10 +240,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       break;
     }
     case Verdict::nothing_missing:
-      sentence = diagnosis.something_sways
-                     ? "Nothing is found missing that is larger than one sample of the truth errs; within that, "
-                       "something comes and goes with time."
-                 : diagnosis.calibration_alone.innovations_are_correlated
+      sentence = diagnosis.calibration_alone.innovations_are_correlated
                      ? "Nothing is found missing, but what calibration leaves is no mere noise: it goes on from one "
                        "sample of the truth to the next."
                  : diagnosis.not_testable.empty()

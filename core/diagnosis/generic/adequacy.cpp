@@ -260,12 +260,23 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
   return out;
 }
 
-std::optional<Adequacy::Sway> sway_of(const std::vector<GenericTest>& generic, double error) {
+const GenericTest* clearest_sway(const std::vector<GenericTest>& generic, double error) {
   const GenericTest* clearest = nullptr;
   for (const GenericTest& g : generic)
     if (g.sway && g.sway->p_value < (clearest ? clearest->sway->p_value : error)) clearest = &g;
-  if (!clearest) return std::nullopt;
-  return Adequacy::Sway{clearest->variable, clearest->sway->to_either_side_m};
+  return clearest;
+}
+
+// In no list it is, be it the vehicle or the truth that sways.
+Unnamed unnamed_sway(const JointModel& joint, GenericTest group) {
+  group.test = group.sway->test;
+  group.p_value = group.sway->p_value;
+  JointModel with = joint;
+  let_in(with, group);
+  Unnamed u =
+      unnamed_by(group, with, {}, std::max(0.0, group.test.statistic - group.test.freedom * group.test.inflation));
+  u.where.regime += ", unless the truth sways so by itself";
+  return u;
 }
 
 // Takes out what comes and goes too soon to carry the vehicle anywhere, and what goes with a wheel's turns and makes
@@ -317,7 +328,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, of_what_is_left);
-  out.sway = sway_of(out.generic, error);
+  const GenericTest* sway = clearest_sway(out.generic, error);
+  if (sway) out.sway = {sway->variable, sway->sway->to_either_side_m};
   double explained = 0.0;
   std::vector<ScoredCandidate> of_vehicle;
   for (const ScoredCandidate& e : evidence) {
@@ -350,6 +362,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     out.unnamed = std::move(instead.says_more);
     out.as_likely = std::move(instead.as_much);
   }
+  if (sway && names == 0)
+    if (Unnamed u = unnamed_sway(joint, *sway); !out.unnamed || u.gain > out.unnamed->gain) out.unnamed = std::move(u);
   return out;
 }
 

@@ -40,9 +40,10 @@ struct GenericTest {
   std::vector<GenericWave> waves;  // where it is periodic instead
   std::vector<GenericCurve> curves;
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
-  // Where a truth that sways within its own error would do the same (`swaying_truth.h`): what it would say of it.
+  // Where a truth that sways within its own error would do the same (`swaying_truth.h`): what it says of it.
   struct Sway {
     double to_either_side_m = 0.0, p_value = 1.0;
+    CandidateTest test;
   };
   std::optional<Sway> sway;
   double most_left = kMostLeft;   // more where a name is but its simplest form

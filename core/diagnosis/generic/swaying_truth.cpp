@@ -76,7 +76,7 @@ void leave_to_swaying_truth(GenericTest& t, const AskedModel& asked) {
         t = std::move(*driving);
         return;
       }
-    if (of == &t.test) t.sway = {*carries_m, t.p_value_of(*of)};
+    if (of == &t.test) t.sway = {*carries_m, t.p_value_of(*of), *of};
     of->statistic = 0.0;
   }
   t.p_value = t.p_value_of(t.test);

@@ -5,11 +5,11 @@
 
 namespace odolab {
 
-// Lets a group that comes and goes with time say nothing where it carries the vehicle no further to either side, along
-// x and along y of the floor, than a single sample of the truth errs: a place that is off for a while and comes back
-// was never left, and what it is that sways cannot be told. Rests can tell: a truth sways on while the wheels stand.
-// Where nothing sways there, and the rests contradict what would, the group becomes what carries the vehicle as it
-// drives.
+// Lets a group that comes and goes with time say nothing against names where it carries the vehicle no further to
+// either side, along x and along y of the floor, than a single sample of the truth errs: a place that is off for a while
+// and comes back was never left, and whether it is the truth that sways cannot be told. What it says stays in its
+// `sway`. Rests can tell: a truth sways on while the wheels stand. Where nothing sways there, and the rests contradict
+// what would, the group becomes what carries the vehicle as it drives.
 void leave_to_swaying_truth(GenericTest& test, const AskedModel& asked);
 
 }  // namespace odolab

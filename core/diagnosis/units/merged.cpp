@@ -97,7 +97,6 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
       }
     d.left_out_in_turn = d.left_out_in_turn || one.left_out_in_turn;
     if (one.unseen_gain) d.unseen_gain = d.unseen_gain.value_or(0.0) + *one.unseen_gain;
-    d.something_sways = d.something_sways || one.something_sways;
     if (!one.next_drive.empty() && (d.next_drive.empty() || one.verdict == Verdict::ambiguous)) {
       d.next_drive = one.next_drive;
       d.next_legs = one.next_legs;
