@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/calibration/lasting_truth_filter.h"
 #include "core/calibration/noise_slopes.h"
 #include "core/calibration/pose_filter.h"
 
@@ -25,6 +26,8 @@ namespace {
 
 InnovationSums passed(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                       const FilterOptions& options) {
+  if (!options.derivatives && model.noise.wander_lasts_s > 0.0)
+    return LastingTruthFilter(run, summed, model, options).run();
   if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
   if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
   return PoseFilter<kAnyColumns>(run, summed, model, options).run();
@@ -88,6 +91,7 @@ NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, cons
   options.derivatives = false;
   options.first = first;
   options.last = last;
+  if (model.noise.wander_lasts_s > 0.0) return LastingTruthFilter(run, summed, model, options).slopes();
   NoiseCarry carried;
   const InnovationSums sums = PoseFilter<kNoColumns>(run, summed, model, options, &carried).run();
   NoiseSlopes out;

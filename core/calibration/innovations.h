@@ -34,6 +34,9 @@ struct FittedNoise {
   // stands as where it drives. Satellites, radio beacons and maps wander; cameras that are bolted to a wall do not.
   double wander_m_per_sqrt_s = 0.0;
   double heading_wander_rad_per_sqrt_s = 0.0;
+  // How long the frame stays away: its wander is forgotten with this time constant (Ornstein and Uhlenbeck), as where a
+  // laser is matched to a map that is right in the mean. 0: it never comes back.
+  double wander_lasts_s = 0.0;
   // Of the moment at which a base acts on a change of its command, from one change to the next; nothing where encoders
   // are read.
   double command_timing_s = 0.0;
@@ -170,6 +173,8 @@ struct FilterStep {
   double residual[3] = {};    // truth minus prediction
   double covariance[6] = {};  // of the residual: xx, xy, xh, yy, yh, hh
   double gain[9] = {};        // of the pose by the residual, row by row
+  double truth_decay = 0.0;   // where the truth's frame comes back: what is left of its error since the sample before
+  double truth_gain[9] = {};  // of that error by the residual
   Pose pose;                  // corrected
 };
 
@@ -180,7 +185,7 @@ constexpr int kContradiction =
     20;  // so many such samples in a row are none that err: the filter starts anew behind them
 
 struct FilterOptions {
-  bool derivatives = true;  // also information and score
+  bool derivatives = true;  // also information and score; for these the truth's frame never comes back
   double gate = 0.0;        // above 0: set samples aside by this squared size, and forget the run's own `set_aside`
   int contradiction = kContradiction;
   int first = 0, last = -1;  // truth samples to use; -1: to the end

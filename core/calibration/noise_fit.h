@@ -26,7 +26,7 @@ struct NoiseFit {
   void add_timing() { free.push_back(noise_size::command_timing); }
 };
 
-constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001, 0.00001, 0.02};
+constexpr FittedNoise kUsualNoise = {0.003, 0.002, 0.005, 0.0005, 0.0005, 0.0005, 0.00001, 0.00001, 0.0, 0.02};
 // Gives a noise that has none of the body a little, to start a fit from.
 FittedNoise with_body(FittedNoise noise);
 // Wander, too, if it has less: from next to nothing a fit would not come back.

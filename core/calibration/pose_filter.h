@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/filter_walk.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/noise_carry.h"
 #include "core/calibration/pose_covariance.h"
@@ -19,8 +20,6 @@ constexpr double kSmall = 1e-100, kLarge = 1e100;
 
 // The same as `wrapped`, sooner where there is nothing to do.
 inline double soon_wrapped(double angle_rad) { return std::abs(angle_rad) < kPi ? angle_rad : wrapped(angle_rad); }
-
-constexpr char kRestartHere = 2;  // of what is set aside
 
 // How many columns of derivatives are carried along: none, those of a run without extra ones and one that stays empty,
 // or as many as there are.
@@ -64,38 +63,7 @@ class PoseFilter {
   }
 
   InnovationSums run() {
-    sums_.set_aside = options_.gate > 0.0 ? std::vector<char>(run_.truth.size(), 0) : run_.set_aside;
-    int start = options_.first;
-    if (options_.gate <= 0.0)
-      while (start + 1 < last_ && run_.set_aside[start]) ++start;
-    begin_at(start);
-    int refused = 0;
-    bool lost = false;  // behind a cut, until there is a sample to start from
-    for (int t = start; t + 1 < last_; ++t) {
-      const int k = t + 1;
-      lost = lost || is_cut(run_, k);
-      if (lost) {
-        begin_at(k);
-        refused = 0;
-        lost = options_.gate <= 0.0 && run_.set_aside[k];
-        continue;
-      }
-      predict(t);
-      if (options_.gate <= 0.0 && run_.set_aside[k]) {
-        refused = run_.set_aside[k] == kRestartHere ? 0 : refused;
-        if (run_.set_aside[k] == kRestartHere) begin_at(k);
-        if (run_.set_aside[k] != kRestartHere) report_step(k);
-        continue;
-      }
-      if (update(k)) {
-        refused = 0;
-      } else if (++refused >= options_.contradiction) {
-        begin_at(k);
-        sums_.set_aside[k] = kRestartHere;
-        ++sums_.restarts;
-        refused = 0;
-      }
-    }
+    walk(run_, options_, *this, sums_);
     take_logarithm();
     for (int r = 0; r < p_; ++r) sums_.score.push_back(score_(r));
     for (int r = 0; r < p_; ++r)
@@ -104,6 +72,9 @@ class PoseFilter {
   }
 
  private:
+  template <typename Filter>
+  friend void walk(const InnovationRun&, const FilterOptions&, Filter&, InnovationSums&);
+
   // README, Eq. 7: the start is the truth sample itself, with its error.
   void begin_at(int k) {
     place_at(k);
@@ -114,6 +85,8 @@ class PoseFilter {
     step_.arm = arm();
     report_step(k);
   }
+
+  void pass_by(int k) { report_step(k); }
 
   void report_step(int k) {
     if (!options_.on_step) return;

@@ -160,41 +160,63 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
   return found;
 }
 
+// A wheel's pace over so many intervals, as a straight line of the time, per second or, where stamps are of arrival,
+// per interval.
+struct Pace {
+  double at_s = 0.0, mean = 0.0, slope = 0.0, largest_deviation = 0.0;
+  double at(double time_s) const { return mean + slope * (time_s - at_s); }
+};
+
+Pace pace_over(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t begin, std::size_t end,
+               bool per_second) {
+  const auto middle_s = [&](std::size_t i) { return 0.5 * (wheels[i].time_s + wheels[i + 1].time_s); };
+  const auto pace = [&](std::size_t i) {
+    const double by = rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel);
+    return per_second ? by / std::max(1e-6, wheels[i + 1].time_s - wheels[i].time_s) : by;
+  };
+  Pace p;
+  const auto n = static_cast<double>(end - begin);
+  for (std::size_t i = begin; i < end; ++i) p.at_s += middle_s(i) / n, p.mean += pace(i) / n;
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double from_s = middle_s(i) - p.at_s;
+    product += from_s * (pace(i) - p.mean);
+    square += from_s * from_s;
+  }
+  p.slope = square > 0.0 ? product / square : 0.0;
+  for (std::size_t i = begin; i < end; ++i)
+    p.largest_deviation = std::max(p.largest_deviation, std::abs(pace(i) - p.at(middle_s(i))));
+  return p;
+}
+
 TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
-  constexpr std::size_t kPace = 5, kFewest = 3;
-  constexpr double kEven = 0.35, kSame = 0.3;  // of the pace
-  constexpr double kCounts = 4.0;              // that a pace has in each interval
-  constexpr double kWheel_mps2 = 3.0;          // more than a motor and what it drives are stopped and sped up by
+  constexpr std::size_t kPace = 5, kFewest = 2;
+  constexpr double kEven = 0.3, kSame = 0.3;  // of the pace
+  constexpr double kCounts = 4.0;             // that a pace has in each interval
+  constexpr double kWheel_mps2 = 3.0;         // more than a motor and what it drives are stopped and sped up by
   TimeStretches found;
   const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
   const double least_rad = kCounts * least_count_rad(wheels, wheel);
   const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
-  // Per interval, of so many; nothing where they are not alike. The first may be in part of the halt.
-  const auto even_pace_rad = [&](std::size_t begin, std::size_t end, bool but_the_first) -> std::optional<double> {
-    const std::size_t from = begin + (but_the_first ? 1 : 0);
-    const double mean =
-        (rotation(wheels[end], wheel) - rotation(wheels[from], wheel)) / static_cast<double>(end - from);
-    for (std::size_t i = begin; i < end; ++i) {
-      const double by = rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel);
-      const bool may_be_less = but_the_first && i == begin && by * mean >= 0.0 && std::abs(by) < std::abs(mean);
-      if (!may_be_less && std::abs(by - mean) > kEven * std::abs(mean)) return std::nullopt;
-    }
-    return mean;
-  };
   const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
     return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
   };
-  for (const auto& [first, last] : holds_of(wheels, wheel, kPace)) {
-    if (last < first + kFewest || last + kPace >= wheels.size()) continue;
-    const std::optional<double> before = even_pace_rad(first - kPace, first, false),
-                                after = even_pace_rad(last, last + kPace, true);
-    if (!before || !after || std::abs(*before) < least_rad || std::abs(*after - *before) > kSame * std::abs(*before))
-      continue;
-    const double interval_s =
-        (wheels[last + kPace].time_s - wheels[first - kPace].time_s) / static_cast<double>(last + 2 * kPace - first);
-    const double other_rad = step_of_other_rad(first - kPace, first);
-    if (std::abs(*before) * radius_m > kWheel_mps2 * interval_s * interval_s &&
-        step_of_other_rad(first, last) > (1.0 - kSame) * other_rad)
+  for (const auto& [first, last] : holds_of(wheels, wheel, kPace + 1)) {
+    if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
+    const double middle_s = 0.5 * (wheels[first].time_s + wheels[last].time_s);
+    const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
+                              static_cast<double>(last + 1 + 2 * kPace - first);
+    // The first and the last interval may be in part of the halt.
+    const auto halts = [&](bool per_second) {
+      const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second),
+                 after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second);
+      const double pace = before.at(middle_s), each_rad = std::abs(pace) * (per_second ? interval_s : 1.0);
+      return each_rad > least_rad && each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
+             std::abs(after.at(middle_s) - pace) < kSame * std::abs(pace) &&
+             std::max(before.largest_deviation, after.largest_deviation) < kEven * std::abs(pace);
+    };
+    if ((halts(true) || halts(false)) &&
+        step_of_other_rad(first, last) > (1.0 - kSame) * step_of_other_rad(first - kPace, first))
       found.push_back({wheels[first].time_s, wheels[last + 1].time_s});
   }
   return found;

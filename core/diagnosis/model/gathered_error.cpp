@@ -78,11 +78,16 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
                along2 = noise.along_m_per_sqrt_m * noise.along_m_per_sqrt_m,
                turning2 = noise.turning_m_per_sqrt_m * noise.turning_m_per_sqrt_m,
                side2 = noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m;
-  const double wandered2 = 2.0 * noise.wander_m_per_sqrt_s * noise.wander_m_per_sqrt_s * (to_s - from_s);
-  const double turned2 = noise.heading_wander_rad_per_sqrt_s * noise.heading_wander_rad_per_sqrt_s * (to_s - from_s);
+  const double lasts_s = noise.wander_lasts_s;
+  const double wandering_s = lasts_s > 0.0 ? lasts_s * -std::expm1(-(to_s - from_s) / lasts_s) : to_s - from_s;
+  const double wander2 = noise.wander_m_per_sqrt_s * noise.wander_m_per_sqrt_s,
+               heading_wander2 = noise.heading_wander_rad_per_sqrt_s * noise.heading_wander_rad_per_sqrt_s;
+  const double wandered2 = 2.0 * wander2 * wandering_s, turned2 = heading_wander2 * wandering_s;
+  const double off_at_start2 = 0.5 * heading_wander2 * lasts_s;  // a frame that is turned swings the way about
   const double per_base2 = 2.0 / (wheelbase_m * wheelbase_m);
   const double turn2_per_m = (q2 + 2.0 * turning2) / (wheelbase_m * wheelbase_m);
-  sum.noise_position_m2 += 4.0 * p2 + 0.5 * at_both_m2 + (h2 + per_base2 * at_start_m2) * dot(along, along) +
+  sum.noise_position_m2 += 4.0 * p2 + 0.5 * at_both_m2 +
+                           (h2 + off_at_start2 + per_base2 * at_start_m2) * dot(along, along) +
                            (0.25 * q2 + 0.5 * (along2 + side2)) * left_and_right_m + wandered2 + turn2_per_m * swung_m3;
   sum.noise_heading_rad2 += 2.0 * h2 + per_base2 * at_both_m2 + turned2 + turn2_per_m * left_and_right_m;
   if (noise.command_timing_s > 0.0) {

@@ -37,6 +37,7 @@ JointModel::Standing JointModel::standing() const {
                noise.sideways_m_per_sqrt_m,
                noise.wander_m_per_sqrt_s,
                noise.heading_wander_rad_per_sqrt_s,
+               noise.wander_lasts_s,
                noise.command_timing_s,
                half_counts[0],
                half_counts[1]};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/model/off_truth.h"
+
 namespace odolab {
 
 namespace {
@@ -84,14 +86,59 @@ void LinearisedRun::prepare_carry() {
       carry.on[3 * r + 2] -= -ay * step.gain[3 * r] + ax * step.gain[3 * r + 1] + g2;
     }
   }
+  if (model_.noise.wander_lasts_s <= 0.0) return;
+  truth_carry_.resize(static_cast<std::size_t>(n));
+  for (int k = 0; k < n; ++k) {
+    const FilterStep& step = steps_[k];
+    TruthCarry& carry = truth_carry_[static_cast<std::size_t>(k)];
+    if (step.truth_index < 0 || step.starts) continue;
+    carry.decay = step.truth_decay;
+    if (!step.used) continue;
+    carry.ax = step.arm.x_m;
+    carry.ay = step.arm.y_m;
+    carry.read_heading = step.size == 3 ? 1.0 : 0.0;
+    std::copy_n(&whitener_[9 * static_cast<std::size_t>(k)], 9, carry.out);
+    std::copy_n(step.gain, 9, carry.pose_gain);
+    std::copy_n(step.truth_gain, 9, carry.truth_gain);
+  }
 }
+
+namespace {
+
+using Square6 = Eigen::Matrix<double, 6, 6>;
+using Rows3 = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+
+}  // namespace
 
 LinearisedRun::Tails LinearisedRun::tails() const {
   const int n = samples();
-  Tails tails(static_cast<std::size_t>(n), {0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  Tails tails;
+  if (truth_comes_back()) {
+    tails.of_both.assign(static_cast<std::size_t>(n), Square6::Zero());
+    for (int k = n - 1; k > 0; --k) {
+      const Carry& carry = carry_[static_cast<std::size_t>(k)];
+      const TruthCarry& truth = truth_carry_[static_cast<std::size_t>(k)];
+      Eigen::Matrix3d reads = Eigen::Matrix3d::Identity();
+      reads(0, 2) = -truth.ay, reads(1, 2) = truth.ax, reads(2, 2) = truth.read_heading;
+      Eigen::Matrix3d reads_off = Eigen::Matrix3d::Identity();
+      reads_off(2, 2) = truth.read_heading;
+      Eigen::Matrix<double, 3, 6> out;
+      out << Rows3(carry.out), Rows3(truth.out);
+      Square6 on;
+      on << Rows3(carry.on), -Rows3(truth.pose_gain) * reads_off, -Rows3(truth.truth_gain) * reads,
+          Eigen::Matrix3d::Identity() - Rows3(truth.truth_gain) * reads_off;
+      Square6 moved = Square6::Identity();
+      moved(0, 2) = -carry.dy, moved(1, 2) = carry.dx;
+      moved.bottomRightCorner<3, 3>() *= truth.decay;
+      const Square6 of_e = out.transpose() * out + on.transpose() * tails.of_both[static_cast<std::size_t>(k)] * on;
+      tails.of_both[static_cast<std::size_t>(k) - 1] = moved.transpose() * of_e * moved;
+    }
+    return tails;
+  }
+  tails.of_pose.assign(static_cast<std::size_t>(n), {0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   for (int k = n - 1; k > 0; --k) {
     const Carry& carry = carry_[static_cast<std::size_t>(k)];
-    const std::array<double, 6>& s = tails[static_cast<std::size_t>(k)];
+    const std::array<double, 6>& s = tails.of_pose[static_cast<std::size_t>(k)];
     const double behind[9] = {s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5]};
     // of e: out' out + on' behind on
     double by[9], of_e[9];
@@ -108,7 +155,8 @@ LinearisedRun::Tails LinearisedRun::tails() const {
     const double xh = -carry.dy * of_e[0] + carry.dx * of_e[1] + of_e[2];
     const double yh = -carry.dy * of_e[1] + carry.dx * of_e[4] + of_e[5];
     const double eh = -carry.dy * of_e[2] + carry.dx * of_e[5] + of_e[8];
-    tails[static_cast<std::size_t>(k) - 1] = {of_e[0], of_e[1], xh, of_e[4], yh, -carry.dy * xh + carry.dx * yh + eh};
+    tails.of_pose[static_cast<std::size_t>(k) - 1] = {of_e[0], of_e[1], xh,
+                                                      of_e[4], yh,      -carry.dy * xh + carry.dx * yh + eh};
   }
   return tails;
 }
@@ -136,6 +184,7 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
   const int first = with_motion.first, n = samples();
   if (first >= n - 1) return {0, 0};
   double d0 = 0.0, d1 = 0.0, d2 = 0.0, largest = 0.0;
+  OffTruth<double> off;
   out[3 * first] = out[3 * first + 1] = out[3 * first + 2] = 0.0;
   for (int t = first; t + 1 < n; ++t) {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
@@ -154,6 +203,7 @@ Stretch LinearisedRun::of_motion(const Motions& motions, double* out) const {
     d0 = carry.on[0] * e0 + carry.on[1] * e1 + carry.on[2] * e2;
     d1 = carry.on[3] * e0 + carry.on[4] * e1 + carry.on[5] * e2;
     d2 = carry.on[6] * e0 + carry.on[7] * e1 + carry.on[8] * e2;
+    if (truth_comes_back()) off.go_on(truth_carry_[static_cast<std::size_t>(t) + 1], e0, e1, e2, o, d0, d1, d2);
     const double size = std::abs(o[0]) + std::abs(o[1]) + std::abs(o[2]);
     if (t < with_motion.last) {
       largest = std::max(largest, size);
@@ -170,6 +220,7 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
   using Given = Eigen::Map<const Eigen::Matrix<double, 3, column::first_extra>>;
   const int n = samples();
   Lanes d[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+  OffTruth<Lanes> off;
   const auto put = [&](int t, const Lanes* o) {
     for (int c = 0; c < column::first_extra; ++c)
       if (double* const to = out[static_cast<std::size_t>(c)])
@@ -180,6 +231,7 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
     const FilterStep& step = steps_[k];
     const Turn& here = here_[static_cast<std::size_t>(k)];
     for (Lanes& row : d) row.setZero();
+    off = {};
     d[0](column::mounting_x) = -here.c, d[1](column::mounting_x) = -here.s;
     d[0](column::mounting_y) = here.s, d[1](column::mounting_y) = -here.c;
     if (!run_->truth_has_heading) return;
@@ -211,6 +263,7 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
       o[r] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
       d[r] = carry.on[3 * r] * e0 + carry.on[3 * r + 1] * e1 + carry.on[3 * r + 2] * e2;
     }
+    if (truth_comes_back()) off.go_on(truth_carry_[static_cast<std::size_t>(t) + 1], e0, e1, e2, o, d[0], d[1], d[2]);
     if (step.used) {  // what is read moves with the mounting too
       const double* w = &whitener_[9 * static_cast<std::size_t>(t + 1)];
       const double c = here_[static_cast<std::size_t>(t) + 1].c, s = here_[static_cast<std::size_t>(t) + 1].s;
@@ -220,9 +273,15 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
         d[r](column::mounting_x) -= gain[0] * c + gain[1] * s;
         o[r](column::mounting_y) += by[1] * c - by[0] * s;
         d[r](column::mounting_y) -= gain[1] * c - gain[0] * s;
-        if (step.size != 3) continue;
-        o[r](column::mounting_heading) += by[2];
-        d[r](column::mounting_heading) -= gain[2];
+        if (step.size == 3) {
+          o[r](column::mounting_heading) += by[2];
+          d[r](column::mounting_heading) -= gain[2];
+        }
+        if (!truth_comes_back()) continue;
+        const double* truth_gain = step.truth_gain + 3 * r;
+        off.by[r](column::mounting_x) -= truth_gain[0] * c + truth_gain[1] * s;
+        off.by[r](column::mounting_y) -= truth_gain[1] * c - truth_gain[0] * s;
+        if (step.size == 3) off.by[r](column::mounting_heading) -= truth_gain[2];
       }
     }
     put(t + 1, o);
@@ -232,6 +291,7 @@ void LinearisedRun::of_parameters(const std::array<double*, column::first_extra>
 void LinearisedRun::of_clock_rate(double* out) const {
   const int n = samples();
   double d0 = 0.0, d1 = 0.0, d2 = 0.0;
+  OffTruth<double> off;
   out[0] = out[1] = out[2] = 0.0;
   for (int t = 0; t + 1 < n; ++t) {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
@@ -255,6 +315,7 @@ void LinearisedRun::of_clock_rate(double* out) const {
     d0 = carry.on[0] * e0 + carry.on[1] * e1 + carry.on[2] * e2;
     d1 = carry.on[3] * e0 + carry.on[4] * e1 + carry.on[5] * e2;
     d2 = carry.on[6] * e0 + carry.on[7] * e1 + carry.on[8] * e2;
+    if (truth_comes_back()) off.go_on(truth_carry_[static_cast<std::size_t>(t) + 1], e0, e1, e2, o, d0, d1, d2);
   }
 }
 

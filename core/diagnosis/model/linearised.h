@@ -3,6 +3,7 @@
 // candidates cost no more than their own length.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -39,8 +40,12 @@ class LinearisedRun {
   Stretch of_motion(const Motions& motions, double* out) const;
   // The same by the seven parameters of `column`, all in one pass; null for one that nobody asks for.
   void of_parameters(const std::array<double*, column::first_extra>& out) const;
-  // The sum of squares that a derivative of the pose still brings behind each sample: xx, xy, xh, yy, yh, hh.
-  using Tails = std::vector<std::array<double, 6>>;
+  // The sum of squares that a derivative of the pose still brings behind each sample: xx, xy, xh, yy, yh, hh; and,
+  // where the truth's frame comes back, of the pose and the frame: 6 by 6.
+  struct Tails {
+    std::vector<std::array<double, 6>> of_pose;
+    std::vector<Eigen::Matrix<double, 6, 6>> of_both;
+  };
   Tails tails() const;
   // The product of `whitened` with the column of every motion at once: how fast it grows with the forward, sideways and
   // turning motion of each wheel interval. One pass backward, whatever the number of columns asked for.
@@ -87,13 +92,21 @@ class LinearisedRun {
     double dx = 0.0, dy = 0.0;  // F: the way since then, in the room
     double out[9] = {}, on[9] = {};
   };
+  // The same where the truth's frame comes back (FittedNoise::wander_lasts_s): what it is off decays, is read with the
+  // pose and corrected by what is read. Nothing of that where it never does.
+  struct TruthCarry {
+    double decay = 0.0, ax = 0.0, ay = 0.0;
+    double read_heading = 0.0;  // 1 where one was
+    double out[9] = {}, pose_gain[9] = {}, truth_gain[9] = {};
+  };
+  bool truth_comes_back() const { return !truth_carry_.empty(); }
   void prepare_carry();
   // Truth intervals [first, last) that the wheel intervals [first, end) touch.
   Stretch touched(std::size_t first, std::size_t end) const;
   void cut_into_pieces();
-  template <int columns, int abreast>
+  template <int columns, int abreast, bool comes_back>
   void products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const;
-  template <int abreast>
+  template <int abreast, bool comes_back>
   void products_of_all(const Moved& moved, const Tails& tails, double* products) const;
 
   std::shared_ptr<const InnovationRun> run_;
@@ -104,6 +117,7 @@ class LinearisedRun {
   std::vector<FilterStep> steps_;
   std::vector<Turn> here_;  // of each step's predicted heading
   std::vector<Carry> carry_;
+  std::vector<TruthCarry> truth_carry_;
   std::vector<double> whitener_;  // rows of the matrix that whitens a room-frame derivative: 9 for each sample
   Whitened residual_;
   InnovationSums sums_;

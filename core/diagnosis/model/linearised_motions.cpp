@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 
 #include "core/diagnosis/model/linearised.h"
+#include "core/diagnosis/model/off_truth.h"
 
 namespace odolab {
 
@@ -81,6 +83,7 @@ std::vector<double> LinearisedRun::score_of_intervals(const double* whitened) co
   const int n = samples();
   std::vector<double> score(3 * static_cast<std::size_t>(n - 1));
   double a0 = 0.0, a1 = 0.0, a2 = 0.0;  // by the derivative of the pose behind sample t + 1
+  OffTruth<double> off;
   for (int t = n - 2; t >= 0; --t) {
     const Carry& carry = carry_[static_cast<std::size_t>(t) + 1];
     const double* o = whitened + 3 * (t + 1);
@@ -88,6 +91,7 @@ std::vector<double> LinearisedRun::score_of_intervals(const double* whitened) co
     for (int k = 0; k < 3; ++k)
       e[k] = carry.out[k] * o[0] + carry.out[3 + k] * o[1] + carry.out[6 + k] * o[2] + carry.on[k] * a0 +
              carry.on[3 + k] * a1 + carry.on[6 + k] * a2;
+    if (truth_comes_back()) off.go_back(truth_carry_[static_cast<std::size_t>(t) + 1], o, a0, a1, a2, e);
     a0 = e[0];
     a1 = e[1];
     a2 = e[2] - carry.dy * e[0] + carry.dx * e[1];
@@ -175,11 +179,12 @@ void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Mo
 }
 
 // Of those columns of `moved` that `which` numbers.
-template <int columns, int abreast>
+template <int columns, int abreast, bool comes_back>
 void LinearisedRun::products(const Moved& moved, const std::size_t* which, const Tails& tails, double* products) const {
   using Lanes = Eigen::Array<double, abreast, 1>;
   constexpr int k = columns, m = abreast;
   Lanes d[3][k], sum[k][k];
+  std::conditional_t<comes_back, OffTruth<Lanes>, char> off[k];
   for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
   for (auto& row : sum) std::fill(row, row + k, Lanes::Zero());
   const std::size_t stride = 3 * m * moved.columns.size();
@@ -191,6 +196,9 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
     double left = 0.0;
     for (int j = 0; j < k; ++j)
       for (const auto& row : d) left = std::max(left, row[j].abs().maxCoeff());
+    if constexpr (comes_back)
+      for (const auto& of : off)
+        for (const Lanes& row : of.by) left = std::max(left, row.abs().maxCoeff());
     largest = std::max(largest, left);
     return left <= kNothing * largest;
   };
@@ -207,6 +215,11 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
         o[r][j] = carry.out[3 * r] * e0 + carry.out[3 * r + 1] * e1 + carry.out[3 * r + 2] * e2;
         d[r][j] = carry.on[3 * r] * e0 + carry.on[3 * r + 1] * e1 + carry.on[3 * r + 2] * e2;
       }
+      if constexpr (comes_back) {
+        Lanes whitened[3] = {o[0][j], o[1][j], o[2][j]};
+        off[j].go_on(truth_carry_[static_cast<std::size_t>(t) + 1], e0, e1, e2, whitened, d[0][j], d[1][j], d[2][j]);
+        for (int r = 0; r < 3; ++r) o[r][j] = whitened[r];
+      }
     }
     for (int i = 0; i < k; ++i)
       for (int j = i; j < k; ++j) sum[i][j] += o[0][i] * o[0][j] + o[1][i] * o[1][j] + o[2][i] * o[2][j];
@@ -216,6 +229,7 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
     for (int t = end; end > 0 && t < part.first; ++t) {
       if (t % kAskedEvery == 0 && is_forgotten()) {
         for (auto& row : d) std::fill(row, row + k, Lanes::Zero());
+        if constexpr (comes_back) std::fill(off, off + k, OffTruth<Lanes>{});
         break;
       }
       go_on(t, at_rest.data());
@@ -224,29 +238,45 @@ void LinearisedRun::products(const Moved& moved, const std::size_t* which, const
     for (int t = part.first; t < end; ++t)
       go_on(t, &moved.by[stride * (part.held_before + static_cast<std::size_t>(t - part.first))]);
   }
-  const std::array<double, 6>& s = tails[static_cast<std::size_t>(end)];
-  for (int i = 0; i < k; ++i)
-    for (int j = i; j < k; ++j) {
-      const Lanes x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];
-      const Lanes y = s[1] * d[0][j] + s[3] * d[1][j] + s[4] * d[2][j];
-      const Lanes h = s[2] * d[0][j] + s[4] * d[1][j] + s[5] * d[2][j];
-      const Lanes product = sum[i][j] + d[0][i] * x + d[1][i] * y + d[2][i] * h;
-      for (int l = 0; l < m; ++l) products[(i * k + j) * m + l] = products[(j * k + i) * m + l] = product(l);
-    }
+  const auto put = [&](int i, int j, const Lanes& product) {
+    for (int l = 0; l < m; ++l) products[(i * k + j) * m + l] = products[(j * k + i) * m + l] = product(l);
+  };
+  if constexpr (comes_back) {
+    const Eigen::Matrix<double, 6, 6>& s = tails.of_both[static_cast<std::size_t>(end)];
+    const auto state = [&](int j, int r) -> const Lanes& { return r < 3 ? d[r][j] : off[j].by[r - 3]; };
+    for (int i = 0; i < k; ++i)
+      for (int j = i; j < k; ++j) {
+        Lanes product = sum[i][j];
+        for (int r = 0; r < 6; ++r)
+          for (int c = 0; c < 6; ++c) product += s(r, c) * state(i, r) * state(j, c);
+        put(i, j, product);
+      }
+    return;
+  }
+  if constexpr (!comes_back) {
+    const std::array<double, 6>& s = tails.of_pose[static_cast<std::size_t>(end)];
+    for (int i = 0; i < k; ++i)
+      for (int j = i; j < k; ++j) {
+        const Lanes x = s[0] * d[0][j] + s[1] * d[1][j] + s[2] * d[2][j];
+        const Lanes y = s[1] * d[0][j] + s[3] * d[1][j] + s[4] * d[2][j];
+        const Lanes h = s[2] * d[0][j] + s[4] * d[1][j] + s[5] * d[2][j];
+        put(i, j, sum[i][j] + d[0][i] * x + d[1][i] * y + d[2][i] * h);
+      }
+  }
 }
 
-template <int abreast>
+template <int abreast, bool comes_back>
 void LinearisedRun::products_of_all(const Moved& moved, const Tails& tails, double* out) const {
   const std::size_t count = moved.columns.size();
   const std::size_t in_order[3] = {0, 1, 2};
-  if (count == 1) return products<1, abreast>(moved, in_order, tails, out);
-  if (count == 2) return products<2, abreast>(moved, in_order, tails, out);
-  if (count == 3) return products<3, abreast>(moved, in_order, tails, out);
+  if (count == 1) return products<1, abreast, comes_back>(moved, in_order, tails, out);
+  if (count == 2) return products<2, abreast, comes_back>(moved, in_order, tails, out);
+  if (count == 3) return products<3, abreast, comes_back>(moved, in_order, tails, out);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j) {
       const std::size_t pair[2] = {i, j};
       double made[4 * abreast];
-      products<2, abreast>(moved, pair, tails, made);
+      products<2, abreast, comes_back>(moved, pair, tails, made);
       for (std::size_t l = 0; l < abreast; ++l) {
         out[(i * count + i) * abreast + l] = made[l];
         out[(j * count + j) * abreast + l] = made[3 * abreast + l];
@@ -258,10 +288,14 @@ void LinearisedRun::products_of_all(const Moved& moved, const Tails& tails, doub
 void LinearisedRun::products_of(const Moved& moved, const Tails& tails, std::vector<double>& products) const {
   products.assign(moved.columns.size() * moved.columns.size() * moved.abreast, 0.0);
   if (moved.columns.empty()) return;
-  if (moved.abreast == 1)
-    products_of_all<1>(moved, tails, products.data());
+  constexpr int kMany = static_cast<int>(kAbreast);
+  const bool one = moved.abreast == 1;
+  if (truth_comes_back())
+    one ? products_of_all<1, true>(moved, tails, products.data())
+        : products_of_all<kMany, true>(moved, tails, products.data());
   else
-    products_of_all<static_cast<int>(kAbreast)>(moved, tails, products.data());
+    one ? products_of_all<1, false>(moved, tails, products.data())
+        : products_of_all<kMany, false>(moved, tails, products.data());
 }
 
 }  // namespace odolab

@@ -65,6 +65,33 @@ TEST(NoiseFit, SlopesAgreeWithDifferences) {
   }
 }
 
+// Of a truth whose frame wanders, and comes back within two seconds.
+constexpr FittedNoise kLasting = {0.003, 0.001, 0.004, 0.0015, 0.0012, 0.001, 0.004, 0.003, 2.0};
+
+TEST(NoiseFit, SlopesAgreeWithDifferencesWhereTheTruthsNoiseLasts) {
+  const Driven d = driven(true);
+  const NoiseSlopes sums = sums_of(d, kLasting);
+  for (int size = 0; size < noise_size::count; ++size) {
+    constexpr double kBy = 1e-4;
+    FittedNoise more = kLasting, less = kLasting;
+    size_of(more, size) *= std::exp(kBy);
+    size_of(less, size) *= std::exp(-kBy);
+    const double slope = (sums_of(d, more).value - sums_of(d, less).value) / (2.0 * kBy);
+    EXPECT_NEAR(sums.slope[size], slope, 0.002 * std::abs(slope) + 0.02) << size;
+  }
+}
+
+TEST(NoiseFit, ATruthThatHardlyComesBackIsOneThatNeverDoes) {
+  const Driven d = driven(true);
+  FittedNoise never = kLasting, hardly = kLasting;
+  never.wander_lasts_s = 0.0;
+  hardly.wander_lasts_s = 1e5;  // of which the run is a two-thousandth
+  const NoiseSlopes a = sums_of(d, never), b = sums_of(d, hardly);
+  // What turns the frame also turns the ways on in it where it never comes back: a hundredth of a radian here.
+  EXPECT_NEAR(b.value, a.value, 1e-3 * std::abs(a.value));
+  EXPECT_NEAR(b.slope[noise_size::wheel], a.slope[noise_size::wheel], 2.0);
+}
+
 TEST(NoiseFit, CurvatureIsThatOfTheMeanOverManyRuns) {
   // Fisher: the expected curvature. A run's own scatters about it by one over the root of its samples.
   const Driven d = driven(true);

@@ -305,6 +305,33 @@ TEST(Adequacy, TellsGustsFromATruthThatSwaysByItsRests) {
   EXPECT_TRUE(may_be_the_truth(*swaying)) << swaying->findings.front().where.regime;
 }
 
+// A map that turns by a tenth of a degree in a second, about a corner of the room.
+TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) {
+  constexpr double kTurns_radps = 0.002;
+  test::Case c = case_of("", 1.0, 3, 8);
+  for (Recording& r : c.recordings) {
+    std::vector<double>*x = nullptr, *y = nullptr, *heading = nullptr, *other = nullptr;
+    for (Channel& channel : r.channels)
+      (channel.name == "truth_x_m"           ? x
+       : channel.name == "truth_y_m"         ? y
+       : channel.name == "truth_heading_rad" ? heading
+                                             : other) = &channel.values;
+    for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+      const double by = kTurns_radps * (r.time_s[i] - r.time_s.front());
+      const Vec2 place = rotated({(*x)[i], (*y)[i]}, by);
+      (*x)[i] = place.x_m;
+      (*y)[i] = place.y_m;
+      (*heading)[i] += by;
+    }
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d->findings.front().component, "truth");
+  EXPECT_NE(d->findings.front().where.regime.find("truth's frame"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
 TEST(Adequacy, CallsAClockThatWandersUnknownAndSaysThatTheTruthIsLateNowAndThen) {
   test::Case c = case_of("", 1.0, 3, 5);
   // 60 ms to and fro in 16 s: a pace of 2.4 %

@@ -31,6 +31,23 @@ TEST(HaltingEncoder, IsFoundThoughItStandsForAMomentAlone) {
   EXPECT_TRUE(halting_encoder(driven(halts), Wheel::right, kDrive).empty());
 }
 
+// From 0.15 to 0.35 m/s in half a second, and two intervals of it are not counted.
+TEST(HaltingEncoder, IsFoundInTwoIntervalsWhileTheWheelSpeedsUp) {
+  const auto speeds_up = [](int i) {
+    const double t = std::clamp(i - 90, 0, 25);
+    return std::floor(14.0 * i + 0.36 * t * t + 18.0 * std::max(0, i - 115));
+  };
+  const auto found =
+      halting_encoder(driven([&](int i) {
+                        return i < 103 ? speeds_up(i) : speeds_up(std::max(i, 105)) - speeds_up(105) + speeds_up(103);
+                      }),
+                      Wheel::left, kDrive);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].first, 2.06, 1e-9);
+  EXPECT_NEAR(found[0].second, 2.12, 1e-9);
+  EXPECT_TRUE(halting_encoder(driven(speeds_up), Wheel::left, kDrive).empty());
+}
+
 // 0.16 m/s is gone and back within a quarter of a second each, at 0.6 m/s2.
 TEST(HaltingEncoder, IsNoneWhereAWheelIsBrakedAndSpedUpAgain) {
   double at = 0.0;

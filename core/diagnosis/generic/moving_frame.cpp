@@ -1,0 +1,38 @@
+#include "core/diagnosis/generic/moving_frame.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::size_t kOfEach = 3;  // rad/s, and m/s along x and y
+
+// What a frame that moves adds to the motion that the truth shows: its own, seen from the vehicle.
+std::vector<Motions> motions_of(const DriveView& view, std::size_t runs) {
+  std::vector<Motions> out(kOfEach * runs, Motions(view.steps.size()));
+  const std::size_t first = kOfEach * static_cast<std::size_t>(view.number);
+  if (first >= out.size()) return out;  // a run that was not fitted
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    const auto carried = [&](const Vec2& by_m, double turn_rad) {
+      return BodyMotion{s.cos_heading * by_m.x_m + s.sin_heading * by_m.y_m,
+                        s.cos_heading * by_m.y_m - s.sin_heading * by_m.x_m, turn_rad};
+    };
+    out[first][i] = carried(s.duration_s * Vec2{-s.position.y_m, s.position.x_m}, s.duration_s);
+    out[first + 1][i] = carried({s.duration_s, 0.0}, 0.0);
+    out[first + 2][i] = carried({0.0, s.duration_s}, 0.0);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<GenericTest> moving_frame_tests(const AskedModel& asked, double looked_at) {
+  const std::size_t runs = asked.joint.views().size();
+  GenericTest t = asked_of(
+      asked, "time", "truth's frame", kOfEach * runs,
+      [runs](const DriveView& view, const std::vector<double>&) { return motions_of(view, runs); }, looked_at);
+  t.component = "truth";
+  return {t};
+}
+
+}  // namespace odolab
