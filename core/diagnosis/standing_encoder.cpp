@@ -167,8 +167,8 @@ struct Pace {
   double at(double time_s) const { return mean + slope * (time_s - at_s); }
 };
 
-Pace pace_over(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t begin, std::size_t end,
-               bool per_second) {
+Pace pace_over(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t begin, std::size_t end, bool per_second,
+               bool even) {
   const auto middle_s = [&](std::size_t i) { return 0.5 * (wheels[i].time_s + wheels[i + 1].time_s); };
   const auto pace = [&](std::size_t i) {
     const double by = rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel);
@@ -183,7 +183,7 @@ Pace pace_over(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t 
     product += from_s * (pace(i) - p.mean);
     square += from_s * from_s;
   }
-  p.slope = square > 0.0 ? product / square : 0.0;
+  p.slope = even || square <= 0.0 ? 0.0 : product / square;
   for (std::size_t i = begin; i < end; ++i)
     p.largest_deviation = std::max(p.largest_deviation, std::abs(pace(i) - p.at(middle_s(i))));
   return p;
@@ -206,14 +206,18 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
     const double middle_s = 0.5 * (wheels[first].time_s + wheels[last].time_s);
     const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
                               static_cast<double>(last + 1 + 2 * kPace - first);
+    const bool even = last - first > kPace;  // a wheel that speeds up does not go on so for long
     // The first and the last interval may be in part of the halt.
     const auto halts = [&](bool per_second) {
-      const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second),
-                 after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second);
-      const double pace = before.at(middle_s), each_rad = std::abs(pace) * (per_second ? interval_s : 1.0);
-      return each_rad > least_rad && each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
-             std::abs(after.at(middle_s) - pace) < kSame * std::abs(pace) &&
-             std::max(before.largest_deviation, after.largest_deviation) < kEven * std::abs(pace);
+      const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second, even),
+                 after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second, even);
+      const double stops = before.at(wheels[first].time_s), goes_on = after.at(wheels[last].time_s);
+      const double least = std::min(std::abs(stops), std::abs(goes_on)), at_middle = before.at(middle_s);
+      const double each_rad = least * (per_second ? interval_s : 1.0);
+      return stops * goes_on > 0.0 && each_rad > least_rad &&
+             each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
+             std::abs(after.at(middle_s) - at_middle) < kSame * std::abs(at_middle) &&
+             std::max(before.largest_deviation, after.largest_deviation) < kEven * least;
     };
     if ((halts(true) || halts(false)) &&
         step_of_other_rad(first, last) > (1.0 - kSame) * step_of_other_rad(first - kPace, first))

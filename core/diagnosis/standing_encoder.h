@@ -17,8 +17,8 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
 // Where they hold and then catch up at once: no wheel does that, whatever the truth says.
 TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel wheel);
 
-// Where they hold for three intervals and more between an even pace and the same again, to and from which no wheel
-// comes within one reading, while the other wheel goes on.
+// Where they hold for two intervals and more between a pace and the same again, to and from which no wheel comes within
+// one reading, while the other wheel goes on. The pace may change evenly, unless they hold for more than five.
 TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive);
 
 // The smallest step that was read of a wheel.

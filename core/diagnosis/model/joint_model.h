@@ -274,6 +274,7 @@ class JointModel {
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
   std::shared_ptr<const Linearisation> now_;
+  bool asked_how_long_truth_lasts_ = false;
   std::optional<Standing> linearised_at_;  // none where the runs have changed since
   bool has_columns_ = false;
   std::vector<Eigen::VectorXd> residual_;             // of each run, whitened

@@ -1,6 +1,9 @@
 // Noise and outliers of the joint model: what the calibration and the effects leave is random, and how large it is.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/calibration/noise_fit.h"
@@ -14,6 +17,51 @@ namespace {
 
 constexpr int kNoiseSamples = 5000;
 
+// The noise with the time after which the truth's frame comes back, where it does: where that is far likelier than that
+// it never does, and what it is off is no small part of a sample's error (`recorded`: times the white noise). What is
+// small may be something that sways, and is asked later.
+FittedNoise with_its_time(const FittedNoise& never, double recorded,
+                          const std::function<FittedNoise(const FittedNoise&)>& fitted,
+                          const std::function<double(const FittedNoise&)>& minus_two_log_likelihood) {
+  constexpr double kTimes_s[] = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
+  constexpr int kFirst = 3, kLast = static_cast<int>(std::size(kTimes_s)) - 1;
+  constexpr double kFarLikelier = 20.0, kNoSmallPart = 0.7;
+  const double of_never = minus_two_log_likelihood(never);
+  FittedNoise still = never;
+  still.wander_m_per_sqrt_s = still.heading_wander_rad_per_sqrt_s = 0.0;
+  if (minus_two_log_likelihood(as_large_as_any_real(still)) < of_never + kFarLikelier) return never;
+  struct Lasting {
+    FittedNoise noise;
+    double value;
+  };
+  // From next to nothing a fit would not come back.
+  const auto lasting = [&](FittedNoise from, double time_s) {
+    from.wander_lasts_s = time_s;
+    const double half = 0.5 * std::sqrt(2.0 / time_s);
+    from.wander_m_per_sqrt_s = std::max(from.wander_m_per_sqrt_s, half * from.truth_position_m);
+    from.heading_wander_rad_per_sqrt_s = std::max(from.heading_wander_rad_per_sqrt_s, half * from.truth_heading_rad);
+    const FittedNoise noise = fitted(from);
+    return Lasting{noise, minus_two_log_likelihood(noise)};
+  };
+  Lasting best = lasting(never, kTimes_s[kFirst]);
+  int at = kFirst;
+  for (const int by : {-1, 1}) {
+    while (at + by >= 0 && at + by <= kLast) {
+      const Lasting next = lasting(best.noise, kTimes_s[at + by]);
+      if (next.value >= best.value) break;
+      best = next;
+      at += by;
+    }
+    if (at != kFirst) break;
+  }
+  const auto is_no_small_part = [&](double wander, double white) {
+    return wander * std::sqrt(0.5 * best.noise.wander_lasts_s) > kNoSmallPart * recorded * white;
+  };
+  const bool is_large = is_no_small_part(best.noise.wander_m_per_sqrt_s, best.noise.truth_position_m) ||
+                        is_no_small_part(best.noise.heading_wander_rad_per_sqrt_s, best.noise.truth_heading_rad);
+  return is_large && best.value < of_never - kFarLikelier ? best.noise : never;
+}
+
 }  // namespace
 
 void JointModel::fit_noise() {
@@ -24,40 +72,40 @@ void JointModel::fit_noise() {
     const InnovationRun* run;
     const SummedRun* summed;
   };
-  // The noise that is likely on these runs, of which every so many stretches are used.
-  const auto fitted = [&](const std::vector<Part>& parts, const NoiseFit& fit) {
+  // On these runs, of which every so many stretches are used.
+  const auto likelihood_of = [&](const std::vector<Part>& parts, const NoiseFit& fit, const FittedNoise& noise) {
     int samples = 0;
     for (const Part& part : parts) samples += static_cast<int>(part.run->truth.size());
     const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
     const double parameters = columns();
-    const auto likelihood = [&](const FittedNoise& noise) {
-      std::vector<NoiseSlopes> of_run(parts.size());
-      const auto sum_run = [&](int r) {
-        const InnovationRun& run = *parts[r].run;
-        InnovationModel m = model_of(r);
-        m.noise = noise;
-        const int n = static_cast<int>(run.truth.size());
-        for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
-          if (number % every != 0) continue;
-          of_run[r].add(noise_slopes(run, *parts[r].summed, m, first, every == 1 ? n : std::min(n, first + stretch)));
-        }
-      };
-      if (samples > kNoiseSamples)
-        parallel_for(static_cast<int>(parts.size()), sum_run);
-      else  // not worth starting threads for
-        for (std::size_t r = 0; r < parts.size(); ++r) sum_run(static_cast<int>(r));
-      NoiseSlopes sum;
-      for (const NoiseSlopes& s : of_run) sum.add(s);
-      // The freedom that the parameters took, as an average: exact where all sizes move together.
-      if (every == 1 && sum.scalars > 2 * parameters)
-        for (int k = 0; k < 2; ++k) {
-          FittedNoise at = noise;
-          sum.value -= parameters * std::log(size_of(at, fit.free[k]));
-          sum.slope[fit.free[k]] -= parameters;
-        }
-      return sum;
+    std::vector<NoiseSlopes> of_run(parts.size());
+    const auto sum_run = [&](int r) {
+      const InnovationRun& run = *parts[r].run;
+      InnovationModel m = model_of(r);
+      m.noise = noise;
+      const int n = static_cast<int>(run.truth.size());
+      for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
+        if (number % every != 0) continue;
+        of_run[r].add(noise_slopes(run, *parts[r].summed, m, first, every == 1 ? n : std::min(n, first + stretch)));
+      }
     };
-    return most_likely_noise(likelihood, model.noise, fit);
+    if (samples > kNoiseSamples || noise.wander_lasts_s > 0.0)
+      parallel_for(static_cast<int>(parts.size()), sum_run);
+    else  // not worth starting threads for
+      for (std::size_t r = 0; r < parts.size(); ++r) sum_run(static_cast<int>(r));
+    NoiseSlopes sum;
+    for (const NoiseSlopes& s : of_run) sum.add(s);
+    // The freedom that the parameters took, as an average: exact where all sizes move together.
+    if (every == 1 && sum.scalars > 2 * parameters)
+      for (int k = 0; k < 2; ++k) {
+        FittedNoise at = noise;
+        sum.value -= parameters * std::log(size_of(at, fit.free[k]));
+        sum.slope[fit.free[k]] -= parameters;
+      }
+    return sum;
+  };
+  const auto fitted = [&](const std::vector<Part>& parts, const NoiseFit& fit, const FittedNoise& from) {
+    return most_likely_noise([&](const FittedNoise& noise) { return likelihood_of(parts, fit, noise); }, from, fit);
   };
   bool any_heading = false, any_commands = false;
   std::vector<Part> whole;
@@ -71,7 +119,13 @@ void JointModel::fit_noise() {
   of_samples.add_wander(any_heading);
   if (any_commands) of_samples.add_timing();
   if (any_heading) of_samples.free.push_back(noise_size::heading);
-  model.noise = fitted(whole, of_samples);
+  model.noise = fitted(whole, of_samples, model.noise);
+  if (!std::exchange(asked_how_long_truth_lasts_, true)) {
+    const double averaged = runs_.front().samples_averaged;
+    model.noise = with_its_time(
+        model.noise, std::sqrt(averaged), [&](const FittedNoise& from) { return fitted(whole, of_samples, from); },
+        [&](const FittedNoise& noise) { return likelihood_of(whole, of_samples, noise).value; });
+  }
   // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
   // samples say: of a small sideways noise it says nothing.
   std::vector<ThinnedTruth> thin(whole.size());
@@ -89,7 +143,7 @@ void JointModel::fit_noise() {
   of_ways.add_wander(any_heading);
   if (any_commands) of_ways.add_timing();
   of_ways.usual_of_body = 0.0;  // what is usual is what the samples said
-  model.noise = fitted(thinned, of_ways);
+  model.noise = fitted(thinned, of_ways, model.noise);
 }
 
 void JointModel::gate() {
