@@ -349,9 +349,11 @@ class Selection {
   void add_evidence(const ScoredCandidate& own, const std::vector<ScoredCandidate>& instead) {
     std::vector<ScoredCandidate> alternatives, coming_back;
     for (const ScoredCandidate& c : instead) {
-      if (is_taken(c) || is_refuted(c) || c.p_value > family_wise_error_ || !c.beyond_counts ||
-          c.effect->name == own.effect->name || says_as_much_beside(c, with_all_))
+      if (is_taken(c) || is_refuted(c) || c.p_value > family_wise_error_ || c.effect->name == own.effect->name ||
+          says_as_much_beside(c, with_all_))
         continue;
+      // What whole counts may feign is no name; but nor is another alone of which it says more.
+      if (!c.beyond_counts && c.test.statistic / own.test.inflation < own.test.judged()) continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
       const double beaten_by =
           std::max(2.0 * kClearlyBeaten + more_by_tries(own, c), at_one_place ? kFormError * own.test.judged() : 0.0);
