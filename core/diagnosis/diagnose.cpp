@@ -302,6 +302,17 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
         text("the base acts on each change of its command %.2g s sooner or later than on another, as "
              "where it asks for commands every so often: that is taken for noise",
              timing_s));
+  if (const FittedNoise noise = joint.noise_as_recorded(); noise.wander_lasts_s > 0.0) {
+    const double spread = std::sqrt(0.5 * noise.wander_lasts_s);
+    const double off_rad = spread * noise.heading_wander_rad_per_sqrt_s;
+    d.warnings.push_back(text("the truth's error lasts for about %.2g s: ", noise.wander_lasts_s) +
+                         text("%.2g mm", 1e3 * spread * noise.wander_m_per_sqrt_s) +
+                         (off_rad > 0.0 ? text(" and %.2g degrees", off_rad * 180.0 / kPi) : "") +
+                         text(" of it, beside %.2g mm from one sample to the next; this is reckoned with",
+                              1e3 * noise.truth_position_m));
+    // Which was what calibration found correlated, where nothing of that is left.
+    if (joint.distrust() == 0.0) d.calibration_alone.innovations_are_correlated = false;
+  }
   if (adequacy.sway)
     d.warnings.push_back(
         "the vehicle, or the truth by itself, comes and goes by " +
