@@ -29,9 +29,16 @@ std::vector<Motions> motions_of(const DriveView& view, std::size_t runs) {
 std::vector<GenericTest> moving_frame_tests(const AskedModel& asked, double looked_at) {
   const std::size_t runs = asked.joint.views().size();
   GenericTest t = asked_of(
-      asked, "time", "truth's frame", kOfEach * runs,
+      asked, "time", "turn and shift of the truth's frame", kOfEach * runs,
       [runs](const DriveView& view, const std::vector<double>&) { return motions_of(view, runs); }, looked_at);
   t.component = "truth";
+  GenericCurve turns{"recording", "turn of the truth's frame [rad/s]", {}, {}};
+  for (std::size_t run = 0; run < runs; ++run) {
+    turns.at.push_back(static_cast<double>(run) + 1.0);
+    turns.basis.emplace_back(kOfEach * runs, 0.0);
+    turns.basis.back()[kOfEach * run] = 1.0;
+  }
+  if (runs > 1) t.curves = {turns};
   return {t};
 }
 
