@@ -8,6 +8,7 @@
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/io/diagnosis_text.h"
 #include "core/io/number_text.h"
+#include "core/io/verdict_sentence.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {

@@ -5,6 +5,7 @@
 
 #include "core/io/diagnosis_text.h"
 #include "core/io/lesson_toml.h"
+#include "core/io/verdict_sentence.h"
 #include "physics/confirmed_diagnosis.h"
 
 namespace odolab {

@@ -13,6 +13,7 @@
 #include "core/io/picture/bar_picture.h"
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
+#include "core/io/verdict_sentence.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {

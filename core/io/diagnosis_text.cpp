@@ -10,6 +10,7 @@
 #include "core/diagnosis/refuted.h"
 #include "core/geometry/angles.h"
 #include "core/io/number_text.h"
+#include "core/io/verdict_sentence.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -49,29 +50,6 @@ Shown shown_as(const std::string& unit) {
   if (unit == "1") return {100.0, " %"};
   if (unit.rfind("1/", 0) == 0) return {100.0, " % per " + unit.substr(2)};
   return {1.0, " " + unit};
-}
-
-std::string list_of(const std::vector<std::string>& words, const char* last_word) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? std::string(" ") + last_word + " " : ", ") + words[i];
-  return text;
-}
-
-// A tracked point that sat elsewhere in one recording is a fault of that one.
-bool is_fault(const Finding& finding) {
-  return is_data_fault(finding.effect) ||
-         (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
-}
-
-// What is measured otherwise than the vehicle's file says, and not driven otherwise.
-bool is_of_the_measurement(const Finding& finding) {
-  return is_of_the_truth(finding.effect) || finding.effect == "clock_rate";
-}
-
-std::string figures_text(const FitFigures& f) {
-  return number_text("%.2f mm", 1e3 * f.position_rms_m) +
-         (f.has_heading() ? number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad)) : "");
 }
 
 // Broken between words; every line but the first is indented by `indent`.
@@ -135,21 +113,6 @@ std::string finding_line(const Finding& f) {
 }
 
 // What all names together do to a stretch, where that is little: after ten metres a thousandth of the way. Else empty.
-std::string little_sentence(const Diagnosis& d) {
-  constexpr double kLittle_m = 1e-4, kLittle_rad = 2e-4;
-  double moved_m2 = 0.0, moved_rad2 = 0.0;
-  for (const Finding& f : d.findings) {
-    if (is_fault(f) || is_of_the_measurement(f)) continue;
-    if (!f.moves) return "";
-    moved_m2 += f.moves->position_rms_m * f.moves->position_rms_m;
-    moved_rad2 += f.moves->heading_rms_rad * f.moves->heading_rms_rad;
-  }
-  const MovedTrack all{std::sqrt(moved_m2), std::sqrt(moved_rad2)};
-  if (all.position_rms_m > kLittle_m || all.heading_rms_rad > kLittle_rad) return "";
-  return " It matters little: where it acts it moves each metre or radian by " + moved_text(all) +
-         (d.train.noise_floor ? ", in noise of " + figures_text(*d.train.noise_floor) : "") + ".";
-}
-
 // "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
 std::string without_units(std::string text) {
   constexpr std::string_view kDependsOn = " that depends on ";
@@ -179,6 +142,23 @@ std::string fit_line(const char* name, const FitTable& table) {
 
 }  // namespace
 
+std::string list_of(const std::vector<std::string>& words, const char* last_word) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == words.size() ? std::string(" ") + last_word + " " : ", ") + words[i];
+  return text;
+}
+
+bool is_fault(const Finding& finding) {
+  return is_data_fault(finding.effect) ||
+         (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
+}
+
+std::string figures_text(const FitFigures& f) {
+  return number_text("%.2f mm", 1e3 * f.position_rms_m) +
+         (f.has_heading() ? number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad)) : "");
+}
+
 std::string component_text(const std::string& component) {
   const std::size_t dot = component.find('.');
   if (dot != std::string::npos)
@@ -195,78 +175,6 @@ std::string effect_text(const std::string& effect, const std::string& component)
   // "truth frozen of the truth" says it twice
   if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_text(component);
   return text;
-}
-
-std::string verdict_sentence(const Diagnosis& diagnosis) {
-  std::vector<std::string> physics, measured, open, faults;  // `open`: names that these recordings do not tell apart
-  for (const Finding& f : diagnosis.findings) {
-    if (f.effect == "unknown") continue;
-    std::vector<std::string> either{effect_text(f.effect, f.component)};
-    if (diagnosis.verdict == Verdict::ambiguous)
-      for (const Alternative& a : f.alternatives) either.push_back(effect_text(a.effect, a.component));
-    if (either.size() > 3) {
-      either.resize(3);
-      either.push_back("others");
-    }
-    std::vector<std::string>& list = is_fault(f)                ? faults
-                                     : either.size() > 1        ? open
-                                     : is_of_the_measurement(f) ? measured
-                                                                : physics;
-    const std::string name = list_of(either, "or");
-    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
-  }
-  std::string sentence;
-  switch (diagnosis.verdict) {
-    case Verdict::found:
-    case Verdict::ambiguous: {
-      const bool any = !physics.empty() || !measured.empty();
-      if (!any && open.empty()) return "The data are at fault: " + list_of(faults, "and") + ".";
-      if (!physics.empty())
-        sentence = "What the model lacks: " + list_of(physics, "and") + "." + little_sentence(diagnosis);
-      else if (any)
-        sentence =
-            !open.empty() ? ""
-            : diagnosis.calibration_alone.innovations_are_correlated
-                ? "No physics is found missing, but what is left is no mere noise: it goes on from one sample of "
-                  "the truth to the next."
-                : "No physics is missing.";
-      if (!measured.empty())
-        sentence += (sentence.empty() ? "" : " ") +
-                    ("It was measured otherwise than the vehicle's file says: " + list_of(measured, "and") + ".");
-      if (!open.empty())
-        sentence += (any ? " Not told apart by these recordings: "
-                         : "Something is missing, and these recordings cannot tell what: ") +
-                    list_of(open, "and") + ".";
-      break;
-    }
-    case Verdict::nothing_missing:
-      sentence = diagnosis.calibration_alone.innovations_are_correlated
-                     ? "Nothing is found missing, but what calibration leaves is no mere noise: it goes on from one "
-                       "sample of the truth to the next."
-                 : diagnosis.not_testable.empty()
-                     ? "Nothing is missing: calibration explains these recordings down to their noise."
-                     : "Nothing is missing that these drives could show: calibration explains these recordings down "
-                       "to their noise.";
-      break;
-    case Verdict::unknown_effect:
-      sentence = "Something is missing that no known effect describes.";
-      for (const auto* also : {&physics, &measured}) open.insert(open.begin(), also->begin(), also->end());
-      if (!open.empty()) sentence += " Beside it: " + list_of(open, "and") + ".";
-      break;
-    case Verdict::cannot_say:
-      sentence = "These recordings cannot say whether anything is missing.";
-      break;
-  }
-  if (!faults.empty()) sentence += " The data are at fault too: " + list_of(faults, "and") + ".";
-  const bool by_unseen = is_refuted_by_unseen(diagnosis), by_simulator = is_refuted_by_simulator(diagnosis);
-  const std::string unseen = diagnosis.left_out_in_turn ? "what was left out in turn" : "what was held out";
-  if (by_unseen || by_simulator)
-    sentence += " But " +
-                (by_unseen && by_simulator ? unseen + " and the simulator do"
-                 : by_unseen               ? unseen + " does"
-                                           : "the simulator does") +
-                " not bear it out.";
-  return sentence;
 }
 
 std::string quantity_text(double value, double stderr_value, const std::string& unit) {

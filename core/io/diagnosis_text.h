@@ -8,8 +8,14 @@
 
 namespace odolab {
 
-// The result in one sentence.
-std::string verdict_sentence(const Diagnosis& diagnosis);
+// "a, b and c", with the word that comes before the last.
+std::string list_of(const std::vector<std::string>& words, const char* last_word);
+
+// Of the data: a tracked point that sat elsewhere in one recording is a fault of that one.
+bool is_fault(const Finding& finding);
+
+// "3.41 mm, 0.401 degrees".
+std::string figures_text(const FitFigures& figures);
 
 // "wheel eccentricity of the left wheel".
 std::string effect_text(const std::string& effect, const std::string& component);

@@ -6,8 +6,8 @@
 #include "app/cli/run/judge.h"
 #include "app/cli/run/outputs.h"
 #include "app/cli/terminal.h"
-#include "core/io/diagnosis_text.h"
 #include "core/io/lesson_toml.h"
+#include "core/io/verdict_sentence.h"
 #include "core/lesson/mystery.h"
 #include "physics/confirmed_diagnosis.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/diagnosis_json.h"
-#include "core/io/diagnosis_text.h"
+#include "core/io/verdict_sentence.h"
 #include "test/support/diagnosis_by_hand.h"
 
 namespace odolab {

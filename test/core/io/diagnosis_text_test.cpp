@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/diagnosis_html.h"
+#include "core/io/verdict_sentence.h"
 #include "test/support/diagnosis_by_hand.h"
 
 namespace odolab {
