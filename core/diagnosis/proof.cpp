@@ -189,7 +189,10 @@ void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
   d.train = table([](const Predicted& p) { return p.fitted; });
   d.left_out_in_turn = predictor.leaves_out_in_turn() && by_after.unseen;
   if (by_after.unseen) d.held_out = table([](const Predicted& p) { return *p.unseen; });
-  if (by_after.unseen && by_calibrated.unseen && !after.accepted.empty())
+  bool any_tells = false;
+  for (std::size_t m = 0; by_after.unseen && m < by_after.unseen->of_model.size(); ++m)
+    any_tells = any_tells || by_after.tells(m, by_calibrated);
+  if (any_tells && by_calibrated.unseen && !after.accepted.empty())
     d.unseen_gain = 0.5 * likelier_where_unseen(by_after, by_calibrated);
 }
 

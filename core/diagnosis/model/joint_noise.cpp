@@ -17,15 +17,23 @@ namespace {
 
 constexpr int kNoiseSamples = 5000;
 
+// Whether the place that the truth's frame is off by is no small part of a sample's error. `recorded`: what a sample
+// errs by, in times the white noise.
+bool is_off_by_much(const FittedNoise& noise, double recorded) {
+  constexpr double kNoSmallPart = 0.7;
+  const double off_m = noise.wander_m_per_sqrt_s * std::sqrt(0.5 * noise.wander_lasts_s);
+  return off_m > kNoSmallPart * recorded * noise.truth_position_m;
+}
+
 // The noise with the time after which the truth's frame comes back, where it does: where that is far likelier than that
-// it never does, and what it is off is no small part of a sample's error (`recorded`: times the white noise). What is
-// small may be something that sways, and is asked later.
+// it never does, and the frame is off by much: less may be something that sways, and is asked later; a heading alone
+// that is off for a while may be the vehicle's.
 FittedNoise with_its_time(const FittedNoise& never, double recorded,
                           const std::function<FittedNoise(const FittedNoise&)>& fitted,
                           const std::function<double(const FittedNoise&)>& minus_two_log_likelihood) {
   constexpr double kTimes_s[] = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0};
   constexpr int kFirst = 3, kLast = static_cast<int>(std::size(kTimes_s)) - 1;
-  constexpr double kFarLikelier = 20.0, kNoSmallPart = 0.7;
+  constexpr double kFarLikelier = 20.0;
   const double of_never = minus_two_log_likelihood(never);
   FittedNoise still = never;
   still.wander_m_per_sqrt_s = still.heading_wander_rad_per_sqrt_s = 0.0;
@@ -54,12 +62,7 @@ FittedNoise with_its_time(const FittedNoise& never, double recorded,
     }
     if (at != kFirst) break;
   }
-  const auto is_no_small_part = [&](double wander, double white) {
-    return wander * std::sqrt(0.5 * best.noise.wander_lasts_s) > kNoSmallPart * recorded * white;
-  };
-  const bool is_large = is_no_small_part(best.noise.wander_m_per_sqrt_s, best.noise.truth_position_m) ||
-                        is_no_small_part(best.noise.heading_wander_rad_per_sqrt_s, best.noise.truth_heading_rad);
-  return is_large && best.value < of_never - kFarLikelier ? best.noise : never;
+  return is_off_by_much(best.noise, recorded) && best.value < of_never - kFarLikelier ? best.noise : never;
 }
 
 }  // namespace
@@ -120,11 +123,14 @@ void JointModel::fit_noise() {
   if (any_commands) of_samples.add_timing();
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples, model.noise);
-  if (!std::exchange(asked_how_long_truth_lasts_, true)) {
-    const double averaged = runs_.front().samples_averaged;
+  const double recorded = std::sqrt(runs_.front().samples_averaged);
+  if (!std::exchange(asked_how_long_truth_lasts_, true))
     model.noise = with_its_time(
-        model.noise, std::sqrt(averaged), [&](const FittedNoise& from) { return fitted(whole, of_samples, from); },
+        model.noise, recorded, [&](const FittedNoise& from) { return fitted(whole, of_samples, from); },
         [&](const FittedNoise& noise) { return likelihood_of(whole, of_samples, noise).value; });
+  if (model.noise.wander_lasts_s > 0.0 && !is_off_by_much(model.noise, recorded)) {  // it was what has a name now
+    model.noise.wander_lasts_s = 0.0;
+    model.noise = fitted(whole, of_samples, model.noise);
   }
   // The truth's noise shows from sample to sample; the floor's in what it adds up to, as far as that is more than the
   // samples say: of a small sideways noise it says nothing.
