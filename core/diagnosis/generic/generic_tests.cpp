@@ -89,6 +89,10 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   };
   std::vector<Asked> asked;
   for (const Group& g : groups) {
+    if (g.of_wheel != 0) {
+      asked.push_back({&g, {g.of_wheel}});
+      continue;
+    }
     for (int channel = 0; channel < (g.of_turns ? kGenericChannels : kTurnOfItself); ++channel)
       asked.push_back({&g, {channel}});
     if (!g.is_memory) continue;

@@ -226,6 +226,12 @@ std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& 
   groups.push_back(hats_of(
       "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8, 0.0));
   groups.back().of_turns = true;
+  for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) {
+    const double side = (wheel == kLeftWheelAlone ? -0.5 : 0.5) * shaken.base_m;
+    const auto wheel_mps = [side](const EffectStep& s) { return s.speed_mps + side * s.yaw_rate_radps; };
+    groups.push_back(hats_of("its own speed [m/s]", views, wheel_mps, 7, shaken.speed_mps));
+    groups.back().of_wheel = wheel;
+  }
   groups.push_back(by_heading());
   groups.push_back(by_place(views));
   if (views.size() > 1) groups.push_back(by_recording(views.size()));

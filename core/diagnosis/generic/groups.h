@@ -15,6 +15,7 @@ struct Group {
   std::vector<double> at;
   std::function<void(const DriveView&, std::vector<std::vector<double>>&)> values;  // [function][step]
   std::vector<GenericWave> waves;
+  int of_wheel = 0;        // the channel of the wheel that is asked alone; 0: all channels are asked
   bool is_memory = false;  // of what was done before
   bool of_turns = false;   // asked of the turn by itself too; not of what a turn's beginning and end are told by, where
                            // whole counts leave their trace

@@ -305,6 +305,28 @@ TEST(Adequacy, TellsGustsFromATruthThatSwaysByItsRests) {
   EXPECT_TRUE(may_be_the_truth(*swaying)) << swaying->findings.front().where.regime;
 }
 
+// An encoder's reader that sleeps between slow counts: below 0.12 m/s of its own wheel three counts in a hundred are
+// lost.
+TEST(Adequacy, HearsAWheelThatIsOtherwiseAtASpeedOfItsOwn) {
+  constexpr double kBelow_mps = 0.12, kLost = 0.03;
+  test::GeneratorSettings g = test::under_motion_capture({0.075, 0.075, 0.34}, 0.0006, 0.02);
+  g.duration_s = 60.0;
+  Random random(51);
+  std::vector<Recording> recordings;
+  for (int run = 0; run < 4; ++run) {
+    g.inject = [radius_m = g.drive.wheel_radius_left_m](test::InjectedStep& s) {
+      if (std::abs(s.left_radps) * radius_m < kBelow_mps) s.left_m *= 1.0 + kLost;
+    };
+    recordings.push_back(test::generated(g, test::varied_driving(random, g.duration_s), random));
+    recordings.back().name = "run_" + std::to_string(run + 1);
+  }
+  const Result<Diagnosis> d = diagnose(recordings, {}, Vehicle{});
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  const std::string& regime = d->findings.front().where.regime;
+  EXPECT_NE(regime.find("left wheel per metre [1] that depends on its own speed"), std::string::npos) << regime;
+}
+
 // A map that turns by a tenth of a degree in a second, about a corner of the room.
 TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) {
   constexpr double kTurns_radps = 0.002;
