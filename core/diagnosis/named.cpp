@@ -167,9 +167,24 @@ void take_simpler_forms(JointModel& joint, Selected& selected, const Vehicle& no
 }
 
 std::string name_in_words(const Effect& effect) {
-  std::string name = effect.name + " of the " + effect.component;
+  std::string name = effect.name + (effect.component.rfind("both", 0) == 0 ? " of " : " of the ") + effect.component;
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+// What whole counts may feign is not named; but that it may be there is said.
+std::optional<std::string> hidden_by_counts(const JointModel& joint, const Selected& selected) {
+  constexpr double kPlainly = 1e-4;
+  const auto is_an_alternative = [&](const ScoredCandidate& c) {
+    return std::any_of(selected.alternatives.begin(), selected.alternatives.end(), [&](const auto& of_name) {
+      return std::any_of(of_name.begin(), of_name.end(),
+                         [&](const auto& a) { return a.effect->name == c.effect->name; });
+    });
+  };
+  for (const ScoredCandidate& c : joint.accepted.empty() ? selected.first_look : selected.beside_all)
+    if (!c.beyond_counts && c.p_value < kPlainly && !is_an_alternative(c))
+      return name_in_words(*c.effect) + " would describe the recordings, but so little of it whole counts may feign";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -254,6 +269,7 @@ std::optional<Named> named(const JointModel& calibrated, const Predictor& predic
     }
     now.intervals = refined(joint, inflations_of(selected));
   }
+  if (const auto hidden = hidden_by_counts(joint, selected)) now.warnings.push_back(*hidden);
   if (hinted)
     for (const AcceptedEffect& a : joint.accepted)
       now.warnings.push_back("the recordings that were fitted only hint at " + name_in_words(*a.effect) +
