@@ -188,6 +188,12 @@ double beyond_chance(const std::vector<ScoredCandidate>& evidence) {
   return sum;
 }
 
+double said_by(const std::vector<ScoredCandidate>& evidence) {
+  double sum = 0.0;
+  for (const ScoredCandidate& e : evidence) sum += e.test.statistic;
+  return sum;
+}
+
 // Whether the strongest name is but one form of a group: with the group let in little of it is left to be seen.
 bool names_its_form(const JointModel& bare, const JointModel& with_group,
                     const std::vector<ScoredCandidate>& evidence) {
@@ -361,6 +367,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
         simpler_first(in_place_of_names(joint, of_vehicle, Base::goes, error), of_vehicle, Base::goes);
     out.unnamed = std::move(instead.says_more);
     out.as_likely = std::move(instead.as_much);
+    if (!out.unnamed && out.as_likely && out.as_likely->gain > said_by(of_vehicle) + 2.0 * kClearlyBeaten)
+      out.unnamed = std::exchange(out.as_likely, std::nullopt);
   }
   if (sway && names == 0)
     if (Unnamed u = unnamed_sway(joint, *sway); !out.unnamed || u.gain > out.unnamed->gain) out.unnamed = std::move(u);
