@@ -247,30 +247,44 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   const Result<ReadyRecordings> ready =
       ready_recordings(train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); });
   if (!ready) return ready.error();
-  const Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
+  Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
   if (!calibrated_only) return calibrated_only.error();
-  JointModel calibrated = *calibrated_only;
-  calibrated.truth_errors = options.truth_errors;
-  calibrated.truth_feigns_m = options.truth_step_m + 0.5 * drive->wheelbase_m * options.truth_step_rad;
   if (!goes_on(progress, 0.3)) return stopped;
 
   Diagnosis d;
   d.calibration = d.calibration_alone = ready->calibration;
   d.warnings = ready->warnings;
   const Predictor predictor(ready->held_out, d.calibration_alone, nominal);
-  // A truth that is somewhere else for a while shows nothing of the vehicle. What does so time and again is no mishap.
-  constexpr int kMostUndone = 3;
+  JointModel calibrated = *calibrated_only;
   std::optional<Named> names;
-  for (int left_out = 0;; ++left_out) {
-    names = named(calibrated, predictor, options.family_wise_error, progress, left_out < kMostUndone);
-    if (!names) return stopped;
-    if (!names->selected.undone) break;
-    const Undone& u = *names->selected.undone;
-    d.warnings.push_back(in_words(u, ready->train[static_cast<std::size_t>(u.run)].recording.name));
-    calibrated.leave_out(u.run, u.from_s, u.to_s);
-    calibrated.fit(2);
-    calibrated.fit_noise_and_all();
+  std::vector<std::string> of_undone;
+  const auto are_sought = [&](const JointModel& from) {
+    calibrated = from;
+    calibrated.truth_errors = options.truth_errors;
+    calibrated.truth_feigns_m = options.truth_step_m + 0.5 * drive->wheelbase_m * options.truth_step_rad;
+    of_undone.clear();
+    // A truth that is somewhere else for a while shows nothing of the vehicle. What does so time and again is no
+    // mishap.
+    constexpr int kMostUndone = 3;
+    for (int left_out = 0;; ++left_out) {
+      names = named(calibrated, predictor, options.family_wise_error, progress, left_out < kMostUndone);
+      if (!names) return false;
+      if (!names->selected.undone) return true;
+      const Undone& u = *names->selected.undone;
+      of_undone.push_back(in_words(u, ready->train[static_cast<std::size_t>(u.run)].recording.name));
+      calibrated.leave_out(u.run, u.from_s, u.to_s);
+      calibrated.fit(2);
+      calibrated.fit_noise_and_all();
+    }
+  };
+  if (!are_sought(*calibrated_only)) return stopped;
+  // What seemed a truth that comes back has names now: they are sought as if it never did.
+  if (calibrated.model.noise.wander_lasts_s > 0.0 && names->joint.model.noise.wander_lasts_s == 0.0) {
+    calibrated_only = calibrated_model(*ready, nominal, false);
+    if (!calibrated_only) return calibrated_only.error();
+    if (!are_sought(*calibrated_only)) return stopped;
   }
+  d.warnings.insert(d.warnings.end(), of_undone.begin(), of_undone.end());
   const auto& [joint, selected, intervals, by_joint, by_calibrated, with_held_out, of_refuted] = *names;
   d.warnings.insert(d.warnings.end(), of_refuted.begin(), of_refuted.end());
 

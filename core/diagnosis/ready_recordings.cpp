@@ -200,7 +200,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   return ready;
 }
 
-Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal) {
+Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal, bool truth_may_come_back) {
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
   for (Result<InnovationRun>& run : condensed_runs(ready.train, nominal, ready.calibration, true)) {
@@ -209,6 +209,7 @@ Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle&
     runs.push_back(*std::move(run));
   }
   JointModel joint(std::move(runs), commands, ready.calibration, nominal);
+  joint.truth_may_come_back = truth_may_come_back;
   joint.truth_jumps = ready.truth_jumps;
   joint.truth_noise_lasts = ready.calibration.truth_apart_s > 0.0;
   joint.linearise();

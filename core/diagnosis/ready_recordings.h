@@ -26,7 +26,9 @@ struct ReadyRecordings {
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress);
 
-// All that were fitted under their calibration, with their noise, and no effect yet.
-Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal);
+// All that were fitted under their calibration, with their noise, and no effect yet. `truth_may_come_back`: whether it
+// is asked after how long the truth's frame does (JointModel::truth_may_come_back).
+Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal,
+                                    bool truth_may_come_back = true);
 
 }  // namespace odolab

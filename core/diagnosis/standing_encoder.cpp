@@ -201,7 +201,8 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
     return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
   };
-  for (const auto& [first, last] : holds_of(wheels, wheel, kPace + 1)) {
+  for (const Hold& hold : holds_of(wheels, wheel, kPace + 1)) {
+    const std::size_t first = hold.first, last = hold.last;
     if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
     const double middle_s = 0.5 * (wheels[first].time_s + wheels[last].time_s);
     const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /

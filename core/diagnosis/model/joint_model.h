@@ -111,6 +111,8 @@ class JointModel {
   bool is_foretold = true;
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
   bool truth_noise_lasts = false;
+  // Whether the first fit of the noise asks after how long the truth's frame comes back.
+  bool truth_may_come_back = true;
   std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else it may err by; null: nothing
   double truth_feigns_m = 0.0;  // of a wheel's way at a place or moment, by the steps that the truth has
   bool truth_jumps = false;     // time and again, so that what happens at one moment is not told from these
@@ -274,7 +276,6 @@ class JointModel {
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
   std::shared_ptr<const Linearisation> now_;
-  bool asked_how_long_truth_lasts_ = false;
   std::optional<Standing> linearised_at_;  // none where the runs have changed since
   bool has_columns_ = false;
   std::vector<Eigen::VectorXd> residual_;             // of each run, whitened

@@ -124,7 +124,7 @@ void JointModel::fit_noise() {
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples, model.noise);
   const double recorded = std::sqrt(runs_.front().samples_averaged);
-  if (!std::exchange(asked_how_long_truth_lasts_, true))
+  if (std::exchange(truth_may_come_back, false))
     model.noise = with_its_time(
         model.noise, recorded, [&](const FittedNoise& from) { return fitted(whole, of_samples, from); },
         [&](const FittedNoise& noise) { return likelihood_of(whole, of_samples, noise).value; });
