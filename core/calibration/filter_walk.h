@@ -1,9 +1,35 @@
-// How a filter walks through the truth samples of a run: where it begins, what it leaves out, where it starts anew.
+// What the filters over truth samples have in common: how they walk through a run, where they begin, what they leave
+// out and where they start anew; what is hidden behind a count; and an innovation as it is told.
 #pragma once
 
+#include <cmath>
+
 #include "core/calibration/innovations.h"
+#include "core/calibration/pose_covariance.h"
 
 namespace odolab {
+
+// Of the pose in its own frame: the rounding of both wheels' rotations at one reading.
+inline PoseCovariance count_error(const InnovationRun& run, const DifferentialDrive& drive) {
+  const double count = count_rad(run, drive), of_one = 12.0 * run.readings_averaged, b = drive.wheelbase_m;
+  const double left = std::pow(count * drive.wheel_radius_left_m, 2) / of_one,
+               right = std::pow(count * drive.wheel_radius_right_m, 2) / of_one;
+  return {0.25 * (left + right), 0.0, 0.5 * (right - left) / b, 0.0, 0.0, (left + right) / (b * b)};
+}
+
+// Of `residual` and `white` three numbers each.
+inline Innovation innovation_of(double time_s, int truth_index, int size, const double* residual, const double* white,
+                                const PoseCovariance& covariance, double squared, bool set_aside) {
+  Innovation out;
+  out.time_s = time_s;
+  out.truth_index = truth_index;
+  out.size = size;
+  for (int j = 0; j < 3; ++j) out.residual[j] = residual[j], out.white[j] = white[j];
+  covariance.pack(out.covariance);
+  out.squared = squared;
+  out.set_aside = set_aside;
+  return out;
+}
 
 constexpr char kRestartHere = 2;  // of what is set aside
 

@@ -37,12 +37,7 @@ void carry_columns(Matrix& of, double dx, double dy) {
 
 LastingTruthFilter::LastingTruthFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                                        const FilterOptions& options)
-    : run_(run), summed_(summed), model_(model), options_(options) {
-  const DifferentialDrive& drive = model.drive;
-  const double of_one = 12.0 * run.readings_averaged, count = count_rad(run, drive), b = drive.wheelbase_m;
-  const double left = square(count * drive.wheel_radius_left_m) / of_one,
-               right = square(count * drive.wheel_radius_right_m) / of_one;
-  count_error_ = {0.25 * (left + right), 0.0, 0.5 * (right - left) / b, 0.0, 0.0, (left + right) / (b * b)};
+    : run_(run), summed_(summed), model_(model), options_(options), count_error_(count_error(run, model.drive)) {
   const double half_s = 0.5 * model.noise.wander_lasts_s;
   off_position2_ = square(model.noise.wander_m_per_sqrt_s) * half_s;
   off_heading2_ = run.truth_has_heading ? square(model.noise.heading_wander_rad_per_sqrt_s) * half_s : 0.0;
@@ -218,17 +213,9 @@ bool LastingTruthFilter::update(int k) {
   const bool refused = options_.gate > 0.0 && squared > (has_heading ? options_.gate : 0.9 * options_.gate);
   const PoseCovariance covariance{s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)};
   const int n = has_heading ? 3 : 2;
-  if (options_.on_innovation) {
-    Innovation out;
-    out.time_s = truth.time_s;
-    out.truth_index = k;
-    out.size = n;
-    for (int j = 0; j < 3; ++j) out.residual[j] = residual(j), out.white[j] = white(j);
-    covariance.pack(out.covariance);
-    out.squared = squared;
-    out.set_aside = refused;
-    options_.on_innovation(out);
-  }
+  if (options_.on_innovation)
+    options_.on_innovation(
+        innovation_of(truth.time_s, k, n, residual.data(), white.data(), covariance, squared, refused));
   if (refused) {
     sums_.set_aside[k] = 1;
     report_step(k);

@@ -42,15 +42,7 @@ class PoseFilter {
     jacobian_.setZero(3, carried);
     information_.setZero(carried, carried);
     score_.setZero(carried);
-    const DifferentialDrive& drive = model.drive;
-    const double count = count_rad(run, drive);
-    const double of_one = 12.0 * run.readings_averaged;
-    const double left = std::pow(count * drive.wheel_radius_left_m, 2) / of_one,
-                 right = std::pow(count * drive.wheel_radius_right_m, 2) / of_one;
-    const double b = drive.wheelbase_m;
-    count_error_.xx = 0.25 * (left + right);
-    count_error_.xh = 0.5 * (right - left) / b;
-    count_error_.hh = (left + right) / (b * b);
+    count_error_ = count_error(run, model.drive);
     position2_ = model.noise.truth_position_m * model.noise.truth_position_m;
     heading2_ = model.noise.truth_heading_rad * model.noise.truth_heading_rad;
     wheel2_ = model.noise.wheel_m_per_sqrt_m * model.noise.wheel_m_per_sqrt_m;
@@ -235,16 +227,9 @@ class PoseFilter {
     };
     const bool refused = options_.gate > 0.0 && squared > (n == 3 ? options_.gate : 0.9 * options_.gate);
     if (options_.on_innovation) {
-      Innovation out;
-      out.time_s = truth.time_s;
-      out.truth_index = k;
-      out.size = n;
-      for (int j = 0; j < 3; ++j) out.residual[j] = residual[j];
-      whiten(left, out.white);
-      s.pack(out.covariance);
-      out.squared = squared;
-      out.set_aside = refused;
-      options_.on_innovation(out);
+      double white[3];
+      whiten(left, white);
+      options_.on_innovation(innovation_of(truth.time_s, k, n, residual, white, s, squared, refused));
     }
     if (refused) {
       sums_.set_aside[k] = 1;

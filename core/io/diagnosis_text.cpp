@@ -112,7 +112,6 @@ std::string finding_line(const Finding& f) {
   return line;
 }
 
-// What all names together do to a stretch, where that is little: after ten metres a thousandth of the way. Else empty.
 // "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
 std::string without_units(std::string text) {
   constexpr std::string_view kDependsOn = " that depends on ";

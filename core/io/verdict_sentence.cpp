@@ -1,5 +1,6 @@
 #include "core/io/verdict_sentence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -16,7 +17,7 @@ bool is_of_the_measurement(const Finding& finding) {
   return is_of_the_truth(finding.effect) || finding.effect == "clock_rate";
 }
 
-// Where all that was named moves each metre or radian by 0.1 mm and 0.2 mrad at most.
+// What all names together do to a stretch, where that is little: after ten metres a thousandth of the way. Else empty.
 std::string little_sentence(const Diagnosis& d) {
   constexpr double kLittle_m = 1e-4, kLittle_rad = 2e-4;
   double moved_m2 = 0.0, moved_rad2 = 0.0;

@@ -46,16 +46,21 @@ NoiseSlopes sums_of(const Driven& d, const FittedNoise& noise) {
   return noise_slopes(d.run, d.summed, model);
 }
 
+// Of twice the negative log-likelihood by the logarithm of one size.
+double slope_by_differences(const Driven& d, const FittedNoise& noise, int size) {
+  constexpr double kBy = 1e-4;
+  FittedNoise more = noise, less = noise;
+  size_of(more, size) *= std::exp(kBy);
+  size_of(less, size) *= std::exp(-kBy);
+  return (sums_of(d, more).value - sums_of(d, less).value) / (2.0 * kBy);
+}
+
 TEST(NoiseFit, SlopesAgreeWithDifferences) {
   for (bool with_heading : {true, false}) {
     const Driven d = driven(with_heading);
     const NoiseSlopes sums = sums_of(d, kNoise);
     for (int size = 0; size < noise_size::count; ++size) {
-      constexpr double kBy = 1e-4;
-      FittedNoise more = kNoise, less = kNoise;
-      size_of(more, size) *= std::exp(kBy);
-      size_of(less, size) *= std::exp(-kBy);
-      const double slope = (sums_of(d, more).value - sums_of(d, less).value) / (2.0 * kBy);
+      const double slope = slope_by_differences(d, kNoise, size);
       // The room's directions of the noise turn with the pose that is found, by its error: a thousandth; more where no
       // heading is read and a radian is open at first, but a small part of the slope's own scatter.
       const double scatter = std::sqrt(sums.curvature[(noise_size::count + 1) * size]);
@@ -72,11 +77,7 @@ TEST(NoiseFit, SlopesAgreeWithDifferencesWhereTheTruthsNoiseLasts) {
   const Driven d = driven(true);
   const NoiseSlopes sums = sums_of(d, kLasting);
   for (int size = 0; size < noise_size::count; ++size) {
-    constexpr double kBy = 1e-4;
-    FittedNoise more = kLasting, less = kLasting;
-    size_of(more, size) *= std::exp(kBy);
-    size_of(less, size) *= std::exp(-kBy);
-    const double slope = (sums_of(d, more).value - sums_of(d, less).value) / (2.0 * kBy);
+    const double slope = slope_by_differences(d, kLasting, size);
     EXPECT_NEAR(sums.slope[size], slope, 0.002 * std::abs(slope) + 0.02) << size;
   }
 }
