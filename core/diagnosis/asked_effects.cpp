@@ -67,10 +67,13 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
     }
     all.push_back(std::move(asked));
   }
-  std::stable_sort(all.begin(), all.end(), [](const AskedEffect& a, const AskedEffect& b) {
-    return a.p_value != b.p_value ? a.p_value < b.p_value : a.log_likelihood_gain > b.log_likelihood_gain;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const AskedEffect& a, const AskedEffect& b) { return is_likelier(a, b); });
   return all;
+}
+
+bool is_likelier(const AskedEffect& a, const AskedEffect& b) {
+  return a.p_value != b.p_value ? a.p_value < b.p_value : a.log_likelihood_gain > b.log_likelihood_gain;
 }
 
 }  // namespace odolab

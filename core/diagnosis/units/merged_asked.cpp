@@ -4,16 +4,13 @@
 #include <cmath>
 
 #include "core/base/chi_square.h"
+#include "core/diagnosis/asked_effects.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/component_names.h"
 
 namespace odolab {
 
 namespace {
-
-bool is_likelier(const AskedEffect& a, const AskedEffect& b) {
-  return a.p_value != b.p_value ? a.p_value < b.p_value : a.log_likelihood_gain > b.log_likelihood_gain;
-}
 
 void keep_likeliest(std::vector<AskedEffect>& all, AskedEffect more) {
   const auto same = std::find_if(all.begin(), all.end(), [&](const AskedEffect& a) { return a.effect == more.effect; });

@@ -100,6 +100,16 @@ std::int64_t unit_ns(const std::string& unit) {
   return unit == "ns" ? 1 : unit == "us" ? 1000 : unit == "ms" ? 1'000'000 : 1'000'000'000;
 }
 
+// No log of a drive has rows so far apart: where no unit was given, its stamps are hardly seconds.
+std::optional<std::string> no_seconds(const MappedColumn& time, double lasted_s, std::uint64_t rows) {
+  constexpr std::uint64_t kFewest = 10;
+  constexpr double kFarApart_s = 5.0;
+  const double apart_s = rows > 1 ? lasted_s / static_cast<double>(rows - 1) : 0.0;
+  if (!time.unit.empty() || time.factor != 1.0 || rows < kFewest || apart_s < kFarApart_s) return std::nullopt;
+  return "rows are " + number_text("%.3g", apart_s) + " s apart if '" + time.column +
+         "' is in seconds: time_s=" + time.column + ",ms (or us, ns) says otherwise";
+}
+
 bool recognises(const std::string&, std::string_view) { return false; }  // only where a mapping is given
 
 Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
@@ -128,7 +138,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
 
   RowsLeftOut left_out;
   std::vector<double> values(layout.channels.size());
-  std::int64_t last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
+  std::int64_t first_ns = 0, last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
   std::uint64_t kept = 0, out_of_order = 0;
   bool more = !named || rows->next(cells);
   for (; more; more = rows->next(cells)) {
@@ -186,7 +196,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
       any = any || !std::isnan(value);
     }
     if (!any) continue;  // a row of other columns
-    ++kept;
+    if (kept++ == 0) first_ns = *time_ns;
     spool.add(*time_ns, values.data());
   }
   if (kept == 0) return left_out.error(path, "rows of numbers in the mapped columns");
@@ -197,6 +207,9 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
                  "rows in order of time: sort them first"};
   const std::string name = std::filesystem::path(path).filename().string();
   left_out.warn(name, streams.warnings);
+  if (layout.time.cell != kNowhere)
+    if (const auto doubt = no_seconds(*layout.time.mapped, 1e-9 * static_cast<double>(last_ns - first_ns), kept))
+      streams.warnings.push_back(name + ": " + *doubt);
   if (rows->decimal_commas()) streams.warnings.push_back(name + ": commas in numbers are taken for decimal points");
   if (streams.provenance.empty()) streams.provenance = "text, by a mapping";
   return Done{};

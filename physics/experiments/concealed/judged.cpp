@@ -77,10 +77,27 @@ std::vector<double> times_on_bump(const Run& run, const DrawnEffect& bump, doubl
   return times;
 }
 
+// An event that came half a second later differs by what it does until then.
+double first_half_second_sigma(const DrawnCase& c, std::size_t effect) {
+  const double from_s = c.effects[effect].active.parameter("at_s");
+  std::vector<InnovationRun> runs;
+  for (const Run& run : c.given) {
+    runs.push_back(run.known);
+    InnovationRun& known = runs.back();
+    ExtraColumn first = known.extra[effect];
+    first.value = 0.0;
+    for (std::size_t i = 0; i < first.per_step.size(); ++i)
+      if (known.wheels[i].time_s < from_s || known.wheels[i].time_s >= from_s + 0.5) first.per_step[i] = {};
+    known.extra.push_back(first);
+  }
+  return significance(runs, c.truth()).back();
+}
+
 void judge_place(Judged& j, const DrawnCase& c, const Diagnosis& d) {
   if (!j.named_first || d.findings.empty()) return;
   const Finding& f = d.findings.front();
-  for (const DrawnEffect& e : c.effects) {
+  for (std::size_t k = 0; k < c.effects.size(); ++k) {
+    const DrawnEffect& e = c.effects[k];
     if (label(f.effect, f.component) != label(e.active)) continue;
     const Vec2 place{e.active.parameter("x_m"), e.active.parameter("y_m")};
     if (e.active.effect == "slip_zone")
@@ -88,6 +105,7 @@ void judge_place(Judged& j, const DrawnCase& c, const Diagnosis& d) {
     const bool event = e.only_in_run >= 0, bump = e.active.effect == "bump";
     if (!event && !bump) continue;
     j.time_error_s = 1e3;
+    if (event) j.first_half_second_sigma = first_half_second_sigma(c, k);
     if (bump) j.place_error_m = 1e3;
     for (std::size_t r = 0; r < c.given.size(); ++r) {
       if (c.given[r].driven.recording.name != f.where.recording || f.where.time_s.empty()) continue;
@@ -186,6 +204,7 @@ std::string Judged::line() const {
             number_text("+-%.2g", p.stderr_value);
   if (place_error_m) text += number_text(" place %.2f m", *place_error_m);
   if (time_error_s) text += number_text(" time %.2f s", *time_error_s);
+  if (first_half_second_sigma) text += number_text(" (first half second %.1f sigma)", *first_half_second_sigma);
   for (std::size_t k = 0; k < oracle_sigma.size(); ++k)
     text += number_text(" of %.1f sigma,", significance[k]) + number_text(" oracle off by %+.1f", oracle_sigma[k]);
   for (double p : asked_p) text += number_text(" p %.2g", p);

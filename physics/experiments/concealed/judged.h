@@ -53,6 +53,9 @@ struct Judged {
 
   std::vector<JudgedParameter> parameters;            // of the findings that are right
   std::optional<double> place_error_m, time_error_s;  // of events and zones that were named first
+  // What an event does in its first half second, in sigma for a fit that knows everything else: how well any method
+  // can know its time.
+  std::optional<double> first_half_second_sigma;
   // Mean squared error gathered over a metre on held-out runs, of the points where the wheels touch the floor.
   double calibrated_m2 = 0.0, with_findings_m2 = 0.0, oracle_m2 = 0.0;
   double seconds = 0.0;  // that diagnosis took

@@ -154,6 +154,21 @@ TEST(MappedText, LeavesOutRowsThatAreNoneAndSaysSo) {
             std::vector<std::string>{"log.csv: 4 rows left out, the first in line 3: 'x' is no number"});
 }
 
+TEST(MappedText, DoubtsSecondsThatLieFarApart) {
+  ScratchFolder folder;
+  std::string text = "t,l,r\n";
+  for (int i = 0; i < 20; ++i) text += std::to_string(20'000'000 * i) + ",0.1,0.1\n";  // 50 Hz in nanoseconds
+  const std::string path = folder.write("log.csv", text);
+  const auto warnings = [&](const std::string& time) {
+    return import_recording({path}, mapped({time, "left_wheel_rad=l", "right_wheel_rad=r"}))->warnings;
+  };
+  EXPECT_EQ(
+      warnings("time_s=t"),
+      std::vector<std::string>{"log.csv: rows are 2e+07 s apart if 't' is in seconds: time_s=t,ms (or us, ns) says "
+                               "otherwise"});
+  EXPECT_TRUE(warnings("time_s=t,ns").empty());
+}
+
 TEST(MappedText, SaysWhatAMappingLacks) {
   ScratchFolder folder;
   const std::string path = folder.write("log.csv", "t,l\n0,1\n");
