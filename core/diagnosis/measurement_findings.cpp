@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/chi_square.h"
+#include "core/diagnosis/naming/lag_and_delay.h"
 
 namespace odolab {
 
@@ -96,9 +97,14 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const In
   f.log_likelihood_gain = 0.5 * z * z;
   f.p_value = chi_square_tail(z * z, 1);
   f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
-  if (delay)
+  if (delay) {
     f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
                               "one clock for commands and truth: on their own the two are the same"});
+    if (std::none_of(joint.accepted.begin(), joint.accepted.end(),
+                     [](const AcceptedEffect& a) { return a.effect->only_commands; }))
+      if (const std::optional<Alternative> lag = lag_instead(joint, off, f.log_likelihood_gain))
+        f.alternatives.push_back(*lag);
+  }
   findings.push_back(f);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "core/base/chi_square.h"
 #include "core/diagnosis/naming/material.h"
 
 namespace odolab {
@@ -68,6 +69,16 @@ bool are_at_one_place(const Moment& a, const Moment& b, double wheelbase_m) {
          length(a.place - b.place) < std::max(kOnePlace_m, wheelbase_m);
 }
 
+// Twice what noise makes, or further where windows are so few that it would come to that more than once in 60 000 (of
+// five places).
+bool is_off(double square, double of_noise, int windows, int numbers_each) {
+  constexpr double kTwice = 4.0, kByChance = 1.0 / 60000.0;  // of squares
+  constexpr int kEnough = 5;
+  if (square < kTwice * of_noise) return false;
+  const int numbers = windows * numbers_each;
+  return windows >= kEnough || chi_square_tail(numbers * square / of_noise, numbers) < kByChance;
+}
+
 }  // namespace
 
 // Once may be a truth that found itself elsewhere. What names mend three quarters of is theirs; and what acts all the
@@ -94,12 +105,11 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 }
 
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run) {
-  constexpr int kFewestWindows = 5;            // of so many noise makes twice itself once in 60 000
-  constexpr double kTwice = 4.0, kHalf = 0.5;  // of squares
+  constexpr double kHalf = 0.5;  // of squares
   const JointModel::GatheredError error = named.gathered_error(first_run);
-  if (error.windows < kFewestWindows || is_nothing(error)) return std::nullopt;
-  const bool place_is_off = error.position_m2 >= kTwice * error.noise_position_m2,
-             heading_is_off = error.heading_rad2 >= kTwice * error.noise_heading_rad2;
+  if (error.windows == 0 || is_nothing(error)) return std::nullopt;
+  const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows, 2),
+             heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows, 1);
   if (!place_is_off && !heading_is_off) return std::nullopt;
   const bool names_physics =
       std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));

@@ -158,6 +158,15 @@ void JointModel::add_priors() {
     gram_(c, c) += 1.0 / (size[c] * size[c]);
     zr_(c) += nuisance_active[c] ? (nuisance(nominal, c) - nuisance(now, c)) / (size[c] * size[c]) : 0.0;
   }
+  if (mean_radius_is_held_) {
+    constexpr double kHeld = 1e8;  // to a ten-thousandth of its prior, as calibration does
+    double off = 0.0;
+    for (int c : {0, 1}) off += 0.5 * (nuisance(nominal, c) - nuisance(now, c)) / size[c];
+    for (int c : {0, 1}) {
+      for (int with : {0, 1}) gram_(c, with) += kHeld * 0.25 / (size[c] * size[with]);
+      zr_(c) += nuisance_active[c] ? kHeld * 0.5 / size[c] * off : 0.0;
+    }
+  }
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
     gram_(6 + r, 6 + r) += 25.0;
     zr_(6 + r) += clock_active[r] ? 25.0 * (nominal_.truth.time_offset_s - clock_s[r]) : 0.0;

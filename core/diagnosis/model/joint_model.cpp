@@ -30,7 +30,10 @@ double& JointModel::nuisance(InnovationModel& m, int c) {
 
 JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_commands,
                        const LeastSquaresCalibration& start, const Vehicle& nominal)
-    : runs_(std::move(runs)), from_commands_(std::move(from_commands)), nominal_(nominal) {
+    : runs_(std::move(runs)),
+      from_commands_(std::move(from_commands)),
+      nominal_(nominal),
+      mean_radius_is_held_(start.scale_is_open) {
   model.drive = std::get<DifferentialDrive>(start.vehicle.kind);
   model.truth = start.vehicle.truth;
   model.noise = start.noise;

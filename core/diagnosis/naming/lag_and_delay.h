@@ -1,6 +1,9 @@
 // A lag and a clock's offset, which feign each other.
 #pragma once
 
+#include <optional>
+
+#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
@@ -15,6 +18,9 @@ void put_lag_where_likeliest(JointModel& joint);
 // lag in the place of the clocks' delay, or of half of it, is the likelier beyond doubt, noise and all, it is let in.
 // The model must have been linearised.
 void let_lag_in(JointModel& joint);
+
+// Whether a lag as long as a delay that was found describes the recordings too: then it stays beside it.
+std::optional<Alternative> lag_instead(const JointModel& joint, double delay_s, double gain_of_delay);
 
 // The variance of an accepted effect's size that is held so, by how the likelihood bends along the valley: its column
 // says nothing of that. In its own unit, squared.

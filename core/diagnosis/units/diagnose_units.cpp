@@ -122,6 +122,14 @@ void put_lengths_beside_truth(GeometryFit& geometry, const JoinedModel& model) {
   }
 }
 
+// Where the truth sits, and its clocks, as the unit that carries it knows them: better than stretches of half a metre do.
+void put_truth_as_on(const Diagnosis& carrying, const Vehicle& nominal, GeometryFit& geometry) {
+  const LeastSquaresCalibration& known = carrying.calibration;
+  geometry.vehicle.truth.axle_T_tracked = known.vehicle.truth.axle_T_tracked;
+  for (std::size_t r = 0; r < std::min(geometry.clock_s.size(), known.time_offset_s.size()); ++r)
+    geometry.clock_s[r] = known.time_offset_s[r] - nominal.truth.time_offset_s;
+}
+
 // Too little outside truth to say where each unit was.
 bool is_poor(const JoinedRun& run) {
   constexpr double kLongest_s = 1.0;  // between two samples, in the mean
@@ -176,6 +184,10 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     told = told_together(runs, nominal, geometry.clock_s, names, options.family_wise_error,
                          [&](double share) { return goes_on(progress, 0.1 * share); });
   }
+  if (told) {
+    put_lengths_beside_truth(geometry, told->model);
+    set_most_pivots_right(geometry);
+  }
 
   std::vector<Diagnosis> diagnoses;
   std::optional<ErringJoint> erring;
@@ -219,6 +231,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
       if (of_unit && (!erring || of_unit->gain > erring->gain)) erring = std::move(of_unit);
     }
     diagnoses.push_back(std::move(*one));
+    if (units[u].carries_truth) put_truth_as_on(diagnoses.back(), nominal, geometry);
   }
   if (told) {
     const Read without = samples_of(understood_without(*told, train, runs, geometry.clock_s, nominal)),
@@ -236,12 +249,8 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   }
   if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
   const bool are_trucks = units.size() > 1 && !std::holds_alternative<MultiCastor>(nominal.kind);
-  if (told) {
-    put_lengths_beside_truth(geometry, told->model);
-    set_most_pivots_right(geometry);
-  } else if (are_trucks) {
+  if (!told && are_trucks)
     put_inside_beside_truth(geometry, train, nominal, diagnoses, [&](double) { return goes_on(progress, 0.95); });
-  }
   if (!goes_on(progress, 0.95)) return Error{"diagnosis", "stopped before its end", ""};
   Diagnosis d = merged(diagnoses, geometry, nominal, train);
   Vehicle as_mounted = nominal;

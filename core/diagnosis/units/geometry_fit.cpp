@@ -73,14 +73,15 @@ class Passage {
     const int n = unknowns_->count();
     Normal normal = zero(n);
     if (stretches_.empty()) return normal;
-    const std::vector<Vector3d> residuals = residuals_at(x);
+    std::vector<Pose> by_wheels;
+    const std::vector<Vector3d> residuals = residuals_at(x, measured(), &by_wheels);
     std::vector<MatrixXd> jacobian(residuals.size(), MatrixXd::Zero(3, n));
     for (int k : own_unknowns()) {
       VectorXd more = x, less = x;
       const double step = k >= unknowns_->clock(0) ? clock_step_s() : kStep;
       more[k] += step;
       less[k] -= step;
-      const std::vector<Vector3d> up = residuals_at(more), down = residuals_at(less);
+      const std::vector<Vector3d> up = residuals_at(more, by_wheels), down = residuals_at(less, by_wheels);
       for (std::size_t i = 0; i < residuals.size(); ++i) jacobian[i].col(k) = (up[i] - down[i]) / (2.0 * step);
     }
     const Vector3d sigma = deviations(residuals);
@@ -117,7 +118,7 @@ class Passage {
   // Sum of squares in units of the deviations of another fit.
   double squares_at(const VectorXd& x, const Vector3d& sigma) const {
     double sum = 0.0;
-    for (const Vector3d& r : residuals_at(x))
+    for (const Vector3d& r : residuals_at(x, measured()))
       for (int k = 0; k < 3; ++k) {
         const double z = std::abs(r[k]) / sigma[k];
         sum += z <= kHuber ? z * z : kHuber * (2.0 * z - kHuber);
@@ -125,7 +126,7 @@ class Passage {
     return sum;
   }
   Vector3d deviations_at(const VectorXd& x) const {
-    return stretches_.empty() ? Vector3d::Ones() : deviations(residuals_at(x));
+    return stretches_.empty() ? Vector3d::Ones() : deviations(residuals_at(x, measured()));
   }
 
  private:
@@ -198,17 +199,22 @@ class Passage {
   }
 
   // Eq. 1: where the joints say the axle is, less where the wheels do once their stretch is laid on the other; in the
-  // wheels' frame.
-  std::vector<Vector3d> residuals_at(const VectorXd& x) const {
+  // wheels' frame. `tracked`: of each sample. `by_wheels`: gets the tracked point as the wheels have it, so laid. An error
+  // of a heading throws what hangs on it to the side, and turns what that place changes with a length just there: with
+  // derivatives of poses as measured, each length would come out too short by its square.
+  std::vector<Vector3d> residuals_at(const VectorXd& x, const std::vector<Pose>& tracked,
+                                     std::vector<Pose>* by_wheels_alone = nullptr) const {
     const At now = at(x);
     std::vector<Vector3d> all;
+    if (by_wheels_alone) *by_wheels_alone = tracked;
     for (const Stretch& s : stretches_) {
-      std::vector<Pose> by_joints, by_wheels;
+      std::vector<Pose> by_joints, by_wheels, tracked_T_own;
       for (std::size_t k = s.first; k <= s.last; ++k) {
         const double at_s =
             std::clamp(tracked_[k].time_s - now.offset_s, now.wheels.front().time_s, now.wheels.back().time_s);
-        by_joints.push_back(tracked_[k].pose * tracked_T_axle(now.vehicle, static_cast<std::size_t>(unit_),
-                                                              joints_at(run_->samples, at_s)));
+        tracked_T_own.push_back(
+            tracked_T_axle(now.vehicle, static_cast<std::size_t>(unit_), joints_at(run_->samples, at_s)));
+        by_joints.push_back(tracked[k] * tracked_T_own.back());
         by_wheels.push_back(*pose_at(now.wheels, at_s));
       }
       const double n = static_cast<double>(by_joints.size());
@@ -226,9 +232,19 @@ class Passage {
       for (std::size_t k = 0; k < by_joints.size(); ++k) {
         const Vec2 rest = rotated(off[k] - mean, -by_wheels[k].heading_rad);  // along and across the unit
         all.push_back({rest.x_m, rest.y_m, wrapped(by_joints[k].heading_rad - by_wheels[k].heading_rad - turned_rad)});
+        if (!by_wheels_alone) continue;
+        const Vec2 laid = rotated(by_wheels[k].position() + mean, turned_rad);
+        (*by_wheels_alone)[s.first + k] =
+            Pose{laid.x_m, laid.y_m, by_wheels[k].heading_rad + turned_rad} * inverse(tracked_T_own[k]);
       }
     }
     return all;
+  }
+
+  std::vector<Pose> measured() const {
+    std::vector<Pose> poses;
+    for (const TimedPose& t : tracked_) poses.push_back(t.pose);
+    return poses;
   }
 
   static Vector3d deviations(const std::vector<Vector3d>& residuals) {

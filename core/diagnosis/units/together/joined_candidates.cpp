@@ -57,6 +57,22 @@ void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_w
   }
 }
 
+// Which form of one thing it is, is said by the simpler unless that says less by two standard errors.
+void take_simpler_form(const JoinedModel& model, double believed_white, ScoredTogether& best) {
+  constexpr double kPlainly = 4.0;
+  const Effect& e = *best.candidate.effect;
+  if (e.simpler_form.empty()) return;
+  std::vector<double> shape = best.shape;
+  shape.back() = e.simpler_form[static_cast<std::size_t>(shape.back())];
+  if (shape == best.shape) return;
+  JoinedColumns columns = columns_at(model, best.candidate, shape);
+  const JoinedTest test = model.test(columns, believed_white);
+  if (test.judged() < best.test.judged() - kPlainly) return;
+  best.test = test;
+  best.shape = std::move(shape);
+  best.columns = std::make_shared<const JoinedColumns>(std::move(columns));
+}
+
 }  // namespace
 
 void ScoredTogether::take_if_better(const JoinedTest& other, const std::vector<double>& at, JoinedColumns of) {
@@ -137,6 +153,7 @@ ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, d
   if (!best.columns) return best;
   for (int rounds = 0; rounds < (free_shapes(*c.effect).size() > 1 ? 2 : 1); ++rounds)
     climb(model, c, believed_white, shapes, best);
+  take_simpler_form(model, believed_white, best);
   best.log_tests = std::log(std::max(1.0, static_cast<double>(shapes.size()) * c.effect->tests_of_a_shape));
   return best;
 }

@@ -347,11 +347,11 @@ class Naming {
 
   // With what a form is wrong by, and of shapes as wide as what was scanned.
   Eigen::MatrixXd covariance_of(const ScoredTogether& s) const {
-    constexpr double kForm = 0.03;
+    constexpr double kForm = 0.03, kOneOfSeveral = 0.05;
+    const Effect& e = *s.candidate.effect;
     Eigen::MatrixXd covariance = s.test.inflation * s.test.covariance;
     const double size = s.test.value.norm();
-    covariance.diagonal().array() += std::pow(kForm * size, 2);
-    const Effect& e = *s.candidate.effect;
+    covariance.diagonal().array() += std::pow((e.forms.size() > 1 ? kOneOfSeveral : kForm) * size, 2);
     const std::vector<int> free = free_shapes(e);
     const Eigen::Index amplitudes = covariance.rows(), shapes = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(amplitudes + shapes, amplitudes + shapes);
