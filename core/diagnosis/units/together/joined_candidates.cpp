@@ -57,6 +57,18 @@ void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_w
   }
 }
 
+// A truth whose noise lasts makes steps at all times: by how much more they say, in recordings without the best of them,
+// than white noise makes.
+double scatter_elsewhere(const std::vector<std::vector<double>>& shapes, const std::vector<double>& said,
+                         const ScoredTogether& best) {
+  constexpr std::size_t kFewestToScatter = 20;
+  std::vector<double> statistics;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (shapes[k][0] != best.shape[0]) statistics.push_back(said[k]);
+  return statistics.size() < kFewestToScatter ? 1.0
+                                              : std::max(1.0, scatter_of_statistics(statistics, best.test.freedom));
+}
+
 // Which form of one thing it is, is said by the simpler unless that says less by two standard errors.
 void take_simpler_form(const JoinedModel& model, double believed_white, ScoredTogether& best) {
   constexpr double kPlainly = 4.0;
@@ -137,9 +149,11 @@ ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, d
   ScoredTogether best;
   best.candidate = c;
   std::vector<std::vector<double>> shapes = shapes_of(*c.effect, model.views(c.units.front()));
+  std::vector<double> said(shapes.size(), 0.0);
   const auto try_shape = [&](std::size_t k) {
     JoinedColumns columns = columns_at(model, c, shapes[k]);
     const JoinedTest test = model.test(columns, believed_white);
+    said[k] = test.statistic;
     const bool is_better = !best.columns || test.judged() > best.test.judged();
     best.take_if_better(test, shapes[k], std::move(columns));
     return is_better;
@@ -154,6 +168,8 @@ ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, d
   for (int rounds = 0; rounds < (free_shapes(*c.effect).size() > 1 ? 2 : 1); ++rounds)
     climb(model, c, believed_white, shapes, best);
   take_simpler_form(model, believed_white, best);
+  if (c.effect->of_one_recording) best.least_inflation = scatter_elsewhere(shapes, said, best);
+  best.test.inflation = std::max(best.test.inflation, best.least_inflation);
   best.log_tests = std::log(std::max(1.0, static_cast<double>(shapes.size()) * c.effect->tests_of_a_shape));
   return best;
 }

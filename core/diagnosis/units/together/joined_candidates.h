@@ -21,9 +21,10 @@ struct ScoredTogether {
   std::vector<double> shape;
   std::shared_ptr<const JoinedColumns> columns;  // null: it acts nowhere
   JoinedTest test;
-  double log_tests = 0.0;   // logarithm of the shapes that it was chosen from
-  double p_value = 1.0;     // over these and all candidates
-  double of_moments = 0.0;  // above 0: it happens at one, and its inflation is that of all moments
+  double log_tests = 0.0;        // logarithm of the shapes that it was chosen from
+  double p_value = 1.0;          // over these and all candidates
+  double of_moments = 0.0;       // above 0: it happens at one, and its inflation is that of all moments
+  double least_inflation = 1.0;  // by what the same would say from other times on, in other recordings
 
   // For the choice between names: what was looked for in more places, or has more numbers, must say more.
   double says() const { return test.judged() - 2.0 * test.freedom - 2.0 * log_tests; }

@@ -254,7 +254,7 @@ class Naming {
 
   void ask_again(const JoinedModel& with, ScoredTogether& s) const {
     s.test = with.test(*s.columns, s.of_moments > 0.0 ? -1.0 : believed_white_);
-    if (s.of_moments > 0.0) s.test.inflation = s.of_moments;
+    s.test.inflation = s.of_moments > 0.0 ? s.of_moments : std::max(s.test.inflation, s.least_inflation);
     judge(s, scored_.size());
   }
 
@@ -313,11 +313,11 @@ class Naming {
     }
     AcceptedEffect accepted{&e, s.shape, {}, false};
     for (Eigen::Index a = 0; a < s.test.value.size(); ++a) accepted.value.push_back(s.test.value[a]);
-    f.parameters = parameters_of(accepted, covariance_of(s));
+    JoinedModel others = without(k), with = others;
+    f.parameters = parameters_of(accepted, covariance_of(others, s));
     for (const FoundParameter& p : f.parameters)
       if (p.name == "at_s") f.where.time_s = {{p.value - k95 * p.stderr_value, p.value + k95 * p.stderr_value}};
 
-    JoinedModel others = without(k), with = others;
     f.gathered = gathered_evidence(others.evidence_of(*s.columns, s.test.value), model_.names(), f.log_likelihood_gain);
     with.let_in(*s.columns);
     std::vector<ScoredTogether> instead = scored_;
@@ -345,8 +345,28 @@ class Naming {
     return name;
   }
 
-  // With what a form is wrong by, and of shapes as wide as what was scanned.
-  Eigen::MatrixXd covariance_of(const ScoredTogether& s) const {
+  // By how much a time can be another until that says less by one, in the mean of both sides.
+  double stderr_of_time(const JoinedModel& others, const ScoredTogether& s, std::size_t shape) const {
+    constexpr double kLeast_s = 0.05, kMost_s = 3.2;
+    double sum_s = 0.0;
+    for (double side : {-1.0, 1.0}) {
+      double by_s = kLeast_s;
+      for (; by_s < kMost_s; by_s *= 2.0) {
+        std::vector<double> moved = s.shape;
+        moved[shape] += side * by_s;
+        const JoinedTest test = others.test(columns_at(others, s.candidate, moved), believed_white_);
+        const double less = s.test.judged() - test.statistic / s.test.inflation;
+        if (less < 1.0) continue;
+        by_s /= std::sqrt(less);
+        break;
+      }
+      sum_s += 0.5 * std::max(by_s, kLeast_s);
+    }
+    return sum_s;
+  }
+
+  // With what a form is wrong by; of places and limits as wide as what was scanned.
+  Eigen::MatrixXd covariance_of(const JoinedModel& others, const ScoredTogether& s) const {
     constexpr double kForm = 0.03, kOneOfSeveral = 0.05;
     const Effect& e = *s.candidate.effect;
     Eigen::MatrixXd covariance = s.test.inflation * s.test.covariance;
@@ -361,6 +381,10 @@ class Naming {
     for (Eigen::Index f = 0; f < shapes; ++f) {
       double nearest = 1e300;
       const auto k = static_cast<std::size_t>(free[static_cast<std::size_t>(f)]);
+      if (e.shapes[k].name == "at_s") {
+        all(amplitudes + f, amplitudes + f) = std::pow(stderr_of_time(others, s, k), 2);
+        continue;
+      }
       for (const std::vector<double>& shape : shapes_tried)
         if (std::abs(shape[k] - s.shape[k]) > 1e-9) nearest = std::min(nearest, std::abs(shape[k] - s.shape[k]));
       if (nearest < 1e300) all(amplitudes + f, amplitudes + f) = nearest * nearest;
