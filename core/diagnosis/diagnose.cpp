@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/advice/advice.h"
@@ -145,14 +144,6 @@ std::vector<Confusion> confusions(const JointModel& joint, const Selected& selec
       }
     }
   return confused;
-}
-
-// How many names the catalogue has for a vehicle that has encoders.
-std::size_t entries_for_encoders() {
-  std::set<std::string> names;
-  for (const Effect& e : catalogue())
-    if (!e.only_commands) names.insert(e.name);
-  return names.size();
 }
 
 const char* headline(Verdict verdict) {
@@ -385,9 +376,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   d.asked = asked_effects(joint, selected, looks);
   d.not_testable = next.not_testable;
   std::erase_if(d.not_testable, [&](const NotTestable& n) { return is_said(n.effect, d.findings); });
-  // Less than a third of them could show.
-  if (d.verdict == Verdict::nothing_missing && 3 * d.not_testable.size() > 2 * entries_for_encoders())
-    d.verdict = Verdict::cannot_say;
+  if (d.verdict == Verdict::nothing_missing && are_most_effects(d.not_testable)) d.verdict = Verdict::cannot_say;
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);

@@ -56,9 +56,23 @@ Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& ang
   return rates;
 }
 
-// That part of a run, its wheel read on by so much from the reading behind `at` on.
-InnovationRun part_about(const InnovationRun& run, std::size_t at, double offset_s, double WheelSample::*wheel,
-                         double more_rad) {
+// Off the pace before and behind, which is steady: a wheel that slows and speeds up again takes more than one reading
+// for it.
+bool is_off_a_steady_pace(const Rates& rates, std::size_t i, double gap_s, double count_rad) {
+  constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0, kBeside = 0.3;
+  constexpr double kFarFromTrembling = 20.0;  // of counts that are lost: no bump loses any
+  const double out_by = std::abs(rates.out_by[i]);
+  const bool loses = rates.out_by[i] * (rates.each[i] - rates.out_by[i]) < 0.0;
+  const double least =
+      loses ? std::min(kOfUsual * rates.usual, kFarFromTrembling * rates.trembles) : kOfUsual * rates.usual;
+  return out_by >= least && out_by >= kTrembles * rates.trembles && out_by * gap_s >= kCounts * count_rad &&
+         !rates.is_of_the_stamp(i, gap_s) &&
+         std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) <= kBeside * out_by;
+}
+
+// That part of a run, its wheels read on by so much from the reading behind `at` on.
+InnovationRun part_about(const InnovationRun& run, std::size_t at, double offset_s, double left_more_rad,
+                         double right_more_rad) {
   constexpr double kAround_s = 1.5, kMore_s = 0.3;
   InnovationRun part;
   part.truth_has_heading = run.truth_has_heading;
@@ -67,7 +81,9 @@ InnovationRun part_about(const InnovationRun& run, std::size_t at, double offset
   for (std::size_t i = 0; i < run.wheels.size(); ++i) {
     if (std::abs(run.wheels[i].time_s - time_s) > kAround_s + kMore_s) continue;
     part.wheels.push_back(run.wheels[i]);
-    if (i > at) part.wheels.back().*wheel += more_rad;
+    if (i <= at) continue;
+    part.wheels.back().left_rad += left_more_rad;
+    part.wheels.back().right_rad += right_more_rad;
   }
   for (std::size_t k = 0; k < run.truth.size(); ++k) {
     if (std::abs(run.truth[k].time_s - offset_s - time_s) > kAround_s) continue;
@@ -106,40 +122,42 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
   return jumps;
 }
 
-TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
-                                  double WheelSample::*wheel) {
-  constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0, kBeside = 0.3;
-  constexpr double kFarFromTrembling = 20.0;  // of counts that are lost: no bump loses any
+JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated) {
   constexpr double kBeyondDoubt = 30.0;  // of twice the log-likelihood
+  // The same where both wheels do so at once by more than 1 g: no vehicle does.
+  constexpr double kNoVehicle_mps2 = 9.81, kOfNoVehicle = 10.0;
   constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
-  std::vector<double> time_s, angle_rad;
-  for (const WheelSample& w : run.wheels) time_s.push_back(w.time_s), angle_rad.push_back(w.*wheel);
-  const Rates rates = rates_of(time_s, angle_rad);
+  std::vector<double> time_s, left_rad, right_rad;
+  for (const WheelSample& w : run.wheels)
+    time_s.push_back(w.time_s), left_rad.push_back(w.left_rad), right_rad.push_back(w.right_rad);
+  const Rates of_left = rates_of(time_s, left_rad), of_right = rates_of(time_s, right_rad);
+  const double count = count_rad(run, calibrated.drive);
   FilterOptions options;
   options.derivatives = false;
-  TimeStretches jumps;
-  for (std::size_t i = 1; i + 1 < rates.each.size(); ++i) {
-    const double out_by = std::abs(rates.out_by[i]), gap_s = time_s[i + 1] - time_s[i];
-    const bool loses = rates.out_by[i] * (rates.each[i] - rates.out_by[i]) < 0.0;
-    const double least = loses ? std::min(kOfUsual * rates.usual, kFarFromTrembling * rates.trembles)
-                               : kOfUsual * rates.usual;
-    if (out_by < least || out_by < kTrembles * rates.trembles ||
-        out_by * gap_s < kCounts * count_rad(run, calibrated.drive) || rates.is_of_the_stamp(i, gap_s))
-      continue;
-    // A wheel that slows and speeds up again takes more than one reading for it.
-    if (std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) > kBeside * out_by) continue;
+  JumpsOfWheels jumps;
+  for (std::size_t i = 1; i + 1 < of_left.each.size(); ++i) {
+    const double gap_s = time_s[i + 1] - time_s[i];
+    const bool left = is_off_a_steady_pace(of_left, i, gap_s, count),
+               right = is_off_a_steady_pace(of_right, i, gap_s, count);
+    if (!left && !right) continue;
     const auto misfit = [&](double share) {
-      const InnovationRun part =
-          part_about(run, i, calibrated.truth.time_offset_s, wheel, -share * rates.out_by[i] * gap_s);
+      const InnovationRun part = part_about(run, i, calibrated.truth.time_offset_s,
+                                            left ? -share * of_left.out_by[i] * gap_s : 0.0,
+                                            right ? -share * of_right.out_by[i] * gap_s : 0.0);
       if (part.truth.size() < 2) return 0.0;
       const InnovationSums sums = filtered(part, summed_up(part, calibrated), calibrated, options);
       return sums.chi2 + sums.log_determinant;
     };
     // A parabola through none of it, half and all: the likelihood is one of the share.
     const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = none - 2.0 * half + all;
-    if (none - all < kBeyondDoubt || bend <= 0.0) continue;
+    const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
+                 slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
+    const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
+                               slowed_mps2 > kNoVehicle_mps2;
+    if (none - all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt) || bend <= 0.0) continue;
     const double best = 0.5 + 0.25 * (none - all) / bend;
-    if (std::abs(best - 1.0) < kAllOfIt) jumps.emplace_back(time_s[i], time_s[i + 1]);
+    if (std::abs(best - 1.0) >= kAllOfIt) continue;
+    (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + 1]);
   }
   return jumps;
 }

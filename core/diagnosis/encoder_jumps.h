@@ -14,9 +14,13 @@ namespace odolab {
 TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector<double>& angle_rad, double radius_m,
                             double count_rad);
 
-// Readings of one wheel that are off the pace before and behind them by a quarter of its usual speed, or that lose so
-// much of an even pace as it never trembles by, though a wheel might, where the truth shows beyond doubt that the vehicle went on at its pace: each from one reading to the next.
-TimeStretches jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated,
-                                  double WheelSample::*wheel);
+struct JumpsOfWheels {
+  TimeStretches left, right, both;  // of one alone, and of both at once
+};
+
+// Readings of a wheel, or of both at once, that are off the pace before and behind them by a quarter of its usual speed,
+// or that lose so much of an even pace as it never trembles by, though a wheel might, where the truth shows beyond doubt
+// that the vehicle went on at its pace: each from one reading to the next.
+JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated);
 
 }  // namespace odolab

@@ -1,7 +1,6 @@
 #include "core/diagnosis/ready_recordings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -23,7 +22,7 @@ namespace {
 // Where the truth jumps time and again, these moments are left out of all recordings. Returns the jumps.
 std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
                                        const Vehicle& nominal) {
-  std::vector<std::vector<TruthJump>> jumps(each.size());
+  std::vector<TruthJumps> jumps(each.size());
   std::vector<TimeStretches> of_each(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
@@ -31,7 +30,7 @@ std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::
     const Result<InnovationRun> run = ready_run(*each[r], nominal);
     if (!run) return;
     jumps[r] = truth_jumps(*run, model);
-    for (const TruthJump& jump : jumps[r]) {
+    for (const TruthJump& jump : jumps[r].jumps) {
       // On the wheels' clock, from one reading to another.
       const auto by_time = [](const WheelSample& w, double t) { return w.time_s < t; };
       const auto begin = run->wheels.begin(), end = run->wheels.end() - 1;
@@ -41,8 +40,8 @@ std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::
     }
   });
   std::vector<TruthJump> all;
-  for (const std::vector<TruthJump>& of : jumps) all.insert(all.end(), of.begin(), of.end());
-  if (!ready.truth_jumps && !are_of_the_truth(all)) return {};
+  for (const TruthJumps& of : jumps) all.insert(all.end(), of.jumps.begin(), of.jumps.end());
+  if (!ready.truth_jumps && (!are_of_the_truth(all) || !stand_out(jumps))) return {};
   for (std::size_t r = 0; r < each.size(); ++r) {
     TimeStretches& left_out_s = each[r]->left_out_s;
     left_out_s.insert(left_out_s.end(), of_each[r].begin(), of_each[r].end());
@@ -83,33 +82,41 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
 // Where a reading is off its wheel's pace and the truth knows nothing of it, it is left out. Whether there is any.
 bool leave_out_encoder_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
                              const Vehicle& nominal) {
-  std::vector<std::array<TimeStretches, 2>> of_each(each.size());
+  std::vector<JumpsOfWheels> of_each(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
     const Result<InnovationRun> run = ready_run(*each[r], nominal);
     if (!run || each[r]->from_commands) return;
     const InnovationModel model = model_of(ready.calibration, r);
-    of_each[r] = {jumps_against_truth(*run, model, &WheelSample::left_rad),
-                  jumps_against_truth(*run, model, &WheelSample::right_rad)};
+    of_each[r] = jumps_against_truth(*run, model);
   });
   bool any = false;
+  struct Of {
+    TimeStretches JumpsOfWheels::*wheel;
+    const char *component, *in_words;
+  };
+  constexpr Of kOf[] = {{&JumpsOfWheels::left, "left_wheel", "the left encoder jumps"},
+                        {&JumpsOfWheels::right, "right_wheel", "the right encoder jumps"},
+                        {&JumpsOfWheels::both, "both_wheels", "both encoders jump at once"}};
   for (std::size_t r = 0; r < each.size(); ++r)
-    for (const bool left : {true, false}) {
-      TimeStretches& jumps = of_each[r][left ? 0 : 1];
+    for (const Of& of : kOf) {
+      TimeStretches& jumps = of_each[r].*of.wheel;
       std::erase_if(jumps, [&](const auto& jump) {
         return std::any_of(each[r]->left_out_s.begin(), each[r]->left_out_s.end(),
                            [&](const auto& known) { return jump.first < known.second && jump.second > known.first; });
       });
       if (jumps.empty()) continue;
       any = true;
-      const std::string side = left ? "left" : "right";
-      each[r]->faults.push_back({"encoder_data_fault", side + "_wheel", each[r]->recording.name, jumps,
-                                 "the " + side + " encoder jumps, and the truth goes on as before, " +
+      each[r]->faults.push_back({"encoder_data_fault", of.component, each[r]->recording.name, jumps,
+                                 std::string(of.in_words) + ", and the truth goes on as before, " +
                                      std::to_string(jumps.size()) + " time(s); left out"});
     }
   for (std::size_t r = 0; r < each.size(); ++r) {
     TimeStretches& left_out_s = each[r]->left_out_s;
-    for (const TimeStretches& jumps : of_each[r]) left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
+    for (const Of& of : kOf) {
+      const TimeStretches& jumps = of_each[r].*of.wheel;
+      left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
+    }
     left_out_s = joined(std::move(left_out_s));
   }
   return any;

@@ -43,11 +43,23 @@ bool comes_back(const std::vector<Innovation>& seen, std::size_t jump) {
   return !began_anew && next < seen.size() && off_m(next) < kLeft * off_m(jump);
 }
 
+void look_at_changes(const std::vector<Innovation>& seen, TruthJumps& out) {
+  constexpr double kMiddle = 1.1774;  // of the length of what scatters by one in x and in y
+  std::vector<double> sizes_m;
+  for (std::size_t i = 1; i < seen.size(); ++i)
+    if (seen[i].truth_index == seen[i - 1].truth_index + 1)
+      sizes_m.push_back(
+          std::hypot(seen[i].residual[0] - seen[i - 1].residual[0], seen[i].residual[1] - seen[i - 1].residual[1]));
+  out.changes = static_cast<double>(sizes_m.size());
+  out.change_m = median(std::move(sizes_m)) / kMiddle;
+}
+
 }  // namespace
 
-std::vector<TruthJump> truth_jumps(const InnovationRun& given, const InnovationModel& model) {
-  std::vector<TruthJump> jumps;
-  if (!given.truth_has_heading) return jumps;
+TruthJumps truth_jumps(const InnovationRun& given, const InnovationModel& model) {
+  TruthJumps found;
+  std::vector<TruthJump>& jumps = found.jumps;
+  if (!given.truth_has_heading) return found;
   InnovationRun run = given;
   if (run.cut.empty()) run.cut.assign(run.truth.size(), 0);
   const SummedRun summed = summed_up(run, model);
@@ -62,6 +74,7 @@ std::vector<TruthJump> truth_jumps(const InnovationRun& given, const InnovationM
     options.on_innovation = [&](const Innovation& i) { seen.push_back(i); };
     options.on_step = [&](const FilterStep& s) { pose[static_cast<std::size_t>(s.truth_index)] = s.pose; };
     filtered(run, summed, model, options);
+    if (pass == 0) look_at_changes(seen, found);
     more = false;
     for (std::size_t i = 1; i + kGoOn < seen.size(); ++i) {
       const Innovation& jump = seen[i];
@@ -91,7 +104,19 @@ std::vector<TruthJump> truth_jumps(const InnovationRun& given, const InnovationM
       jumps.push_back(out);
     }
   }
-  return jumps;
+  return found;
+}
+
+bool stand_out(const std::vector<TruthJumps>& recordings) {
+  constexpr double kBeyondChance = 4.0;
+  std::vector<double> sizes_m;
+  for (const TruthJumps& r : recordings)
+    for (const TruthJump& jump : r.jumps) sizes_m.push_back(length(jump.by));
+  const double middle_m = median(sizes_m);
+  double as_large_by_chance = 0.0;
+  for (const TruthJumps& r : recordings)
+    if (r.change_m > 0.0) as_large_by_chance += r.changes * std::exp(-0.5 * std::pow(middle_m / r.change_m, 2));
+  return 0.5 * static_cast<double>(sizes_m.size()) > kBeyondChance * as_large_by_chance;
 }
 
 bool are_of_the_truth(const std::vector<TruthJump>& jumps) {

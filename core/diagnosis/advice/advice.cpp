@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
@@ -247,6 +248,13 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, c
     }
   }
   return out;
+}
+
+bool are_most_effects(const std::vector<NotTestable>& not_testable) {
+  std::set<std::string> names;
+  for (const Effect& e : catalogue())
+    if (!e.only_commands) names.insert(e.name);
+  return 3 * not_testable.size() > 2 * names.size();
 }
 
 }  // namespace odolab

@@ -52,13 +52,25 @@ struct Moment {
   int run = 0;
   double at_s = 0.0;
   Vec2 place;
+  std::optional<Vec2> bumped;  // of a bump: where its wheel stood
 };
 
 Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
   const int run = static_cast<int>(a.shape[0]);
   const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
   const std::size_t step = std::min(view.step_at(a.shape[1]), view.steps.size() - 1);
-  return {run, a.shape[1], view.steps[step].position};
+  const EffectStep& s = view.steps[step];
+  Moment moment{run, a.shape[1], s.position, std::nullopt};
+  const double side = a.effect->component == component_of(Wheel::left) ? 0.5 : -0.5;
+  if (a.effect->name == "bump")
+    moment.bumped = s.position + rotated({0.0, side * joint.model.drive.wheelbase_m}, s.heading_rad);
+  return moment;
+}
+
+// Something on the floor that a wheel climbs once in its middle and once at its edge.
+bool are_one_bump(const Moment& a, const Moment& b) {
+  constexpr double kOneThing_m = 0.1;
+  return a.bumped && b.bumped && length(*a.bumped - *b.bumped) < kOneThing_m;
 }
 
 // What comes twice to one place, a wheel's breadth apart, is the floor's: nobody pushes there again.
@@ -69,14 +81,11 @@ bool are_at_one_place(const Moment& a, const Moment& b, double wheelbase_m) {
          length(a.place - b.place) < std::max(kOnePlace_m, wheelbase_m);
 }
 
-// Twice what noise makes, or further where windows are so few that it would come to that more than once in 60 000 (of
-// five places).
-bool is_off(double square, double of_noise, int windows, int numbers_each) {
+// Twice what noise makes, and further than chance takes it once in 60 000. A window counts as one number: what the
+// wheels err by at its start moves its end to one side.
+bool is_off(double square, double of_noise, int windows) {
   constexpr double kTwice = 4.0, kByChance = 1.0 / 60000.0;  // of squares
-  constexpr int kEnough = 5;
-  if (square < kTwice * of_noise) return false;
-  const int numbers = windows * numbers_each;
-  return windows >= kEnough || chi_square_tail(numbers * square / of_noise, numbers) < kByChance;
+  return square >= kTwice * of_noise && chi_square_tail(windows * square / of_noise, windows) < kByChance;
 }
 
 }  // namespace
@@ -108,8 +117,8 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
   constexpr double kHalf = 0.5;  // of squares
   const JointModel::GatheredError error = named.gathered_error(first_run);
   if (error.windows == 0 || is_nothing(error)) return std::nullopt;
-  const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows, 2),
-             heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows, 1);
+  const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows),
+             heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows);
   if (!place_is_off && !heading_is_off) return std::nullopt;
   const bool names_physics =
       std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
@@ -160,7 +169,8 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
                      in_words(moments, joint) + ")";
     return u;
   }
-  if (moments.size() != 2 || !are_at_one_place(moments[0], moments[1], joint.model.drive.wheelbase_m))
+  if (moments.size() != 2 || !are_at_one_place(moments[0], moments[1], joint.model.drive.wheelbase_m) ||
+      are_one_bump(moments[0], moments[1]))
     return std::nullopt;
   const Vec2 between = 0.5 * (moments[0].place + moments[1].place);
   u.where.zone = WhereFound::Zone{between.x_m, between.y_m, std::max(kOnePlace_m, joint.model.drive.wheelbase_m)};

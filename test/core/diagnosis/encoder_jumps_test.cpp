@@ -108,12 +108,26 @@ TEST(EncoderJumps, AreWhereAReadingIsOffItsPaceAndTheTruthIsNot) {
   for (const WheelSample& w : jumps.wheels) time_s.push_back(w.time_s), angle_rad.push_back(w.left_rad);
   EXPECT_TRUE(encoder_jumps(time_s, angle_rad, 0.1, 0.003).empty()) << "a wheel might do so";
 
-  const TimeStretches found = jumps_against_truth(jumps, model, &WheelSample::left_rad);
+  const TimeStretches found = jumps_against_truth(jumps, model).left;
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found.front().first, 6.0, 1e-9);
   EXPECT_NEAR(found.front().second, 6.04, 1e-9);
-  EXPECT_TRUE(jumps_against_truth(jumps, model, &WheelSample::right_rad).empty());
-  EXPECT_TRUE(jumps_against_truth(slows, model, &WheelSample::left_rad).empty());
+  EXPECT_TRUE(jumps_against_truth(jumps, model).right.empty());
+  EXPECT_TRUE(jumps_against_truth(slows, model).left.empty());
+}
+
+// A counter's board that restarts loses counts of both: each wheel put right alone would turn the vehicle.
+TEST(EncoderJumps, AreWhereBothLoseTheSameAtOnce) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  InnovationRun run = falls_behind(model, false);
+  for (std::size_t i = 151; i < run.wheels.size(); ++i) run.wheels[i].right_rad -= 0.1;
+  const JumpsOfWheels found = jumps_against_truth(run, model);
+  ASSERT_EQ(found.both.size(), 1u);
+  EXPECT_NEAR(found.both.front().first, 6.0, 1e-9);
+  EXPECT_TRUE(found.left.empty());
+  EXPECT_TRUE(found.right.empty());
 }
 
 // A hundredth of a second's worth of counts, as of one byte that was read wrongly; as much too many may be a bump.
@@ -124,7 +138,7 @@ TEST(EncoderJumps, AreWhereAnEvenPaceLosesLittle) {
   for (const double share : {0.25, -0.25}) {  // of 0.1 rad: a fifth of a reading
     InnovationRun run = falls_behind(model, false);
     for (std::size_t i = 151; i < run.wheels.size(); ++i) run.wheels[i].left_rad += (1.0 - share) * 0.1;
-    EXPECT_EQ(jumps_against_truth(run, model, &WheelSample::left_rad).size(), share > 0.0 ? 1u : 0u) << share;
+    EXPECT_EQ(jumps_against_truth(run, model).left.size(), share > 0.0 ? 1u : 0u) << share;
   }
 }
 
@@ -138,7 +152,7 @@ TEST(EncoderJumps, AreNotWhereAWheelSlowsAndSpeedsUpAgain) {
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t i = 151 + k; i < run.wheels.size(); ++i) run.wheels[i].left_rad -= slowed_rad[k];
   for (std::size_t i = 151; i < run.wheels.size(); ++i) run.wheels[i].left_rad += 0.1;  // instead of the jump
-  EXPECT_TRUE(jumps_against_truth(run, model, &WheelSample::left_rad).empty());
+  EXPECT_TRUE(jumps_against_truth(run, model).left.empty());
 }
 
 }  // namespace

@@ -269,14 +269,17 @@ std::vector<JoinedFilter::Impact> JoinedModel::impacts(std::size_t run) const {
 
 ScoreByBatches JoinedModel::score_by_batches(const JoinedColumns& columns) const {
   const JoinedTest by = test(columns, -1.0);
-  if (by.statistic <= 0.0) return {};
-  const MatrixXd cross = z_.transpose() * columns;
-  return score_along((columns - z_ * gram_.solve(cross)) * by.value);
+  return by.statistic > 0.0 ? score_along(trace_of(columns, by.value)) : ScoreByBatches{};
+}
+
+VectorXd JoinedModel::trace_of(const JoinedColumns& columns, const VectorXd& value) const {
+  const VectorXd motion = columns * value;
+  return motion - z_ * gram_.solve(z_.transpose() * motion);
 }
 
 std::vector<std::vector<SampleEvidence>> JoinedModel::evidence_of(const JoinedColumns& columns,
                                                                   const VectorXd& value) const {
-  const VectorXd trace = (columns - z_ * gram_.solve(z_.transpose() * columns)) * value;
+  const VectorXd trace = trace_of(columns, value);
   const VectorXd left = residual_ - z_ * at_best_ - trace;
   std::vector<std::vector<SampleEvidence>> all;
   Index first = 0;
@@ -331,7 +334,7 @@ JoinedTest JoinedModel::test(const JoinedColumns& columns, double batches_believ
   t.value = size.cwiseInverse().cwiseProduct(t.value);
   t.covariance = size.cwiseInverse().asDiagonal() * t.covariance * size.cwiseInverse().asDiagonal();
   if (batches_believed_white >= 0.0 && t.statistic > kWorthAsking) {
-    const ScoreByBatches by = score_by_batches(columns);
+    const ScoreByBatches by = score_along(trace_of(columns, t.value));
     t.inflation = by.u.empty() ? 1.0 : by.inflation(batches_believed_white);
     t.cross_validated = by.cross_validated();
   }

@@ -80,6 +80,8 @@ class JoinedModel {
   std::vector<JoinedColumn> moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
                                      const std::vector<std::size_t>& units) const;
   void linearise();
+  // What columns at such values leave once all of the model is fitted to it.
+  Eigen::VectorXd trace_of(const JoinedColumns& columns, const Eigen::VectorXd& value) const;
   // Of the score along a direction of what is left.
   ScoreByBatches score_along(const Eigen::VectorXd& direction) const;
   void solve();  // for what has been put into z_

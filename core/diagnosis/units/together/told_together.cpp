@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/base/quantile.h"
+#include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joint_errors.h"
@@ -144,6 +145,8 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
   }
   for (const JoinedName& name : told.said.names) d.findings.push_back(name.finding);
   put_in_order(d.findings);
+  // What one unit by itself could not say all of them may.
+  if (d.verdict == Verdict::cannot_say && !are_most_effects(d.not_testable)) d.verdict = Verdict::nothing_missing;
   if (told.said.names.empty() || d.verdict == Verdict::unknown_effect) return;
   d.verdict =
       std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return !f.alternatives.empty(); })
