@@ -17,6 +17,7 @@ struct CommandedBase {
   static constexpr double kStep_s = 0.0005;
   double command_mps = 0.0, command_radps = 0.0;  // as logged
   double speed_mps = 0.0, yaw_rate_radps = 0.0;   // as it goes
+  double heading_rad = 0.0;                       // as it stands
 };
 
 // `next`: what it is told, and makes of it, in each step.
@@ -29,6 +30,7 @@ inline Recording commanded(const std::string& name, int steps, Random& random,
   CommandedBase base;
   Pose pose;
   for (int i = 0; i < steps; ++i) {
+    base.heading_rad = pose.heading_rad;
     next(i, base);
     if (i % 20 == 0) {
       r.time_s.push_back(kStep_s * i);

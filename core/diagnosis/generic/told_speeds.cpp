@@ -36,6 +36,20 @@ struct Law {
   std::function<BodyMotion(double way, const DriveView& view)> motion;
 };
 
+// Up to such yaw rates what is told on a straight may be all that a driver steers with against the turns of the wheels'
+// noise: then nothing comes of it, since the noise was there first.
+double steered_radps(const JointModel& joint) {
+  constexpr double kSigmas = 3.0, kOver_m = 1.0;
+  const FittedNoise& noise = joint.model.noise;
+  double fastest_mps = 0.0;
+  for (const DriveView& v : joint.views())
+    for (const EffectStep& s : v.steps) fastest_mps = std::max(fastest_mps, std::abs(s.speed_mps));
+  const double turn_rad_per_sqrt_m = std::sqrt(2.0 * noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m +
+                                               4.0 * noise.turning_m_per_sqrt_m * noise.turning_m_per_sqrt_m) /
+                                     joint.model.drive.wheelbase_m;
+  return kSigmas * turn_rad_per_sqrt_m / std::sqrt(kOver_m) * fastest_mps;
+}
+
 // Laws that share their hats are one.
 std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, Hats>>& laws) {
   auto term = std::make_shared<Effect>();
@@ -91,7 +105,10 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
                                      [](double way, const DriveView&) {
                                        return BodyMotion{way, 0.0, 0.0};
                                      }}},
-                         turn = {{[](const EffectStep&s) { return s.turn_rad; },
+                         turn = {{[steered_radps = steered_radps(asked.joint)](const EffectStep&s) {
+                                    const double steered_rad = steered_radps * s.duration_s;
+                                    return s.turn_rad - std::clamp(s.turn_rad, -steered_rad, steered_rad);
+                                  },
                                   [](double way, const DriveView&) {
                                     return BodyMotion{0.0, 0.0, way};
                                   }}};

@@ -71,6 +71,33 @@ TEST(ToldSpeeds, ShowThatAWheelGoesNoFasterThanItCan) {
   EXPECT_NEAR(wheel->value.back(), kFastest_mps / fastest_told - 1.0, 0.03);
 }
 
+// Along the sides of squares, held straight by someone who sees where it heads: what its wheels' noise turned it by is
+// taken back at once, and the truth shows neither.
+TEST(ToldSpeeds, SayNothingOfWhatADriverSteersAgainst) {
+  constexpr double kStep_s = test::CommandedBase::kStep_s, kSpeed_mps = 0.44, kTurn_radps = 0.9, kSide_s = 7.0;
+  constexpr double kGain = 1.0, kNoise_rad_per_sqrt_m = 0.011;
+  std::vector<Recording> recordings;
+  for (int n = 1; n <= 5; ++n) {
+    Random random(static_cast<std::uint64_t>(280 + n));
+    double along_rad = 0.0, turned_s = 0.0;
+    int steps_on_side = 0;
+    recordings.push_back(
+        test::commanded("run_" + std::to_string(n), 140000, random, [&](int i, test::CommandedBase& b) {
+          const bool turns = ++steps_on_side * kStep_s > kSide_s;
+          if (turns) turned_s += kStep_s, along_rad += kTurn_radps * kStep_s;
+          if (turned_s * kTurn_radps > 0.5 * kPi) turned_s = 0.0, steps_on_side = 0;
+          if (i % 40 == 0) {
+            b.command_mps = kSpeed_mps;
+            b.command_radps = (turns ? kTurn_radps : 0.0) - kGain * (b.heading_rad - along_rad);
+          }
+          b.speed_mps = b.command_mps;
+          b.yaw_rate_radps =
+              b.command_radps + kNoise_rad_per_sqrt_m * std::sqrt(kSpeed_mps / kStep_s) * random.normal();
+        }));
+  }
+  EXPECT_EQ(diagnose(recordings, {}, Vehicle{})->verdict, Verdict::nothing_missing);
+}
+
 TEST(ToldSpeeds, SayNothingOfABaseThatObeys) {
   EXPECT_EQ(diagnose(driven_by([](test::CommandedBase&) {}), {}, Vehicle{})->verdict, Verdict::nothing_missing);
 }
