@@ -1,0 +1,69 @@
+#include "core/diagnosis/generic/uneven_floor.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/generic/floor.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr std::size_t kOfEachAxis = 3;  // everywhere alike, and growing along x and along y
+constexpr std::size_t kTerms = 2 * kOfEachAxis;
+
+// From the middle of the floor, as shares of half of it.
+struct Square {
+  Vec2 middle;
+  double half_m = 0.0;
+  Vec2 at(const Vec2& place) const { return (1.0 / half_m) * (place - middle); }
+};
+
+std::vector<Motions> motions_of(const DriveView& view, const Square& floor) {
+  std::vector<Motions> out(kTerms, Motions(view.steps.size()));
+  const std::vector<char> turns = view.turning();
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    if (!turns[i]) continue;
+    const Vec2 at = floor.at(s.position);
+    const double by[kOfEachAxis] = {s.duration_s, s.duration_s * at.x_m, s.duration_s * at.y_m};
+    for (std::size_t k = 0; k < kOfEachAxis; ++k) {
+      out[k][i] = {s.cos_heading * by[k], -s.sin_heading * by[k], 0.0};
+      out[kOfEachAxis + k][i] = {s.sin_heading * by[k], s.cos_heading * by[k], 0.0};
+    }
+  }
+  return out;
+}
+
+// Along one axis, through the middle of the floor.
+GenericCurve curve_along(bool x, const Square& floor) {
+  GenericCurve curve;
+  curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
+  curve.channel = x ? "creep along x [m/s]" : "creep along y [m/s]";
+  const double middle_m = x ? floor.middle.x_m : floor.middle.y_m;
+  for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    curve.at.push_back(middle_m + u * floor.half_m);
+    std::vector<double> by(kTerms, 0.0);
+    const std::size_t first = x ? 0 : kOfEachAxis;
+    by[first] = 1.0;
+    by[first + (x ? 1 : 2)] = u;
+    curve.basis.push_back(std::move(by));
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GenericTest> uneven_floor_tests(const AskedModel& asked, double looked_at) {
+  const Floor reached = floor_of(asked.joint.views());
+  const Square floor{0.5 * (reached.low + reached.high), 0.5 * std::max(reached.width_m(), reached.height_m())};
+  if (floor.half_m < 1e-3) return {};
+  GenericTest t = asked_of(
+      asked, "place on the floor", "creep across the floor", kTerms,
+      [floor](const DriveView& view, const std::vector<double>&) { return motions_of(view, floor); }, looked_at);
+  t.component = "floor";
+  t.of_when_or_where = true;
+  t.curves = {curve_along(true, floor), curve_along(false, floor)};
+  return {t};
+}
+
+}  // namespace odolab
