@@ -103,7 +103,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     DataFault fault{"encoder_data_fault", wheel == 0 ? "left_wheel" : "right_wheel", recording.name, {}, ""};
     const Wheel which = wheel == 0 ? Wheel::left : Wheel::right;
     fault.time_s = standing_encoder(wheels, which, truth, vehicle);
-    for (const TimeStretches& more : {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive)})
+    for (const TimeStretches& more :
+         {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive), moved_at_rest(wheels, which)})
       fault.time_s.insert(fault.time_s.end(), more.begin(), more.end());
     std::vector<double> time_s, angle_rad;
     for (std::size_t i = 0; i < wheels.size(); ++i) {

@@ -227,6 +227,27 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   return found;
 }
 
+TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel) {
+  constexpr std::size_t kRests = 5;  // readings before, and behind
+  constexpr double kCounts = 5.0, kShort_s = 0.05;
+  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
+  const double least_rad = kCounts * least_count_rad(wheels, wheel);
+  TimeStretches found;
+  for (std::size_t i = kRests; i + 1 + kRests < wheels.size(); ++i) {
+    if (std::abs(rotation(wheels[i + 1], wheel) - rotation(wheels[i], wheel)) < least_rad ||
+        wheels[i + 1].time_s - wheels[i].time_s > kShort_s)
+      continue;
+    bool rests = true;
+    for (std::size_t k = 0; k <= kRests && rests; ++k)
+      rests = rotation(wheels[i - k], wheel) == rotation(wheels[i], wheel) &&
+              rotation(wheels[i + 1 + k], wheel) == rotation(wheels[i + 1], wheel) &&
+              rotation(wheels[i - k], other) == rotation(wheels[i], other) &&
+              rotation(wheels[i + 1 + k], other) == rotation(wheels[i], other);
+    if (rests) found.push_back({wheels[i].time_s, wheels[i + 1].time_s});
+  }
+  return found;
+}
+
 double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel) {
   double least = 1e9;
   for (std::size_t i = 0; i + 1 < wheels.size(); ++i)

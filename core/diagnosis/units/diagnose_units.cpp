@@ -122,7 +122,8 @@ void put_lengths_beside_truth(GeometryFit& geometry, const JoinedModel& model) {
   }
 }
 
-// Where the truth sits, and its clocks, as the unit that carries it knows them: better than stretches of half a metre do.
+// Where the truth sits, and its clocks, as the unit that carries it knows them: better than stretches of half a metre
+// do.
 void put_truth_as_on(const Diagnosis& carrying, const Vehicle& nominal, GeometryFit& geometry) {
   const LeastSquaresCalibration& known = carrying.calibration;
   geometry.vehicle.truth.axle_T_tracked = known.vehicle.truth.axle_T_tracked;

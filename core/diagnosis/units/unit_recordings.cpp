@@ -97,17 +97,20 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
 }
 
 std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle) {
+  constexpr std::ptrdiff_t kRestsOn = 3;  // samples
   const std::vector<VehicleUnit> units = units_of(vehicle);
   for (std::size_t u = 0; u < units.size(); ++u) {
     const std::vector<WheelSample> wheels = wheels_of(samples, u);
     if (wheels.size() < 4) continue;
     for (const Wheel wheel : {Wheel::left, Wheel::right}) {
       TimeStretches held = catching_up_encoder(wheels, wheel);
-      const TimeStretches halted = halting_encoder(wheels, wheel, units[u].drive);
-      held.insert(held.end(), halted.begin(), halted.end());
-      const auto rad = [&](UnitSample& s) -> double& {
-        return wheel == Wheel::left ? s.wheels[u].left_rad : s.wheels[u].right_rad;
+      for (const TimeStretches& more : {halting_encoder(wheels, wheel, units[u].drive), moved_at_rest(wheels, wheel)})
+        held.insert(held.end(), more.begin(), more.end());
+      const auto rad_of = [&](UnitSample& s, Wheel of) -> double& {
+        return of == Wheel::left ? s.wheels[u].left_rad : s.wheels[u].right_rad;
       };
+      const auto rad = [&](UnitSample& s) -> double& { return rad_of(s, wheel); };
+      const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
       const auto first_at = [&](double time_s) {
         return std::lower_bound(samples.begin(), samples.end(), time_s - 1e-9,
                                 [](const UnitSample& s, double t) { return s.time_s < t; });
@@ -115,10 +118,14 @@ std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, con
       for (const auto& [from_s, to_s] : held) {
         const auto from = first_at(from_s), to = first_at(to_s);
         if (from == samples.end() || to == samples.end()) continue;
-        for (auto s = from; s != to; ++s) {
-          const double share = (s->time_s - from->time_s) / (to->time_s - from->time_s);
-          rad(*s) = rad(*from) + share * (rad(*to) - rad(*from));
+        const double jump_rad = rad(*to) - rad(*from);
+        const bool rests_on = samples.end() - to > kRestsOn && rad(*(to + kRestsOn)) == rad(*to);
+        if (rests_on && rad_of(*to, other) == rad_of(*from, other)) {  // the counter alone moved
+          for (auto s = to; s != samples.end(); ++s) rad(*s) -= jump_rad;
+          continue;
         }
+        for (auto s = from; s != to; ++s)
+          rad(*s) = rad(*from) + (s->time_s - from->time_s) / (to->time_s - from->time_s) * jump_rad;
       }
     }
   }

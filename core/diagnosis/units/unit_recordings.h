@@ -19,8 +19,9 @@ Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);
 Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
                             const Vehicle& vehicle, std::size_t unit, double clock_s, bool by_joints);
 
-// Where a wheel's count held and then caught up, or halted on the way, it goes evenly instead: what tells the joints
-// and clocks of all units is not to be led astray by it. A unit's own recording keeps it, to be found.
+// Where a wheel's count held and then caught up, or halted on the way, it goes evenly instead, and where it moved alone
+// at rest it goes on from there: what tells the joints and clocks of all units is not to be led astray by it. A unit's
+// own recording keeps it, to be found.
 std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle);
 
 }  // namespace odolab

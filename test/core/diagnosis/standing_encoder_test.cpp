@@ -72,5 +72,25 @@ TEST(HaltingEncoder, IsNoneWhereReadingsAreRepeated) {
   EXPECT_TRUE(halting_encoder(driven([](int i) { return 14.0 * (i - i % 5); }), Wheel::left, kDrive).empty());
 }
 
+// Both wheels stand after a few counts; the left count goes back by a tenth of a turn, once in one reading and once
+// over a fifth of a second, as where somebody nudges it.
+TEST(MovedAtRest, IsACounterThatNobodyNudges) {
+  const auto resting = [](double takes_s) {
+    std::vector<WheelSample> wheels;
+    for (int i = 0; i <= 100; ++i) {
+      const double t = 0.02 * i, back = std::clamp((t - 1.0) / takes_s, 0.0, 1.0);
+      const double counted = std::min(i, 10);
+      wheels.push_back({t, std::round(counted - 60.0 * back) / 100.0, counted / 100.0});
+    }
+    return wheels;
+  };
+  const TimeStretches found = moved_at_rest(resting(0.01), Wheel::left);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].first, 1.0, 1e-9);
+  EXPECT_NEAR(found[0].second, 1.02, 1e-9);
+  EXPECT_TRUE(moved_at_rest(resting(0.2), Wheel::left).empty());
+  EXPECT_TRUE(moved_at_rest(resting(0.01), Wheel::right).empty());
+}
+
 }  // namespace
 }  // namespace odolab

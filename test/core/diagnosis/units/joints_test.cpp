@@ -241,5 +241,25 @@ TEST(WithoutHeldCounts, GoEvenlyWhereACountHeldAndCaughtUp) {
   EXPECT_EQ(mended[405].wheels[1].right_rad, true_samples[405].wheels[1].right_rad);
 }
 
+TEST(WithoutHeldCounts, GoOnFromThereWhereACountMovedAloneAtRest) {
+  const MultiCastor platform = three_castor_vehicle();
+  Recording run = castor_run(platform, {}, 341);
+  // Then all stand for a second, in which one count steps back.
+  constexpr std::size_t kRest = 25, kStep = 12;
+  constexpr double kBack_rad = 0.5;
+  const std::size_t end = run.time_s.size();
+  const double period_s = run.time_s[end - 1] - run.time_s[end - 2];
+  for (std::size_t i = 1; i <= kRest; ++i)
+    run.time_s.push_back(run.time_s[end - 1] + period_s * static_cast<double>(i));
+  for (Channel& c : run.channels) c.values.resize(end + kRest, c.values[end - 1]);
+  const double stood_rad = run.channel("castor2_left_wheel_rad")->values.back();
+  for (Channel& c : run.channels)
+    if (c.name == "castor2_left_wheel_rad")
+      for (std::size_t i = end + kStep; i < end + kRest; ++i) c.values[i] -= kBack_rad;
+  const std::vector<UnitSample> mended =
+      without_held_counts(unit_samples(run, vehicle_of(platform)), vehicle_of(platform));
+  EXPECT_NEAR(mended.back().wheels[1].left_rad, stood_rad, 1e-12);
+}
+
 }  // namespace
 }  // namespace odolab::test
