@@ -109,7 +109,8 @@ void know(const DrawnCase& c, Run& run) {
       std::any_of(c.effects.begin(), c.effects.end(), [](const DrawnEffect& e) { return e.at_a_place; });
   RunPlan world = run.plan;
   world.noise = run.plan.noise && a_place;
-  const Track with = world.noise == run.plan.noise ? run.driven.true_axle : driven_again(world, run.driven.counted);
+  // Both ways by the same counts: what a floor does between two of them is its own each time.
+  const Track with = c.effects.empty() ? Track{} : driven_again(world, run.driven.counted);
   for (const DrawnEffect& e : c.effects) {
     ExtraColumn column{e.active.effect, 1.0, std::vector<BodyMotion>(run.known.wheels.size() - 1)};
     RunPlan without = world;

@@ -77,20 +77,18 @@ std::vector<double> times_on_bump(const Run& run, const DrawnEffect& bump, doubl
   return times;
 }
 
-// An event that came half a second later differs by what it does until then.
+// An event that came half a second later differs by what it does until then, whose size is known by what it does later.
 double first_half_second_sigma(const DrawnCase& c, std::size_t effect) {
   const double from_s = c.effects[effect].active.parameter("at_s");
   std::vector<InnovationRun> runs;
   for (const Run& run : c.given) {
     runs.push_back(run.known);
     InnovationRun& known = runs.back();
-    ExtraColumn first = known.extra[effect];
-    first.value = 0.0;
-    for (std::size_t i = 0; i < first.per_step.size(); ++i)
-      if (known.wheels[i].time_s < from_s || known.wheels[i].time_s >= from_s + 0.5) first.per_step[i] = {};
-    known.extra.push_back(first);
+    std::vector<BodyMotion>& motion = known.extra[effect].per_step;
+    for (std::size_t i = 0; i < motion.size(); ++i)
+      if (known.wheels[i].time_s < from_s || known.wheels[i].time_s >= from_s + 0.5) motion[i] = {};
   }
-  return significance(runs, c.truth()).back();
+  return significance(runs, c.truth())[effect];
 }
 
 void judge_place(Judged& j, const DrawnCase& c, const Diagnosis& d) {

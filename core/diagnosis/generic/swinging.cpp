@@ -1,0 +1,93 @@
+#include "core/diagnosis/generic/swinging.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <functional>
+#include <iterator>
+
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+// Each stands for those up to a tenth shorter and longer: what is halved within a period and a half is as wide.
+constexpr double kPeriods_s[kSwingingTests] = {0.9, 1.1, 1.35, 1.65, 2.0, 2.45, 3.0};
+constexpr double kHalvedWithin = 1.5;  // periods
+
+// What sets it swinging, and what of the vehicle's motion it becomes.
+struct Way {
+  const char *variable, *channel;
+  double (*input)(const EffectStep&);
+  double BodyMotion::*becomes;
+};
+double sideways_mps2(const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }
+constexpr Way kWays[] = {
+    {"time since its speed changed [s]", "pace, as a share of the change [1]",
+     [](const EffectStep& s) { return s.speed_mps; }, &BodyMotion::forward_m},
+    {"time since its yaw rate changed [s]", "yaw rate, as a share of the change [1]",
+     [](const EffectStep& s) { return s.yaw_rate_radps; }, &BodyMotion::turn_rad},
+    {"time since its lateral acceleration changed [s]", "yaw rate for that change [rad/s per m/s2]", sideways_mps2,
+     &BodyMotion::turn_rad},
+    {"time since its lateral acceleration changed [s]", "pace sideways for that change [m/s per m/s2]", sideways_mps2,
+     &BodyMotion::sideways_m},
+};
+constexpr std::size_t kTermsOfAWay = 2;  // what goes on as it began, and what began a quarter of a period before
+constexpr std::size_t kTerms = kTermsOfAWay * std::size(kWays);
+
+std::vector<Motions> motions_of(const DriveView& view, double period_s) {
+  std::vector<Motions> out(kTerms, Motions(view.steps.size()));
+  const std::complex<double> fades(-std::log(2.0) / (kHalvedWithin * period_s), 2.0 * kPi / period_s);
+  std::complex<double> swings[std::size(kWays)];  // as shares of all changes so far
+  for (std::size_t i = 1; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    const std::complex<double> on = std::exp(s.duration_s * fades);
+    for (std::size_t w = 0; w < std::size(kWays); ++w) {
+      swings[w] = on * swings[w] + (kWays[w].input(s) - kWays[w].input(view.steps[i - 1]));
+      out[kTermsOfAWay * w][i].*kWays[w].becomes = s.duration_s * swings[w].real();
+      out[kTermsOfAWay * w + 1][i].*kWays[w].becomes = s.duration_s * swings[w].imag();
+    }
+  }
+  return out;
+}
+
+// How a change fades away.
+GenericCurve curve_of(std::size_t number, double period_s) {
+  constexpr int kPoints = 33;
+  constexpr double kOver = 2.0;  // periods
+  GenericCurve curve{kWays[number].variable, kWays[number].channel, {}, {}};
+  for (int i = 0; i < kPoints; ++i) {
+    const double since_s = kOver * period_s * i / (kPoints - 1);
+    const double left = std::exp2(-since_s / (kHalvedWithin * period_s)), phase = 2.0 * kPi * since_s / period_s;
+    std::vector<double> by(kTerms, 0.0);
+    by[kTermsOfAWay * number] = left * std::cos(phase);
+    by[kTermsOfAWay * number + 1] = left * std::sin(phase);
+    curve.at.push_back(since_s);
+    curve.basis.push_back(std::move(by));
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_at) {
+  const std::vector<DriveView>& views = asked.joint.views();
+  if (std::any_of(views.begin(), views.end(), std::mem_fn(&DriveView::from_commands))) return {};
+  std::vector<GenericTest> tests(kSwingingTests);
+  parallel_for(kSwingingTests, [&](int i) {
+    const double period_s = kPeriods_s[i];
+    char variable[100];
+    std::snprintf(variable, sizeof variable, "changes of its motion, as if something swung on in %.2g s", period_s);
+    GenericTest& t = tests[static_cast<std::size_t>(i)];
+    t = asked_of(
+        asked, variable, "pace, yaw rate and pace sideways", kTerms,
+        [period_s](const DriveView& view, const std::vector<double>&) { return motions_of(view, period_s); },
+        looked_at);
+    for (std::size_t w = 0; w < std::size(kWays); ++w) t.curves.push_back(curve_of(w, period_s));
+  });
+  return tests;
+}
+
+}  // namespace odolab
