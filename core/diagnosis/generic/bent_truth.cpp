@@ -10,16 +10,6 @@ namespace odolab {
 
 namespace {
 
-// As far each way as the floor reaches, so that all polynomials are of one size.
-struct Square {
-  Vec2 middle;
-  double half_m = 0.0;
-};
-
-Square square_around(const Floor& floor) {
-  return {0.5 * (floor.low + floor.high), 0.5 * std::max(floor.width_m(), floor.height_m())};
-}
-
 // Gradient of a field of displacements: of its x by x and y, of its y by x and y.
 struct Gradient {
   double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;
@@ -28,8 +18,8 @@ struct Gradient {
 // Two that are linear (one axis longer than the other; a skew), then u^i v^j along x and along y, i + j = 2 and 3.
 constexpr std::size_t kFields = 16;
 
-void gradients_at(const Vec2& at, const Square& floor, Gradient* out) {
-  const double u = (at.x_m - floor.middle.x_m) / floor.half_m, v = (at.y_m - floor.middle.y_m) / floor.half_m;
+void gradients_at(const Vec2& at, const FloorSquare& floor, Gradient* out) {
+  const auto [u, v] = floor.at(at);
   out[0] = {1.0, 0.0, 0.0, -1.0};
   out[1] = {0.0, 1.0, 1.0, 0.0};
   std::size_t k = 2;
@@ -43,7 +33,7 @@ void gradients_at(const Vec2& at, const Square& floor, Gradient* out) {
     }
 }
 
-std::vector<Motions> motions_of(const DriveView& view, const Square& floor, bool headings_too) {
+std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor, bool headings_too) {
   std::vector<Motions> out(kFields, Motions(view.steps.size()));
   Gradient of[kFields];
   double turned[kFields] = {}, before[kFields] = {};
@@ -63,7 +53,7 @@ std::vector<Motions> motions_of(const DriveView& view, const Square& floor, bool
 }
 
 // How far off the truth is along the middle of the floor, from one end to the other.
-GenericCurve curve_along(bool x, const Square& floor) {
+GenericCurve curve_along(bool x, const FloorSquare& floor) {
   constexpr int kPoints = 25;
   GenericCurve curve;
   curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
@@ -84,7 +74,7 @@ GenericCurve curve_along(bool x, const Square& floor) {
 }  // namespace
 
 std::vector<GenericTest> bent_truth_tests(const AskedModel& asked, double looked_at) {
-  const Square floor = square_around(floor_of(asked.joint.views()));
+  const FloorSquare floor = square_around(floor_of(asked.joint.views()));
   if (floor.half_m < 1e-3) return {};
   std::vector<GenericTest> tests(kBentTruthTests);
   parallel_for(kBentTruthTests, [&](int i) {

@@ -24,4 +24,16 @@ inline Floor floor_of(const std::vector<DriveView>& views) {
   return f;
 }
 
+// As far each way as the floor reaches, so that what grows with the place is of one size along x and along y.
+struct FloorSquare {
+  Vec2 middle;
+  double half_m = 0.0;
+  // From the middle, as shares of half of it.
+  Vec2 at(const Vec2& place) const { return (1.0 / half_m) * (place - middle); }
+};
+
+inline FloorSquare square_around(const Floor& floor) {
+  return {0.5 * (floor.low + floor.high), 0.5 * std::max(floor.width_m(), floor.height_m())};
+}
+
 }  // namespace odolab

@@ -1,7 +1,5 @@
 #include "core/diagnosis/generic/uneven_floor.h"
 
-#include <algorithm>
-
 #include "core/diagnosis/generic/floor.h"
 
 namespace odolab {
@@ -11,14 +9,7 @@ namespace {
 constexpr std::size_t kOfEachAxis = 3;  // everywhere alike, and growing along x and along y
 constexpr std::size_t kTerms = 2 * kOfEachAxis;
 
-// From the middle of the floor, as shares of half of it.
-struct Square {
-  Vec2 middle;
-  double half_m = 0.0;
-  Vec2 at(const Vec2& place) const { return (1.0 / half_m) * (place - middle); }
-};
-
-std::vector<Motions> motions_of(const DriveView& view, const Square& floor) {
+std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor) {
   std::vector<Motions> out(kTerms, Motions(view.steps.size()));
   const std::vector<char> turns = view.turning();
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -35,7 +26,7 @@ std::vector<Motions> motions_of(const DriveView& view, const Square& floor) {
 }
 
 // Along one axis, through the middle of the floor.
-GenericCurve curve_along(bool x, const Square& floor) {
+GenericCurve curve_along(bool x, const FloorSquare& floor) {
   GenericCurve curve;
   curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
   curve.channel = x ? "creep along x [m/s]" : "creep along y [m/s]";
@@ -54,8 +45,7 @@ GenericCurve curve_along(bool x, const Square& floor) {
 }  // namespace
 
 std::vector<GenericTest> uneven_floor_tests(const AskedModel& asked, double looked_at) {
-  const Floor reached = floor_of(asked.joint.views());
-  const Square floor{0.5 * (reached.low + reached.high), 0.5 * std::max(reached.width_m(), reached.height_m())};
+  const FloorSquare floor = square_around(floor_of(asked.joint.views()));
   if (floor.half_m < 1e-3) return {};
   GenericTest t = asked_of(
       asked, "place on the floor", "creep across the floor", kTerms,

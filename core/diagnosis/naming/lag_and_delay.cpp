@@ -13,10 +13,6 @@ namespace odolab {
 
 namespace {
 
-// In twice the log-likelihood, of a lag or a delay: forms of both are nobody's, and a true delay beside a patch of floor
-// was less likely than a lag by 31.
-constexpr double kLikelier = 40.0;
-
 JointModel with_lag_at(JointModel joint, double time_constant_s) {
   AcceptedEffect& lag = joint.accepted.back();
   lag.shape[0] = lag.value[0] = time_constant_s;
@@ -45,9 +41,14 @@ double mean_delay_s(const JointModel& joint) {
   return std::accumulate(joint.clock_s.begin(), joint.clock_s.end(), 0.0) / static_cast<double>(joint.clock_s.size());
 }
 
-bool is_likelier(const JointModel& a, const JointModel& b) {
-  return a.minus_two_log_likelihood() < b.minus_two_log_likelihood();
+// By how much twice the log-likelihood is larger than another's. With another clock a run may begin with one sample of
+// the truth more or less, which counts as all others do.
+double likelier_by(const JointModel& a, const JointModel& than) {
+  const double misfit = than.minus_two_log_likelihood(), of_each = misfit / std::max(1, than.scalars());
+  return misfit - a.minus_two_log_likelihood() + of_each * (a.scalars() - than.scalars());
 }
+
+bool is_likelier(const JointModel& a, const JointModel& b) { return likelier_by(a, b) > 0.0; }
 
 // Under the noise as it is.
 void put_where_likeliest(JointModel& joint) {
@@ -82,6 +83,7 @@ void put_lag_where_likeliest(JointModel& joint) {
 
 void let_lag_in(JointModel& joint) {
   constexpr double kShortest_s = 0.03;
+  constexpr double kLikelier = 40.0;  // in twice the log-likelihood; a lag is one number more than a delay
   if (std::none_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands))) return;
   const Effect* lag = lag_behind_commands();
   const double delay_s = mean_delay_s(joint);
@@ -96,17 +98,18 @@ void let_lag_in(JointModel& joint) {
     with.fit_noise_and_all();
     if (!best || is_likelier(with, *best)) best = std::move(with);
   }
-  if (best->minus_two_log_likelihood() < late.minus_two_log_likelihood() - kLikelier) joint = std::move(*best);
+  if (likelier_by(*best, late) > kLikelier) joint = std::move(*best);
 }
 
 std::optional<Alternative> lag_instead(const JointModel& joint, double delay_s, double gain_of_delay) {
+  constexpr double kClearlyLess = 20.0;  // in twice the log-likelihood: forms of both are nobody's
   const Effect* lag = lag_behind_commands();
   if (!lag) return std::nullopt;
   JointModel late = joint, lagging = with_lag_at(with_lag_for(joint, *lag, delay_s), delay_s);
   late.fit(3);
   for (JointModel* each : {&late, &lagging}) each->fit_noise_and_all();
-  const double likelier = late.minus_two_log_likelihood() - lagging.minus_two_log_likelihood();
-  if (likelier < -kLikelier) return std::nullopt;
+  const double likelier = likelier_by(lagging, late);
+  if (likelier < -kClearlyLess) return std::nullopt;
   return Alternative{lag->name, lag->component, gain_of_delay + 0.5 * likelier, lag->told_apart_by};
 }
 

@@ -47,5 +47,16 @@ TEST(TruthJumps, AreNotTheTruthsWhereTheyGoAlongOneLineOfTheVehicle) {
   EXPECT_FALSE(are_of_the_truth(all));
 }
 
+// Eight jumps of 10 mm among 1600 changes: of those that go 3 mm in x and in y, six are as large by chance.
+TEST(TruthJumps, StandOutOnlyWhereSoManyAreNoChance) {
+  TruthJumps of_run;
+  of_run.jumps = jumps(8, 1.0, 1.0);
+  of_run.changes = 1600.0;
+  of_run.change_m = 0.003;
+  EXPECT_FALSE(stand_out({of_run}));
+  of_run.change_m = 0.002;
+  EXPECT_TRUE(stand_out({of_run}));
+}
+
 }  // namespace
 }  // namespace odolab::test
