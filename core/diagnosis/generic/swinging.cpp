@@ -34,17 +34,32 @@ constexpr Way kWays[] = {
     {"time since its lateral acceleration changed [s]", "pace sideways for that change [m/s per m/s2]", sideways_mps2,
      &BodyMotion::sideways_m},
 };
-constexpr std::size_t kTermsOfAWay = 2;  // what goes on as it began, and what began a quarter of a period before
-constexpr std::size_t kTerms = kTermsOfAWay * std::size(kWays);
+constexpr std::size_t kWaysOnTheSpot = 2;  // the first: what needs no bend
+constexpr std::size_t kTermsOfAWay = 2;    // what goes on as it began, and what began a quarter of a period before
 
-std::vector<Motions> motions_of(const DriveView& view, double period_s) {
-  std::vector<Motions> out(kTerms, Motions(view.steps.size()));
+// Whether a fifth of its turning is done as it drives. Else lateral acceleration is but the moment between a straight
+// and a turn on the spot.
+bool drives_bends(const std::vector<DriveView>& views) {
+  constexpr double kDrives = 0.5, kShare = 0.2;  // of the fastest
+  double fastest_mps = 0.0, turned_rad = 0.0, in_bends_rad = 0.0;
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) fastest_mps = std::max(fastest_mps, std::abs(s.speed_mps));
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      turned_rad += std::abs(s.turn_rad);
+      if (std::abs(s.speed_mps) > kDrives * fastest_mps) in_bends_rad += std::abs(s.turn_rad);
+    }
+  return in_bends_rad > kShare * turned_rad;
+}
+
+std::vector<Motions> motions_of(const DriveView& view, std::size_t ways, double period_s) {
+  std::vector<Motions> out(kTermsOfAWay * ways, Motions(view.steps.size()));
   const std::complex<double> fades(-std::log(2.0) / (kHalvedWithin * period_s), 2.0 * kPi / period_s);
   std::complex<double> swings[std::size(kWays)];  // as shares of all changes so far
   for (std::size_t i = 1; i < view.steps.size(); ++i) {
     const EffectStep& s = view.steps[i];
     const std::complex<double> on = std::exp(s.duration_s * fades);
-    for (std::size_t w = 0; w < std::size(kWays); ++w) {
+    for (std::size_t w = 0; w < ways; ++w) {
       swings[w] = on * swings[w] + (kWays[w].input(s) - kWays[w].input(view.steps[i - 1]));
       out[kTermsOfAWay * w][i].*kWays[w].becomes = s.duration_s * swings[w].real();
       out[kTermsOfAWay * w + 1][i].*kWays[w].becomes = s.duration_s * swings[w].imag();
@@ -54,14 +69,14 @@ std::vector<Motions> motions_of(const DriveView& view, double period_s) {
 }
 
 // How a change fades away.
-GenericCurve curve_of(std::size_t number, double period_s) {
+GenericCurve curve_of(std::size_t number, std::size_t ways, double period_s) {
   constexpr int kPoints = 33;
   constexpr double kOver = 2.0;  // periods
   GenericCurve curve{kWays[number].variable, kWays[number].channel, {}, {}};
   for (int i = 0; i < kPoints; ++i) {
     const double since_s = kOver * period_s * i / (kPoints - 1);
     const double left = std::exp2(-since_s / (kHalvedWithin * period_s)), phase = 2.0 * kPi * since_s / period_s;
-    std::vector<double> by(kTerms, 0.0);
+    std::vector<double> by(kTermsOfAWay * ways, 0.0);
     by[kTermsOfAWay * number] = left * std::cos(phase);
     by[kTermsOfAWay * number + 1] = left * std::sin(phase);
     curve.at.push_back(since_s);
@@ -75,6 +90,7 @@ GenericCurve curve_of(std::size_t number, double period_s) {
 std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_at) {
   const std::vector<DriveView>& views = asked.joint.views();
   if (std::any_of(views.begin(), views.end(), std::mem_fn(&DriveView::from_commands))) return {};
+  const std::size_t ways = drives_bends(views) ? std::size(kWays) : kWaysOnTheSpot;
   std::vector<GenericTest> tests(kSwingingTests);
   parallel_for(kSwingingTests, [&](int i) {
     const double period_s = kPeriods_s[i];
@@ -82,10 +98,9 @@ std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_a
     std::snprintf(variable, sizeof variable, "changes of its motion, as if something swung on in %.2g s", period_s);
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     t = asked_of(
-        asked, variable, "pace, yaw rate and pace sideways", kTerms,
-        [period_s](const DriveView& view, const std::vector<double>&) { return motions_of(view, period_s); },
-        looked_at);
-    for (std::size_t w = 0; w < std::size(kWays); ++w) t.curves.push_back(curve_of(w, period_s));
+        asked, variable, "pace, yaw rate and pace sideways", kTermsOfAWay * ways,
+        [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, ways, period_s); }, looked_at);
+    for (std::size_t w = 0; w < ways; ++w) t.curves.push_back(curve_of(w, ways, period_s));
   });
   return tests;
 }
