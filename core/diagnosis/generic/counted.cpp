@@ -12,6 +12,7 @@ namespace odolab {
 namespace {
 
 constexpr double kHidden = 0.5;  // counts
+constexpr double kTeeth = 3.0;   // a turn: more is no shape of a wheel
 constexpr double kEvenly = 0.2;  // of a term's motion; twice what chance makes of a term of twenty readings
 
 // From the lowest to the highest of some numbers, zero among them.
@@ -53,7 +54,7 @@ struct Moved {
   }
 };
 
-bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<double>& value) {
+bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<double>& value, double times_a_turn) {
   const DifferentialDrive& drive = joint.model.drive;
   Moved moved;
   double furthest = 0.0;  // counts
@@ -77,6 +78,8 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
     furthest = std::max({furthest, left_m.half() / (count * drive.wheel_radius_left_m),
                          right_m.half() / (count * drive.wheel_radius_right_m)});
   }
+  // Teeth that move a rim by less than the wheel's counts can show carry it nowhere, at whatever speeds it was driven.
+  if (times_a_turn > kTeeth && furthest <= kHidden) return true;
   // Remainders of readings that come back after so many share their turn evenly: what all hide is that much less.
   double evenly_m = 0.0;
   for (int apart = 1; apart <= kApart; ++apart)
@@ -89,7 +92,8 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
 
 void leave_to_counting(GenericTest& t, const JointModel& joint) {
   for (CandidateTest* of : {&t.test, &t.instead})
-    if (!of->value.empty() && t.p_value_of(*of) < 1.0 && is_hidden(joint, *t.as_effect, of->value)) of->statistic = 0.0;
+    if (!of->value.empty() && t.p_value_of(*of) < 1.0 && is_hidden(joint, *t.as_effect, of->value, t.times_a_turn))
+      of->statistic = 0.0;
   t.p_value = t.p_value_of(t.test);
 }
 
