@@ -162,6 +162,8 @@ const char* headline(Verdict verdict) {
   return "These recordings are too poor to judge whether anything is missing.";
 }
 
+bool is_at_a_place(const AcceptedEffect& a) { return a.effect->local && !a.effect->of_one_recording; }
+
 // Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
 Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor, double error) {
   const JointModel& joint = named.joint;
@@ -177,8 +179,14 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
   const JointModel all_calibrated = *predictor.fitted_to_all(calibrated);
   const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, 0.5 * error);
   adequacy.unnamed = of_all.unnamed;
-  if (!adequacy.unnamed)
-    adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, static_cast<int>(joint.runs().size()));
+  const auto first_held_out = static_cast<int>(joint.runs().size());
+  if (!adequacy.unnamed) adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, first_held_out);
+  // A patch that the others only graze is another one where it is met in full.
+  if (adequacy.unnamed && !of_all.unnamed && std::any_of(joint.accepted.begin(), joint.accepted.end(), is_at_a_place)) {
+    JointModel sought = *all_named;
+    find_places_again(sought);
+    adequacy.unnamed = what_was_not_foreseen(sought, all_calibrated, first_held_out);
+  }
   if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
   return adequacy;
 }

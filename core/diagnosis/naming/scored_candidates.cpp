@@ -231,4 +231,19 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
   return scored;
 }
 
+void find_places_again(JointModel& joint) {
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    AcceptedEffect& a = joint.accepted[k];
+    if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
+    const int own = static_cast<int>(k);
+    const double now = joint.test(joint.columns_of(*a.effect, a.shape), own).statistic;
+    const ScoredCandidate again = scored_candidate(joint, CandidateScan(joint, own), *a.effect, own, 1);
+    if (again.test.statistic < now + 1.0) continue;
+    a.shape = again.test.shape;
+    a.value = again.test.value;
+    joint.fit(2);
+    joint.fit_noise_and_all();
+  }
+}
+
 }  // namespace odolab

@@ -48,7 +48,7 @@ class Selection {
       if (!let_best_in()) break;
       if (out_.undone) return std::move(out_);
       align_held_clocks();
-      find_places_again();
+      find_places_again(joint_);
       find_moment_among_what_was_set_aside();
       if (!goes_on(progress, share += 0.08)) return std::move(out_);
       exchange_names();
@@ -205,22 +205,6 @@ class Selection {
     joint_.fit(2);
   }
 
-  // Places and times were found under the noise that they made themselves.
-  void find_places_again() {
-    for (std::size_t k = 0; k < joint_.accepted.size(); ++k) {
-      AcceptedEffect& a = joint_.accepted[k];
-      if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
-      const int own = static_cast<int>(k);
-      const double now = statistic_of(k);
-      const ScoredCandidate again = scored_candidate(joint_, CandidateScan(joint_, own), *a.effect, own, 1);
-      if (again.test.statistic < now + 1.0) continue;
-      a.shape = again.test.shape;
-      a.value = again.test.value;
-      joint_.fit(2);
-      joint_.fit_noise_and_all();
-    }
-  }
-
   // What happens at one moment contradicts the samples behind it, of which the first few were set aside: it was found
   // where these end.
   void find_moment_among_what_was_set_aside() {
@@ -228,7 +212,7 @@ class Selection {
     if (!a.effect->local || !a.effect->of_one_recording) return;
     joint_.readmit(static_cast<int>(a.shape[0]), a.shape[1]);
     joint_.fit(2);
-    find_places_again();
+    find_places_again(joint_);
     joint_.gate();
     joint_.fit(2);
   }
