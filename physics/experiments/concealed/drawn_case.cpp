@@ -105,18 +105,19 @@ void know(const DrawnCase& c, Run& run) {
   vehicle.kind = c.robot.actual();
   Result<InnovationRun> made = innovation_run(run.driven.recording, vehicle);
   run.known = std::move(*made);
-  const bool a_place =
-      std::any_of(c.effects.begin(), c.effects.end(), [](const DrawnEffect& e) { return e.at_a_place; });
-  RunPlan world = run.plan;
-  world.noise = run.plan.noise && a_place;
-  // Both ways by the same counts: what a floor does between two of them is its own each time.
-  const Track with = c.effects.empty() ? Track{} : driven_again(world, run.driven.counted);
   for (const DrawnEffect& e : c.effects) {
     ExtraColumn column{e.active.effect, 1.0, std::vector<BodyMotion>(run.known.wheels.size() - 1)};
+    // What acts at a place is met on the very way that was driven, noise and all; the rest needs neither noise nor places.
+    RunPlan world = run.plan;
+    if (!e.at_a_place) {
+      world.noise = false;
+      std::erase_if(world.effects, [](const DrawnEffect& other) { return other.at_a_place; });
+    }
     RunPlan without = world;
     std::erase_if(without.effects, [&](const DrawnEffect& other) { return other.active.effect == e.active.effect; });
     if (without.effects.size() < world.effects.size()) {
-      const Track track = driven_again(without, run.driven.counted);
+      // Both by the same counts: what a floor does between two of them is its own each time.
+      const Track with = driven_again(world, run.driven.counted), track = driven_again(without, run.driven.counted);
       const double rate = run.plan.clock_rate();
       column.per_step =
           difference(run.known.wheels, {with, e.active.effect == "clock_rate" ? 0.0 : rate}, {track, rate});
