@@ -275,7 +275,7 @@ class JointModel {
   std::vector<char> from_commands_;
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
-  bool mean_radius_is_held_;  // only ratios show
+  bool mean_radius_is_held_ = false;  // only ratios show
   std::shared_ptr<const Linearisation> now_;
   std::optional<Standing> linearised_at_;  // none where the runs have changed since
   bool has_columns_ = false;

@@ -25,6 +25,7 @@ JointModel JointModel::left_out(int run) const {
   one.nuisance_active = nuisance_active;
   one.clocks_are_held = clocks_are_held;
   one.nominal_ = nominal_;
+  one.mean_radius_is_held_ = mean_radius_is_held_;
   // What only this run could tell is not known from the others; nor is what they do not tell from nothing, so that it
   // would come out as anything: without the one run that goes back, a drag is any radius. All else is fitted without
   // it.
