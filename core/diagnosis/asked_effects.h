@@ -13,7 +13,7 @@ namespace odolab {
 std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& selected,
                                        const std::vector<Visible>& visible);
 
-// By its p-value, and by what it gains where that is 0 for both.
+// By its p-value, and by what it gains where both have the same.
 bool is_likelier(const AskedEffect& a, const AskedEffect& b);
 
 }  // namespace odolab

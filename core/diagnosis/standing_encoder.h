@@ -21,8 +21,8 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
 // one reading, while the other wheel goes on. The pace may change evenly, unless they hold for more than five.
 TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive);
 
-// Where a count moves in one short reading though both wheels rest in those before and behind it: whoever nudges a wheel
-// takes longer.
+// Where a count moves in one short reading though both wheels rest in those before and behind it: whoever nudges a
+// wheel takes longer.
 TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel);
 
 // The smallest step that was read of a wheel.

@@ -28,8 +28,8 @@ struct Advice {
 // `dark`: what would not have been seen.
 Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark);
 
-// Whether less than a third of what the catalogue has for a vehicle with encoders could show: then that nothing did says
-// nothing.
+// Whether less than a third of what the catalogue has for a vehicle with encoders could show: then that nothing did
+// says nothing.
 bool are_most_effects(const std::vector<NotTestable>& not_testable);
 
 }  // namespace odolab

@@ -199,9 +199,9 @@ class Passage {
   }
 
   // Eq. 1: where the joints say the axle is, less where the wheels do once their stretch is laid on the other; in the
-  // wheels' frame. `tracked`: of each sample. `by_wheels`: gets the tracked point as the wheels have it, so laid. An error
-  // of a heading throws what hangs on it to the side, and turns what that place changes with a length just there: with
-  // derivatives of poses as measured, each length would come out too short by its square.
+  // wheels' frame. `tracked`: of each sample. `by_wheels_alone`: gets the tracked point as the wheels have it, so laid.
+  // An error of a heading throws what hangs on it to the side, and turns what that place changes with a length just
+  // there: with derivatives of poses as measured, each length would come out too short by its square.
   std::vector<Vector3d> residuals_at(const VectorXd& x, const std::vector<Pose>& tracked,
                                      std::vector<Pose>* by_wheels_alone = nullptr) const {
     const At now = at(x);

@@ -107,7 +107,8 @@ void know(const DrawnCase& c, Run& run) {
   run.known = std::move(*made);
   for (const DrawnEffect& e : c.effects) {
     ExtraColumn column{e.active.effect, 1.0, std::vector<BodyMotion>(run.known.wheels.size() - 1)};
-    // What acts at a place is met on the very way that was driven, noise and all; the rest needs neither noise nor places.
+    // What acts at a place is met on the very way that was driven, noise and all; the rest needs neither noise nor
+    // places.
     RunPlan world = run.plan;
     if (!e.at_a_place) {
       world.noise = false;

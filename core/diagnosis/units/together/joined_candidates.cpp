@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/together/joined_moments.h"
 
 namespace odolab {
 
@@ -57,16 +58,14 @@ void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_w
   }
 }
 
-// A truth whose noise lasts makes steps at all times: by how much more they say, in recordings without the best of them,
-// than white noise makes.
+// A truth whose noise lasts makes steps at all times: by how much more they say, in recordings without the best of
+// them, than white noise makes.
 double scatter_elsewhere(const std::vector<std::vector<double>>& shapes, const std::vector<double>& said,
                          const ScoredTogether& best) {
-  constexpr std::size_t kFewestToScatter = 20;
   std::vector<double> statistics;
   for (std::size_t k = 0; k < shapes.size(); ++k)
     if (shapes[k][0] != best.shape[0]) statistics.push_back(said[k]);
-  return statistics.size() < kFewestToScatter ? 1.0
-                                              : std::max(1.0, scatter_of_statistics(statistics, best.test.freedom));
+  return inflation_of(statistics, best.test.freedom);
 }
 
 // Which form of one thing it is, is said by the simpler unless that says less by two standard errors.

@@ -12,11 +12,6 @@ namespace {
 constexpr std::size_t kStrongest = 3;
 constexpr double kApart_s = 0.5;  // of the strongest
 constexpr double kNearTheEnd_s = 0.3;
-constexpr std::size_t kFewestToScatter = 20;
-
-double inflation_of(const std::vector<double>& statistics, int freedom) {
-  return statistics.size() < kFewestToScatter ? 1.0 : std::max(1.0, scatter_of_statistics(statistics, freedom));
-}
 
 // When a drive has left its first centimetres behind, which take up whatever play there is.
 double set_off_s(const DriveView& view) {
@@ -60,6 +55,11 @@ double statistic_of(const JoinedFilter::Impact& at, const JoinedMoments& kind, c
 }
 
 }  // namespace
+
+double inflation_of(const std::vector<double>& statistics, int freedom) {
+  constexpr std::size_t kFewestToScatter = 20;
+  return statistics.size() < kFewestToScatter ? 1.0 : std::max(1.0, scatter_of_statistics(statistics, freedom));
+}
 
 std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
   std::vector<JoinedMoments> kinds;

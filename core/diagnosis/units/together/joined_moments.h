@@ -25,6 +25,10 @@ struct JoinedMoments {
   double inflation = 1.0;  // of the statistics of all against chi-square: by the middle and by the strongest tenth
 };
 
+// How much wider statistics of so many degrees of freedom scatter than chi-square, 1 at least; 1 where fewer than
+// twenty say too little of it.
+double inflation_of(const std::vector<double>& statistics, int freedom);
+
 // Of what the model leaves with all that was let in.
 std::vector<JoinedMoments> joined_moments(const JoinedModel& model);
 
