@@ -131,13 +131,6 @@ void put_truth_as_on(const Diagnosis& carrying, const Vehicle& nominal, Geometry
     geometry.clock_s[r] = known.time_offset_s[r] - nominal.truth.time_offset_s;
 }
 
-// Too little outside truth to say where each unit was.
-bool is_poor(const JoinedRun& run) {
-  constexpr double kLongest_s = 1.0;  // between two samples, in the mean
-  const std::size_t n = run.tracked.size();
-  return n < 2 || run.tracked.back().time_s - run.tracked.front().time_s > kLongest_s * static_cast<double>(n - 1);
-}
-
 JoinedRun joined_run(const Recording& r, const Vehicle& nominal) {
   return {without_held_counts(unit_samples(r, nominal), nominal), tracked_poses(r)};
 }
@@ -157,7 +150,8 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   for (const Recording& r : train) runs.push_back(joined_run(r, nominal));
   for (const Recording& r : held_out) runs_held_out.push_back(joined_run(r, nominal));
   const std::vector<VehicleUnit> units = units_of(nominal);
-  const bool no_truth = std::any_of(runs.begin(), runs.end(), [](const JoinedRun& run) { return is_poor(run); });
+  const bool no_truth =
+      std::any_of(runs.begin(), runs.end(), [](const JoinedRun& run) { return !comes_often(run.tracked); });
   if (no_truth && units.size() > 1) return diagnose_inside(train, held_out, nominal, options, progress);
   if (no_truth && !units[0].carries_truth)
     return Error{train.front().name, "no truth with headings, a sample a second or more",

@@ -31,20 +31,21 @@ struct Stretch {
   std::size_t first = 0, last = 0;  // of the thinned truth; the last belongs to it
 };
 
-// All unknowns as departures from the file: joints, then left wheel, right wheel and wheelbase of each unit as shares,
-// then the clock of each run.
+// All unknowns as departures from the file: joints, then left wheel, right wheel and wheelbase of each unit as shares
+// and, of a castor, how far its axle lies to the left of its pivot's line, then the clock of each run.
 struct Unknowns {
   std::vector<JointParameter> joints;
   int units = 0, runs = 0;
   bool clock_is_held = false, wheels_are_held = false;
 
   int joint_count() const { return static_cast<int>(joints.size()); }
-  int wheel(int unit, int k) const { return joint_count() + 3 * unit + k; }
-  int clock(int run) const { return joint_count() + 3 * units + run; }
-  int count() const { return joint_count() + 3 * units + runs; }
+  int wheel(int unit, int k) const { return joint_count() + 4 * unit + k; }
+  int aside(int unit) const { return wheel(unit, 3); }
+  int clock(int run) const { return joint_count() + 4 * units + run; }
+  int count() const { return joint_count() + 4 * units + runs; }
   double prior(int k) const {
     if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
-    if (k < clock(0)) return wheels_are_held ? kHeld : kWheelPrior;
+    if (k < clock(0)) return wheels_are_held ? kHeld : (k - joint_count()) % 4 == 3 ? kAsidePrior_m : kWheelPrior;
     return clock_is_held ? kHeld : kClockPrior_s;
   }
 };
@@ -147,6 +148,7 @@ class Passage {
   std::vector<int> own_unknowns() const {
     std::vector<int> own = own_joints_;
     for (int k = 0; k < 3; ++k) own.push_back(unknowns_->wheel(unit_, k));
+    if (std::holds_alternative<MultiCastor>(nominal_.kind)) own.push_back(unknowns_->aside(unit_));
     own.push_back(unknowns_->clock(number_));
     return own;
   }
@@ -193,6 +195,7 @@ class Passage {
     At result{nominal_, {}, 0.0};
     for (int k = 0; k < unknowns_->joint_count(); ++k)
       unknowns_->joints[static_cast<std::size_t>(k)].of(result.vehicle) += x[k];
+    move_aside(result.vehicle, static_cast<std::size_t>(unit_), x[unknowns_->aside(unit_)]);
     result.wheels = wheel_track(drive_at(x));
     result.offset_s = nominal_.truth.time_offset_s + x[unknowns_->clock(number_)];
     return result;
@@ -403,7 +406,13 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     if (e.determined) e.parameter.of(fit.vehicle) = e.value;
     fit.joints.push_back(std::move(e));
   }
-  for (int u = 0; u < unknowns.units; ++u) fit.drives.push_back(passages[static_cast<std::size_t>(u)].drive_at(x));
+  for (int u = 0; u < unknowns.units; ++u) {
+    fit.drives.push_back(passages[static_cast<std::size_t>(u)].drive_at(x));
+    const int aside = unknowns.aside(u);
+    fit.aside_stderr_m.push_back(std::sqrt(covariance(aside, aside)));
+    if (fit.aside_stderr_m.back() < kDeterminedShare * kAsidePrior_m)
+      move_aside(fit.vehicle, static_cast<std::size_t>(u), x[aside]);
+  }
   for (int r = 0; r < unknowns.runs; ++r) {
     fit.clock_s.push_back(x[unknowns.clock(r)]);
     fit.clock_stderr_s.push_back(std::sqrt(covariance(unknowns.clock(r), unknowns.clock(r))));

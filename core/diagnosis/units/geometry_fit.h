@@ -18,10 +18,11 @@ struct JointEstimate {
   double feigned = 0.0;         // how far from the file what these recordings cannot tell may put it
 };
 
-// One recording's samples, and the outside truth or what stands in its place; with headings, on the truth's clock.
+// One recording's samples, and the outside truth or what stands in its place, on the truth's clock.
 struct JoinedRun {
   std::vector<UnitSample> samples;
   Track tracked;
+  bool has_headings = true;  // else those of `tracked` are zero
 };
 
 struct GeometryFit {
@@ -30,7 +31,8 @@ struct GeometryFit {
   std::vector<JointEstimate> joints;
   std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
   std::vector<double> clock_stderr_s;
-  std::vector<double> at;  // all that was fitted, for a fit that goes on from here
+  std::vector<double> aside_stderr_m;  // of where each castor's axle lies beside its pivot's line
+  std::vector<double> at;              // all that was fitted, for a fit that goes on from here
 };
 
 // In the list of what is held: the clocks of all runs, and all wheels.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -37,29 +38,42 @@ Result<std::vector<Recording>> recordings_of(const Known& known, const std::vect
   return own;
 }
 
+bool is_of_a_truth_without_headings(const Finding& f) { return is_of_the_truth(f.effect) || f.effect == "clock_rate"; }
+
+Result<std::vector<Recording>> as_recorded(const std::vector<Understood>& set, const Vehicle& nominal,
+                                           std::size_t unit) {
+  std::vector<Recording> own;
+  for (const Understood& r : set)
+    own.push_back(recording_of_unit(*r.recording, r.samples, {}, nominal, unit, 0.0, false));
+  return own;
+}
+
 Result<Judged> judged_by_the_others(const std::vector<Understood>& train, const std::vector<Understood>& held_out,
-                                    const Vehicle& nominal, DiagnosisOptions options, const Progress& progress) {
+                                    GeometryFit geometry, bool by_positions, const Vehicle& nominal,
+                                    DiagnosisOptions options, const Progress& progress) {
   const std::vector<VehicleUnit> units = units_of(nominal);
-  Result<GeometryFit> fit = geometry_from_inside(train, nominal, progress);
-  if (!fit) return fit.error();
-  Judged judged{std::move(*fit), {}};
-  Known known{judged.geometry.vehicle, judged.geometry.drives};
+  Judged judged{std::move(geometry), {}};
+  Known known{without_mounting(judged.geometry.vehicle), judged.geometry.drives};
   for (std::size_t u = 0; u < units.size(); ++u) known.vehicle = with_drive(known.vehicle, u, known.drives[u]);
   const JointRounding rounding = rounding_from_inside(nominal);
   options.family_wise_error /= static_cast<double>(units.size());
-  options.truth_step_m = rounding.position_m;
-  options.truth_step_rad = rounding.heading_rad;
   for (std::size_t u = 0; u < units.size(); ++u) {
-    const Result<std::vector<Recording>> own = recordings_of(known, train, u),
-                                         own_held_out = recordings_of(known, held_out, u);
+    const bool by_truth = by_positions && units[u].carries_truth;
+    options.truth_step_m = by_truth ? 0.0 : rounding.position_m;
+    options.truth_step_rad = by_truth ? 0.0 : rounding.heading_rad;
+    const Result<std::vector<Recording>> own =
+                                             by_truth ? as_recorded(train, nominal, u) : recordings_of(known, train, u),
+                                         own_held_out = by_truth ? as_recorded(held_out, nominal, u)
+                                                                 : recordings_of(known, held_out, u);
     if (!own || !own_held_out) return own ? own_held_out.error() : own.error();
-    Vehicle vehicle = vehicle_of_unit(units[u], without_mounting(nominal));
-    vehicle.kind = units[u].drive;
+    Vehicle vehicle = vehicle_of_unit(units[u], by_truth ? nominal : without_mounting(nominal));
     Result<Diagnosis> one = diagnose(*own, *own_held_out, vehicle, options, progress);
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, *own, units[u].drive);
     // What is no fault of its readings all of them tell together.
-    std::erase_if(one->findings, [](const Finding& f) { return !is_data_fault(f.effect); });
+    std::erase_if(one->findings, [&](const Finding& f) {
+      return !is_data_fault(f.effect) && !(by_truth && is_of_a_truth_without_headings(f));
+    });
     if (one->findings.empty() && one->verdict != Verdict::cannot_say) one->verdict = Verdict::nothing_missing;
     judged.units.push_back(std::move(*one));
   }
@@ -78,29 +92,54 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     return Error{nominal.name,
                  std::to_string(units.size()) + " units and no outside truth with headings, a sample a second or more",
                  "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
+  const bool by_positions = have_positions(train) && (held_out.empty() || have_positions(held_out));
   const auto runs_of = [&](const std::vector<Recording>& set) {
     std::vector<JoinedRun> runs;
-    for (const Recording& r : set) runs.push_back({without_held_counts(unit_samples(r, nominal), nominal), {}});
+    for (const Recording& r : set)
+      runs.push_back({without_held_counts(unit_samples(r, nominal), nominal),
+                      by_positions ? tracked_positions(r) : Track{}, false});
     return runs;
   };
   std::vector<std::string> names;
   for (const Recording& r : train) names.push_back(r.name);
   const std::vector<JoinedRun> runs = runs_of(train), runs_held_out = runs_of(held_out);
-  const ToldTogether told = *told_together(runs, without_mounting(nominal), {}, names, options.family_wise_error,
-                                           [&](double share) { return goes_on(progress, 0.3 * share); });
+  const ToldTogether told =
+      *told_together(runs, by_positions ? nominal : without_mounting(nominal), {}, names, options.family_wise_error,
+                     [&](double share) { return goes_on(progress, 0.3 * share); });
   if (!goes_on(progress, 0.3)) return Error{"diagnosis", "stopped before its end", ""};
+  std::vector<double> clock_s(runs.size()), clock_held_out_s(runs_held_out.size());
+  if (by_positions) {
+    for (std::size_t r = 0; r < runs.size(); ++r) clock_s[r] = told.model.clock_s(r);
+    for (std::size_t r = 0; r < runs_held_out.size(); ++r) {
+      JoinedModel one({runs_held_out[r]}, told.model.vehicle(), {}, {held_out[r].name});
+      one.fit(2);
+      clock_held_out_s[r] = one.clock_s(0);
+    }
+  }
+  const std::vector<Understood> train_without = understood_without(told, train, runs, clock_s, nominal);
+  Result<GeometryFit> geometry = by_positions ? geometry_by_positions(told.model, nominal)
+                                              : geometry_from_inside(train_without, nominal, progress);
+  if (!geometry) return geometry.error();
+  take_asides(told.model, *geometry);
   Result<Judged> judged = judged_by_the_others(
-      understood_without(told, train, runs, std::vector<double>(runs.size()), nominal),
-      understood_without(told, held_out, runs_held_out, std::vector<double>(runs_held_out.size()), nominal), nominal,
-      options, [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
+      train_without, understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal), std::move(*geometry),
+      by_positions, nominal, options, [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
   if (!judged) return judged.error();
   for (std::size_t u = 0; u < units.size(); ++u) {
     Diagnosis& one = judged->units[u];
+    if (by_positions && !units[u].carries_truth) widen_by_scale(told.model.stderr_of_scale(), one);
     if (acts_on(told, u)) std::erase_if(one.findings, [](const Finding& f) { return is_data_fault(f.effect); });
     one = with_names(told, u, one, one);  // counts from which something was taken off are no whole ones
   }
-  Diagnosis d = merged(judged->units, judged->geometry, nominal, train, false);
+  Diagnosis d = merged(judged->units, judged->geometry, nominal, train, by_positions);
   put_names_into(told, d);
+  if (by_positions) {
+    d.warnings.insert(d.warnings.begin(),
+                      "the truth has no headings: where the units are and how large, all of them and "
+                      "the truth tell together; by itself each was judged by the others' way");
+    mark_named(d);
+    return d;
+  }
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;
   const auto is_common = [](const auto& of) {
     return std::find(common_effects().begin(), common_effects().end(), of.effect) != common_effects().end();

@@ -1,4 +1,5 @@
-// Units judged against each other, where there is no outside truth to judge them by. README.md, "From the inside".
+// Units judged against each other, where there is no outside truth that has headings to judge them by. README.md, "From
+// the inside" and "Positions alone".
 #pragma once
 
 #include "core/diagnosis/diagnosis.h"
@@ -6,8 +7,9 @@
 
 namespace odolab {
 
-// As diagnose_units, of vehicles with two units or more that drive by encoders on both sides of their joints. What all
-// units do alike does not show; neither does the scale.
+// As diagnose_units, of vehicles with two units or more that drive by encoders on both sides of their joints.
+// Positions, where every recording has them once a second or more, tell all units together where they are and how
+// large; without them what all do alike does not show, and neither does the scale.
 Result<Diagnosis> diagnose_inside(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
                                   const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress);
 

@@ -76,6 +76,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     const Diagnosis& one = diagnoses[u];
     const Vehicle& own = one.fitted_vehicle ? *one.fitted_vehicle : one.calibration.vehicle;
     fitted = with_drive(fitted, u, std::get<DifferentialDrive>(own.kind));
+    move_aside(fitted, u, axle_aside(one.calibration, geometry, u).moved_m);
     if (units[u].carries_truth) {
       fitted.truth = own.truth;
       d.truth_clock_s = one.truth_clock_s;

@@ -13,4 +13,9 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
                                            LeastSquaresCalibration Diagnosis::*which, const GeometryFit& geometry,
                                            const std::vector<VehicleUnit>& units, const Vehicle& nominal);
 
+// By how much further to the left a castor's axle lies, as its own recording has it, than where the geometry has it.
+struct AxleAside {
+  double moved_m = 0.0, stderr_m = 0.0;
+};
+AxleAside axle_aside(const LeastSquaresCalibration& of_castor, const GeometryFit& geometry, std::size_t unit);
 }  // namespace odolab

@@ -40,19 +40,28 @@ Recording recording_by(std::vector<Row> rows, const Recording& from) {
 
 Row pose_row(double time_s, const Pose& pose) { return {time_s, kNone, kNone, pose.x_m, pose.y_m, pose.heading_rad}; }
 
-}  // namespace
-
-Track tracked_poses(const Recording& recording) {
+Track tracked(const Recording& recording, bool with_headings) {
   Track track;
   for (const TruthSample& t : truth_samples(recording)) {
-    if (!t.heading_rad) continue;
-    const Pose pose{t.position.x_m, t.position.y_m, *t.heading_rad};
+    if (with_headings && !t.heading_rad) continue;
+    const Pose pose{t.position.x_m, t.position.y_m, with_headings ? *t.heading_rad : 0.0};
     const bool repeats = !track.empty() && pose.x_m == track.back().pose.x_m && pose.y_m == track.back().pose.y_m &&
                          pose.heading_rad == track.back().pose.heading_rad;
     const bool later = track.empty() || t.time_s > track.back().time_s;
     if (later && !repeats) track.push_back({t.time_s, pose});
   }
   return track;
+}
+
+}  // namespace
+
+Track tracked_poses(const Recording& recording) { return tracked(recording, true); }
+
+Track tracked_positions(const Recording& recording) { return tracked(recording, false); }
+
+bool comes_often(const Track& t) {
+  constexpr double kLongest_s = 1.0;
+  return t.size() > 1 && t.back().time_s - t.front().time_s <= kLongest_s * static_cast<double>(t.size() - 1);
 }
 
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle) {

@@ -10,6 +10,10 @@ namespace odolab {
 // The recorded truth as poses of the tracked point, headings unwrapped; without samples that repeat the one before to
 // the bit. Empty where it has no headings.
 Track tracked_poses(const Recording& recording);
+// The same of a truth whose headings are not looked at: they are zero.
+Track tracked_positions(const Recording& recording);
+bool comes_often(
+    const Track& tracked);  // once a second, in the mean, or more: else it is too little to judge a unit by
 
 // The vehicle that a unit's recording is of: its drive, and the truth's mounting where the tracked point sits on it.
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);

@@ -135,6 +135,13 @@ Vehicle with_drive(Vehicle vehicle, std::size_t unit, const DifferentialDrive& d
   return vehicle;
 }
 
+void move_aside(Vehicle& vehicle, std::size_t unit, double by_m) {
+  auto* platform = std::get_if<MultiCastor>(&vehicle.kind);
+  if (!platform) return;
+  platform->castors[unit].wheel_offset_left_m += by_m;
+  platform->castors[unit].wheel_offset_right_m -= by_m;
+}
+
 std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& vehicle) {
   std::vector<UnitSample> samples;
   if (linked(vehicle))

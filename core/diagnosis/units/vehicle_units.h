@@ -30,6 +30,9 @@ std::vector<VehicleUnit> units_of(const Vehicle& vehicle);
 bool carries_truth(const std::vector<VehicleUnit>& units);  // one of them; else the joints say where each is
 // The vehicle with another drive in the place of a unit's.
 Vehicle with_drive(Vehicle vehicle, std::size_t unit, const DifferentialDrive& drive);
+// A castor's axle so much further to the left of its pivot's line; other vehicles stay as they are.
+void move_aside(Vehicle& vehicle, std::size_t unit, double by_m);
+inline constexpr double kAsidePrior_m = 0.01;  // how far that is expected from the file at most
 
 // What all encoders read at one time.
 struct UnitSample {

@@ -39,7 +39,7 @@ bool are_torn_apart(const VectorXd& read, Index of_joints) {
 }  // namespace
 
 JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double clock_s)
-    : vehicle_(vehicle), samples_(run.samples) {
+    : vehicle_(vehicle), samples_(run.samples), truth_rows_(run.has_headings ? 3 : 2) {
   for (std::size_t u = 0; u < samples_.front().wheels.size(); ++u) {
     drives_.push_back(units_of(vehicle_)[u].drive);
     way_.push_back(dead_reckoned(wheels_of(samples_, u), drives_.back(), Pose{}, HeadingRule::arc));
@@ -179,14 +179,10 @@ double JoinedFilter::run(const JoinedNoise& noise) {
       p(k + 2, k + 2) = kUnknown_rad * kUnknown_rad;
     }
   };
-  const auto first_truth = std::find_if(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; });
-  if (first_truth == readings_.end()) {
+  if (std::any_of(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; }))
+    start(started_at(), readings_.front(), true);
+  else
     start({}, readings_.front(), false);
-  } else {  // back to the first reading, as the first unit's wheels say
-    const Pose unit_there = *first_truth->truth * inverse(first_truth->unit_T_body[0]);
-    const Pose back = between(on_the_way(way_[0], first_truth->time_s), on_the_way(way_[0], readings_.front().time_s));
-    start(unit_there * back * readings_.front().unit_T_body[0], readings_.front(), true);
-  }
 
   Small seen(n, n), err(n, n);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1> by(n);
@@ -299,8 +295,8 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     }
     // Either the joints, or the truth, or both: a block of rows.
     const Index from = reading.joints_are_read ? 0 : of_joints;
-    const bool with_truth = reading.truth && (r == 0 || squared(of_joints, 3) < kGateOfTruth);
-    const Index m = (with_truth ? n : of_joints) - from;
+    const bool with_truth = reading.truth && (r == 0 || squared(of_joints, truth_rows_) < kGateOfTruth);
+    const Index m = of_joints + (with_truth ? truth_rows_ : 0) - from;
     if (m <= 0) {
       step.corrected = at;
       continue;
@@ -341,6 +337,38 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     step.on = turn - step.gain * h;
   }
   return minus_two_log;
+}
+
+Pose JoinedFilter::started_at() const {
+  const auto by_wheels = [&](const Reading& r) { return on_the_way(way_[0], r.time_s) * r.unit_T_body[0]; };
+  const Pose first = by_wheels(readings_.front());
+  if (truth_rows_ == 3) {
+    const auto seen = std::find_if(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; });
+    return *seen->truth * between(by_wheels(*seen), first);
+  }
+  // Positions alone: as the first unit's way lies best upon them, while it is too short to have gone astray.
+  constexpr double kFew_m = 3.0;
+  std::vector<Vec2> way, truth;
+  Vec2 mean_way{}, mean_truth{};
+  double gone_m = 0.0;
+  for (std::size_t r = 0; r < readings_.size() && (gone_m < kFew_m || way.size() < 2); ++r) {
+    if (r > 0) gone_m += 0.5 * (rolled_m_[0][r - 1][0] + rolled_m_[0][r - 1][1]);
+    if (!readings_[r].truth) continue;
+    way.push_back(by_wheels(readings_[r]).position());
+    truth.push_back(readings_[r].truth->position());
+    mean_way = mean_way + way.back();
+    mean_truth = mean_truth + truth.back();
+  }
+  mean_way = 1.0 / static_cast<double>(way.size()) * mean_way;
+  mean_truth = 1.0 / static_cast<double>(way.size()) * mean_truth;
+  double cosine = 0.0, sine = 0.0;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    cosine += dot(way[i] - mean_way, truth[i] - mean_truth);
+    sine += cross(way[i] - mean_way, truth[i] - mean_truth);
+  }
+  const double turn_rad = std::atan2(sine, cosine);
+  const Vec2 at = mean_truth + rotated(first.position() - mean_way, turn_rad);
+  return {at.x_m, at.y_m, first.heading_rad + turn_rad};
 }
 
 Pose JoinedFilter::on_the_way(const Track& track, double time_s) {

@@ -41,7 +41,7 @@ class JoinedFilter {
   std::size_t readings() const { return readings_.size(); }  // one more than epochs
   double time_s(std::size_t reading) const { return readings_[reading].time_s; }
   // Numbers of each reading: where each unit but the first stands against the first, along, across and in heading; then
-  // the truth.
+  // the truth, whose heading is left out where it has none.
   Eigen::Index rows() const { return 3 * static_cast<Eigen::Index>(units()); }
 
   // The world as it would be with so much of a column's motions in it; adds to what was put in before.
@@ -107,8 +107,12 @@ class JoinedFilter {
   };
   void cut_into_pieces();
 
+  // The body at the first reading, by the truth.
+  Pose started_at() const;
+
   Vehicle vehicle_;
   std::vector<UnitSample> samples_;
+  Eigen::Index truth_rows_ = 3;
   std::vector<DifferentialDrive> drives_;
   std::vector<Track> way_;  // of each unit, by its wheels alone
   std::vector<Reading> readings_;

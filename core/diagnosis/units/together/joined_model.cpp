@@ -14,9 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kAsidePrior_m = 0.01, kScaleHeld = 1e-5;
+constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kScaleHeld = 1e-5;
 constexpr double kLeastSurviving = 0.01;
 constexpr double kWorthAsking = 10.0;  // how it scatters: less says nothing anyway
+
+std::string aside_name(std::size_t castor) { return "castor[" + std::to_string(castor + 1) + "].aside_m"; }
 
 }  // namespace
 
@@ -24,17 +26,16 @@ JoinedModel::JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, st
                          std::vector<std::string> names)
     : given_(std::move(runs)), vehicle_(vehicle), clock_s_(std::move(clock_s)), names_(std::move(names)) {
   clock_s_.resize(given_.size(), 0.0);
-  for (const JoinedRun& run : given_) has_truth_ = has_truth_ || !run.tracked.empty();
+  for (const JoinedRun& run : given_) {
+    has_truth_ = has_truth_ || !run.tracked.empty();
+    has_headings_ = has_headings_ || (!run.tracked.empty() && run.has_headings);
+  }
   for (JointParameter& p : joint_parameters(vehicle_))
-    if (has_truth_ || p.component != "truth")
+    if (p.component != "truth" || (has_truth_ && (has_headings_ || p.unit == "m")))
       lengths_.push_back({p.name, p.prior, [of = p.of](Vehicle& v, double by) { of(v) += by; }});
   if (const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind))
     for (std::size_t i = 0; i < platform->castors.size(); ++i)  // where the pivot's line meets the axle
-      lengths_.push_back({"castor[" + std::to_string(i + 1) + "].aside_m", kAsidePrior_m, [i](Vehicle& v, double by) {
-                            Castor& castor = std::get<MultiCastor>(v.kind).castors[i];
-                            castor.wheel_offset_left_m += by;
-                            castor.wheel_offset_right_m -= by;
-                          }});
+      lengths_.push_back({aside_name(i), kAsidePrior_m, [i](Vehicle& v, double by) { move_aside(v, i, by); }});
   for (const VehicleUnit& u : units_of(vehicle_)) drives_of_file_.push_back(u.drive);
   make_filters();
   linearise();
@@ -81,10 +82,8 @@ void JoinedModel::fit_noise() {
                           {&JoinedNoise::joint_steps, 0.29, 20.0},
                           {&JoinedNoise::apart_m, 2e-5, 5e-3},
                           {&JoinedNoise::sideways_m_per_sqrt_m, 2e-5, 1e-2}};
-  if (has_truth_) {
-    all.push_back({&JoinedNoise::truth_position_m, 1e-4, 0.5});
-    all.push_back({&JoinedNoise::truth_heading_rad, 1e-4, 0.5});
-  }
+  if (has_truth_) all.push_back({&JoinedNoise::truth_position_m, 1e-4, 0.5});
+  if (has_headings_) all.push_back({&JoinedNoise::truth_heading_rad, 1e-4, 0.5});
   double here = minus_two_log_likelihood(noise_);
   for (double factor : {2.0, 1.4, 1.15})
     for (const One& one : all)
@@ -211,13 +210,28 @@ std::optional<JoinedModel::Known> JoinedModel::length(const std::string& name) c
   for (std::size_t k = 0; k < lengths_.size(); ++k) {
     if (lengths_[k].name != name) continue;
     const auto c = static_cast<Index>(k);
-    const VectorXd unit = VectorXd::Unit(z_.cols(), c);
-    const VectorXd of = gram_.solve(unit);
-    const ScoreByBatches score = score_along(z_ * of);  // what this length alone moves
-    const double wider = score.u.empty() ? 1.0 : score.inflation(kFewestBatchesBelieved);
-    return Known{lengths_[k].moved + at_best_[c], std::sqrt(wider * of[c])};
+    return Known{lengths_[k].moved + at_best_[c], stderr_of(VectorXd::Unit(z_.cols(), c))};
   }
   return std::nullopt;
+}
+
+double JoinedModel::stderr_of_aside_m(std::size_t castor) const {
+  const std::optional<Known> known = length(aside_name(castor));
+  return known ? known->stderr_value : kAsidePrior_m;
+}
+
+double JoinedModel::stderr_of_scale() const {
+  VectorXd mean = VectorXd::Zero(z_.cols());
+  for (std::size_t u = 0; u < units(); ++u)
+    mean.segment<2>(static_cast<Index>(lengths_.size() + 3 * u)).setConstant(0.5 / static_cast<double>(units()));
+  return stderr_of(mean);
+}
+
+double JoinedModel::stderr_of(const VectorXd& sum) const {
+  const VectorXd of = gram_.solve(sum);
+  const ScoreByBatches score = score_along(z_ * of);  // what this sum alone moves
+  const double wider = score.u.empty() ? 1.0 : score.inflation(kFewestBatchesBelieved);
+  return std::sqrt(wider * sum.dot(of));
 }
 
 std::vector<JoinedColumn> JoinedModel::moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,

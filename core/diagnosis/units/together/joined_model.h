@@ -43,6 +43,8 @@ class JoinedModel {
   const std::vector<std::string>& names() const { return names_; }
   const Vehicle& vehicle() const { return vehicle_; }
   bool has_truth() const { return has_truth_; }
+  bool has_headings() const { return has_headings_; }              // of the truth
+  double clock_s(std::size_t run) const { return clock_s_[run]; }  // the truth's offset, on top of the vehicle's
   const JoinedNoise& noise() const { return noise_; }
   const std::vector<DriveView>& views(std::size_t unit) const { return views_[unit]; }  // of each recording
   // What a length comes to, and how well it is known: the vehicle file's key. Unset where there is none of that name.
@@ -50,6 +52,10 @@ class JoinedModel {
     double value = 0.0, stderr_value = 0.0;  // of what it is more than in the file
   };
   std::optional<Known> length(const std::string& name) const;
+  // Of where a castor's axle lies beside its pivot's line.
+  double stderr_of_aside_m(std::size_t castor) const;
+  // Of the share by which all wheels together may be larger than they are taken to be.
+  double stderr_of_scale() const;
 
   // Of motions that each amplitude makes on a unit.
   using MotionsOf = std::function<std::vector<Motions>(const DriveView&)>;
@@ -82,6 +88,8 @@ class JoinedModel {
   void linearise();
   // What columns at such values leave once all of the model is fitted to it.
   Eigen::VectorXd trace_of(const JoinedColumns& columns, const Eigen::VectorXd& value) const;
+  // How well a sum of the model's own numbers is known.
+  double stderr_of(const Eigen::VectorXd& sum) const;
   // Of the score along a direction of what is left.
   ScoreByBatches score_along(const Eigen::VectorXd& direction) const;
   void solve();  // for what has been put into z_
@@ -100,7 +108,7 @@ class JoinedModel {
   };
   std::vector<Length> lengths_;
   std::vector<DifferentialDrive> drives_of_file_;
-  bool has_truth_ = false;
+  bool has_truth_ = false, has_headings_ = false;
   std::vector<Acting> acting_;
   JoinedNoise noise_;
   std::vector<JoinedFilter> filters_;

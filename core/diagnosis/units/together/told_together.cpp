@@ -56,7 +56,7 @@ std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Veh
   }
   ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
   told.model.fit_all();
-  if (told.model.has_truth() && told.model.noise().truth_position_m < kCoarse_m) return std::nullopt;
+  if (told.model.has_headings() && told.model.noise().truth_position_m < kCoarse_m) return std::nullopt;
   told.said = joined_names(told.model, family_wise_error, progress);
   return told;
 }
@@ -134,7 +134,7 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) {
     c->noise.wheel_m_per_sqrt_m = noise.wheel_m_per_sqrt_m;
     c->noise.truth_position_m = told.model.has_truth() ? noise.truth_position_m : 0.0;
-    c->noise.truth_heading_rad = told.model.has_truth() ? noise.truth_heading_rad : 0.0;
+    c->noise.truth_heading_rad = told.model.has_headings() ? noise.truth_heading_rad : 0.0;
   }
   std::erase_if(d.findings, [](const Finding& f) { return is_told_together(f); });
   if (told.said.unknown) {

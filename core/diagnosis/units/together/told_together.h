@@ -17,8 +17,8 @@ struct ToldTogether {
   JoinedNames said;
 };
 
-// `runs`: with no truth in them where it is to be left out. Unset where there is one that is no coarse one: each unit
-// by itself knows its own way better then.
+// `runs`: with no truth in them where it is to be left out. Unset where there is one with headings that is no coarse
+// one: each unit by itself knows its own way better then.
 std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Vehicle& nominal,
                                           std::vector<double> clock_s, std::vector<std::string> names,
                                           double family_wise_error, const Progress& progress);

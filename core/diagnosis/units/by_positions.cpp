@@ -1,0 +1,56 @@
+#include "core/diagnosis/units/by_positions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/units/unit_recordings.h"
+
+namespace odolab {
+
+bool have_positions(const std::vector<Recording>& recordings) {
+  return std::all_of(recordings.begin(), recordings.end(),
+                     [](const Recording& r) { return comes_often(tracked_positions(r)); });
+}
+
+GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal) {
+  constexpr double kDeterminedBelow = 0.5;  // of what was expected before
+  GeometryFit fit;
+  fit.vehicle = nominal;
+  for (const JointParameter& p : joint_parameters(nominal)) {
+    JointEstimate estimate{p};
+    estimate.nominal = estimate.value = p.of(fit.vehicle);
+    if (const std::optional<JoinedModel::Known> known = model.length(p.name)) {
+      estimate.stderr_value = known->stderr_value;
+      estimate.determined = known->stderr_value < kDeterminedBelow * p.prior;
+      estimate.is_from_inside = p.component != "truth";
+    }
+    if (estimate.determined) p.of(fit.vehicle) = estimate.value += model.length(p.name)->value;
+    fit.joints.push_back(std::move(estimate));
+  }
+  for (const VehicleUnit& unit : units_of(model.vehicle())) fit.drives.push_back(unit.drive);
+  for (std::size_t r = 0; r < model.given().size(); ++r) fit.clock_s.push_back(model.clock_s(r));
+  fit.clock_stderr_s.assign(fit.clock_s.size(), 0.0);
+  set_most_pivots_right(fit);
+  return fit;
+}
+
+void take_asides(const JoinedModel& model, GeometryFit& fit) {
+  const auto* from = std::get_if<MultiCastor>(&model.vehicle().kind);
+  auto* to = std::get_if<MultiCastor>(&fit.vehicle.kind);
+  for (std::size_t i = 0; from && to && i < to->castors.size(); ++i) {
+    Castor& castor = to->castors[i];
+    const double track_m = castor.track_m();
+    castor.wheel_offset_left_m = track_m * from->castors[i].wheel_offset_left_m / from->castors[i].track_m();
+    castor.wheel_offset_right_m = track_m - castor.wheel_offset_left_m;
+    fit.aside_stderr_m.resize(to->castors.size());
+    fit.aside_stderr_m[i] = model.stderr_of_aside_m(i);
+  }
+}
+
+void widen_by_scale(double share, Diagnosis& one) {
+  for (LeastSquaresCalibration* c : {&one.calibration, &one.calibration_alone})
+    for (ParameterEstimate& p : c->parameters)
+      if (p.name.rfind("wheel", 0) == 0) p.stderr_value = std::hypot(p.stderr_value, share * p.value);
+}
+
+}  // namespace odolab

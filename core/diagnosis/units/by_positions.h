@@ -1,0 +1,25 @@
+// Linked and castor vehicles whose truth has places and no headings: what all units and these places tell together.
+// README.md, "Positions alone".
+#pragma once
+
+#include <vector>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/geometry_fit.h"
+#include "core/diagnosis/units/together/joined_model.h"
+
+namespace odolab {
+
+// Places that are read once a second or more in every recording.
+bool have_positions(const std::vector<Recording>& recordings);
+
+// The joints, the wheels, where the truth sits, and its clocks.
+GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal);
+
+// Where the lines through the pivots meet the axles, with or without a truth; other vehicles' fits stay as they are.
+void take_asides(const JoinedModel& model, GeometryFit& fit);
+
+// Of a unit that was judged by the others: its wheels are known no better than all wheels together are, by this share.
+void widen_by_scale(double share, Diagnosis& one);
+
+}  // namespace odolab

@@ -1,0 +1,145 @@
+// Linked and castor vehicles whose truth has places and no headings.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/together/joined_filter.h"
+#include "core/diagnosis/units/unit_recordings.h"
+#include "test/support/linked_runs.h"
+
+namespace odolab::test {
+namespace {
+
+// A total station that errs by five millimetres.
+LinkedRunSettings under_a_total_station() {
+  LinkedRunSettings s;
+  s.duration_s = 60.0;
+  s.truth_m = 0.005;
+  return s;
+}
+
+std::vector<Recording> without_headings(std::vector<Recording> runs) {
+  for (Recording& r : runs) std::erase_if(r.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
+  return runs;
+}
+
+Clapper fine_clapper() {
+  Clapper trucks;
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  return trucks;
+}
+
+Clapper larger(Clapper trucks, double share) {
+  for (DifferentialDrive* d : {&trucks.truck_a, &trucks.truck_b})
+    for (double* length : {&d->wheel_radius_left_m, &d->wheel_radius_right_m, &d->wheelbase_m}) *length *= 1.0 + share;
+  return trucks;
+}
+
+void expect_known(const Diagnosis& d, const std::string& name, double actual, double at_least_to) {
+  const auto& all = d.calibration.parameters;
+  const auto p = std::find_if(all.begin(), all.end(), [&](const ParameterEstimate& e) { return e.name == name; });
+  ASSERT_NE(p, all.end()) << name;
+  EXPECT_NEAR(p->value, actual, 3.5 * p->stderr_value) << name;
+  EXPECT_LT(p->stderr_value, at_least_to * actual) << name;
+}
+
+TEST(JoinedFilter, FindsItsHeadingByPositionsAlone) {
+  const Clapper trucks = fine_clapper();
+  const Vehicle vehicle = vehicle_of(trucks);
+  LinkedRunSettings s = under_a_total_station();
+  s.wheel_noise = 1e-4;
+  const Recording with_headings = linked_run(trucks, s, 410);
+  JoinedRun run{unit_samples(with_headings, vehicle), tracked_positions(with_headings), false};
+  constexpr double kTurned_rad = 2.0;  // the room's axes are anywhere
+  for (TimedPose& t : run.tracked) {
+    const Vec2 turned = rotated(t.pose.position(), kTurned_rad);
+    t.pose = {turned.x_m, turned.y_m, 0.0};
+  }
+  JoinedFilter filter(run, vehicle, 0.0);
+  filter.run({});
+  const Track by_filter = filter.track(0);
+  const double actual_rad = truth_samples(with_headings).back().heading_rad.value() + kTurned_rad;
+  // Five millimetres over the metres of a drive; the recording's own headings err by 2 mrad.
+  EXPECT_NEAR(wrapped(by_filter.back().pose.heading_rad - actual_rad), 0.0, 0.012);
+}
+
+// From the inside only ratios would show.
+TEST(DiagnoseUnits, MeasureHowLargeAllWheelsAreByPositionsAlone) {
+  const Clapper actual = larger(fine_clapper(), 0.01);
+  const LinkedRunSettings s = under_a_total_station();
+  const Result<Diagnosis> d =
+      diagnose(without_headings({linked_run(actual, s, 411), linked_run(actual, s, 412), linked_run(actual, s, 413)}),
+               {}, vehicle_of(fine_clapper()));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::nothing_missing);
+  EXPECT_FALSE(d->calibration.scale_is_open);
+  expect_known(*d, "truck_a.wheel_radius_left_m", actual.truck_a.wheel_radius_left_m, 0.001);
+  expect_known(*d, "truck_a.wheelbase_m", actual.truck_a.wheelbase_m, 0.005);
+  expect_known(*d, "truck_b.wheel_radius_right_m", actual.truck_b.wheel_radius_right_m, 0.001);
+  expect_known(*d, "truck_b.wheelbase_m", actual.truck_b.wheelbase_m, 0.005);
+}
+
+// A link that reads 3 mm too little is, from the inside, all wheels too small by a percent.
+TEST(DiagnoseUnits, TellALinkThatReadsShortFromSmallWheelsByPositionsAlone) {
+  constexpr double kBias_m = -0.004;
+  Clapper actual = larger(fine_clapper(), -0.01);
+  actual.link_length_offset_m = kBias_m;
+  const LinkedRunSettings s = under_a_total_station();
+  const Result<Diagnosis> d =
+      diagnose(without_headings({linked_run(actual, s, 421), linked_run(actual, s, 422), linked_run(actual, s, 423)}),
+               {}, vehicle_of(fine_clapper()));
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->findings.size(), 1u);
+  EXPECT_EQ(d->findings[0].effect, "link_length_bias");
+  const FoundParameter& bias = d->findings[0].parameters[0];
+  EXPECT_NEAR(bias.value, kBias_m, 3.5 * bias.stderr_value);
+  EXPECT_LT(bias.stderr_value, 0.1 * std::abs(kBias_m));
+}
+
+// The line through a pivot meets its axle two or three millimetres from where the file has it, which travels in turns.
+MultiCastor with_axles_aside() {
+  MultiCastor platform = three_castor_vehicle();
+  const double aside_m[] = {0.002, -0.003, 0.0015};
+  for (std::size_t k = 0; k < 3; ++k) {
+    platform.castors[k].wheel_offset_left_m += aside_m[k];
+    platform.castors[k].wheel_offset_right_m -= aside_m[k];
+  }
+  return platform;
+}
+
+void expect_asides(const Diagnosis& d, const MultiCastor& actual) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string castor = "castor[" + std::to_string(k + 1) + "].";
+    expect_known(d, castor + "wheel_offset_left_m", actual.castors[k].wheel_offset_left_m, 0.006);
+    expect_known(d, castor + "wheel_offset_right_m", actual.castors[k].wheel_offset_right_m, 0.006);
+    const Castor& fitted = std::get<MultiCastor>(d.fitted_vehicle->kind).castors[k];
+    EXPECT_NEAR(fitted.wheel_offset_left_m, actual.castors[k].wheel_offset_left_m, 0.001);  // 3 standard errors
+  }
+}
+
+TEST(DiagnoseUnits, MeasureWhereThePivotsLineMeetsTheAxle) {
+  const MultiCastor actual = with_axles_aside();
+  LinkedRunSettings s;
+  s.duration_s = 60.0;
+  const Result<Diagnosis> d =
+      diagnose({castor_run(actual, s, 431), castor_run(actual, s, 432)}, {}, vehicle_of(three_castor_vehicle()));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::nothing_missing);
+  expect_asides(*d, actual);
+}
+
+TEST(DiagnoseUnits, MeasureWhereThePivotsLineMeetsTheAxleByPositionsAlone) {
+  const MultiCastor actual = with_axles_aside();
+  const LinkedRunSettings s = under_a_total_station();
+  const Result<Diagnosis> d = diagnose(without_headings({castor_run(actual, s, 433), castor_run(actual, s, 434)}), {},
+                                       vehicle_of(three_castor_vehicle()));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::nothing_missing);
+  expect_asides(*d, actual);
+}
+
+}  // namespace
+}  // namespace odolab::test
