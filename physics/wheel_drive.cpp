@@ -44,6 +44,11 @@ double WheelDrive::advance(double set_speed_radps, double traction_n, double ste
       step_s);
 }
 
+double WheelDrive::advance_free(double set_speed_radps, double step_s) {
+  if (motor_.ideal) return advance(set_speed_radps, 0.0, step_s);
+  return accelerated(torque_nm(set_speed_radps, 0.0, step_s) / motor_.wheel_inertia_kgm2, step_s);
+}
+
 WheelPair WheelDrive::advance_together(WheelDrive& left, WheelDrive& right, double shared_inertia_kgm2, WheelPair set,
                                        WheelPair traction_n, double step_s) {
   if (left.motor_.ideal) return {left.advance(set.left, 0.0, step_s), right.advance(set.right, 0.0, step_s)};

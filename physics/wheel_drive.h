@@ -20,6 +20,8 @@ class WheelDrive {
   // is accelerated. Without it a body that is heavier to turn than to push makes its wheels chatter.
   static WheelPair advance_together(WheelDrive& left, WheelDrive& right, double shared_inertia_kgm2,
                                     WheelPair set_speed_radps, WheelPair traction_n, double step_s);
+  // The same of a motor whose wheel nothing holds at the moment: it moves itself alone.
+  double advance_free(double set_speed_radps, double step_s);
   // The same for a floor that is solved together with the wheel (README, Eq. 6b): the speed that it would have in this
   // step without the floor, and the inertia by which it yields to it, controller included.
   struct Unloaded {

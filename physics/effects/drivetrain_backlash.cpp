@@ -30,13 +30,17 @@ class DrivetrainBacklash final : public Effect {
     play_rad = std::clamp(free, -gap_rad_, 0.0);
     if (play_rad != free) speed_radps = turn_rad / step_s_;  // a flank carries it along
     turn_rad = moved - play_rad;
+    between_flanks_[wheel] = play_rad == free && gap_rad_ > 0.0;
   }
+
+  bool holds(Side side) const override { return !between_flanks_[side == Side::left ? 0 : 1]; }
 
  private:
   std::string component_;
   double gap_rad_, step_s_;
   double drag_radps2_[2];
   double speed_radps_[2] = {0.0, 0.0};  // of the wheel
+  bool between_flanks_[2] = {false, false};
   double play_rad_[2] = {0.0, 0.0};     // 0: the motor pushes forward, -gap: it pushes backward
 };
 

@@ -59,6 +59,8 @@ class Effect {
   virtual void command(WheelPair& /*set_speed_radps*/) {}
   // From the motor, where the encoder sits, to the wheel: a turn in this step.
   virtual void gear(Side, double& /*turn_rad*/) {}
+  // Whether the motor holds its wheel, so that it feels what the floor asks of it.
+  virtual bool holds(Side) const { return true; }
   // What an encoder counts of a turn of its shaft at a speed; and for a replay, the speed behind the speed that it
   // counted.
   virtual void count(Side, double /*speed_radps*/, double& /*turn_rad*/) {}

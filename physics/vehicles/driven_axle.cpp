@@ -1,5 +1,7 @@
 #include "physics/vehicles/driven_axle.h"
 
+#include <algorithm>
+
 namespace odolab {
 
 namespace {
@@ -44,11 +46,24 @@ DrivenAxle::DrivenAxle(PlanarWorld& world, int body, Vec2 centre, const ActualDr
 }
 
 void DrivenAxle::turn_motors(WheelPair set) {
-  const WheelPair turned =
-      WheelDrive::advance_together(wheels_[0].drive, wheels_[1].drive, shared_inertia_kgm2_, set,
-                                   {wheels_[0].state.traction_n, wheels_[1].state.traction_n}, step_s_);
-  turn(wheels_[0], turned.left);
-  turn(wheels_[1], turned.right);
+  if (is_held(wheels_[0]) && is_held(wheels_[1])) {
+    const WheelPair turned =
+        WheelDrive::advance_together(wheels_[0].drive, wheels_[1].drive, shared_inertia_kgm2_, set,
+                                     {wheels_[0].state.traction_n, wheels_[1].state.traction_n}, step_s_);
+    turn(wheels_[0], turned.left);
+    turn(wheels_[1], turned.right);
+    return;
+  }
+  for (Wheel& wheel : wheels_) {
+    const double set_radps = wheel.side == Side::left ? set.left : set.right;
+    turn(wheel, is_held(wheel) ? wheel.drive.advance(set_radps, wheel.state.traction_n, step_s_)
+                               : wheel.drive.advance_free(set_radps, step_s_));
+  }
+}
+
+bool DrivenAxle::is_held(const Wheel& wheel) const {
+  return std::all_of(effects_->begin(), effects_->end(),
+                     [&](const auto& effect) { return effect->holds(wheel.side); });
 }
 
 void DrivenAxle::turn_exactly(WheelPair speed) {
@@ -114,7 +129,7 @@ void DrivenAxle::before_step(const Ground& ground, const Floor& floor) {
 void DrivenAxle::let_yield(const Wheel& wheel) {
   const WheelDrive::Unloaded unloaded = wheel.drive.unloaded();
   const double gear = wheel.metres_per_rad;
-  if (unloaded.inertia_kgm2 == 0.0 || gear <= 0.0) return;
+  if (unloaded.inertia_kgm2 == 0.0 || gear <= 0.0 || !is_held(wheel)) return;
   world_->set_drive(wheel.motor, unloaded.inertia_kgm2 / (gear * gear),
                     gear * (unloaded.speed_radps - wheel.motor_speed_radps));
   world_->set_tread_drive(wheel.tread, wheel.motor, wheel.rolling_direction);
@@ -143,7 +158,8 @@ void DrivenAxle::after_step() {
   const Vec2 velocity{c * v.x_m + s * v.y_m, -s * v.x_m + c * v.y_m};  // of the centre, in the body's frame at mid-step
   const double rate = world_->yaw_rate_radps(body_);
   for (Wheel& wheel : wheels_) {
-    if (world_->solved_exactly() && wheel.drive.unloaded().inertia_kgm2 > 0.0 && wheel.metres_per_rad > 0.0)
+    if (world_->solved_exactly() && wheel.drive.unloaded().inertia_kgm2 > 0.0 && wheel.metres_per_rad > 0.0 &&
+        is_held(wheel))
       take_yield(wheel);
     const Vec2 above{velocity.x_m - rate * wheel.place.y_m, velocity.y_m + rate * wheel.place.x_m};
     wheel.state.slip_speed_mps -= dot(above, wheel.rolling_direction);

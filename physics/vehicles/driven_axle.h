@@ -55,6 +55,7 @@ class DrivenAxle {
     WheelState state{};
   };
 
+  bool is_held(const Wheel& wheel) const;  // by its motor
   void turn(Wheel& wheel, double motor_speed_radps);
   void let_yield(const Wheel& wheel);
   void take_yield(Wheel& wheel);

@@ -34,6 +34,23 @@ GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nomin
   return fit;
 }
 
+Recording recording_by_positions(const Recording& recording, const std::vector<UnitSample>& samples,
+                                 const JoinedRun& run, double clock_s, const JoinedModel& model) {
+  JoinedFilter filter(run, model.vehicle(), clock_s);
+  filter.run(model.noise());
+  const Track unit = filter.smoothed().front();
+  const double late_s = model.vehicle().truth.time_offset_s + clock_s;
+  Track tracked = run.tracked;
+  for (TimedPose& t : tracked) {
+    const double at_s = std::clamp(t.time_s - late_s, unit.front().time_s, unit.back().time_s);
+    const Pose axle_T_tracked = inverse(tracked_T_axle(model.vehicle(), 0, joints_at(samples, at_s)));
+    t.pose.heading_rad = (*pose_at(unit, at_s) * axle_T_tracked).heading_rad;
+  }
+  Recording own = recording_of_unit(recording, samples, tracked, model.vehicle(), 0, clock_s, true);
+  std::erase_if(own.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
+  return own;
+}
+
 void take_asides(const JoinedModel& model, GeometryFit& fit) {
   const auto* from = std::get_if<MultiCastor>(&model.vehicle().kind);
   auto* to = std::get_if<MultiCastor>(&fit.vehicle.kind);

@@ -16,6 +16,11 @@ bool have_positions(const std::vector<Recording>& recordings);
 // The joints, the wheels, where the truth sits, and its clocks.
 GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal);
 
+// The recording of a unit that no other judges, as the positions and what its joints read put its axle; without
+// headings. `run` and `clock_s` are of this recording.
+Recording recording_by_positions(const Recording& recording, const std::vector<UnitSample>& samples,
+                                 const JoinedRun& run, double clock_s, const JoinedModel& model);
+
 // Where the lines through the pivots meet the axles, with or without a truth; other vehicles' fits stay as they are.
 void take_asides(const JoinedModel& model, GeometryFit& fit);
 

@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
+#include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"
 #include "core/diagnosis/units/inside.h"
@@ -152,9 +153,12 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   const std::vector<VehicleUnit> units = units_of(nominal);
   const bool no_truth =
       std::any_of(runs.begin(), runs.end(), [](const JoinedRun& run) { return !comes_often(run.tracked); });
-  if (no_truth && units.size() > 1) return diagnose_inside(train, held_out, nominal, options, progress);
-  if (no_truth && !units[0].carries_truth)
-    return Error{train.front().name, "no truth with headings, a sample a second or more",
+  const bool has_positions = have_positions(train) && (held_out.empty() || have_positions(held_out));
+  const bool is_alone = units.size() == 1 && !units[0].carries_truth;
+  if (no_truth && (units.size() > 1 || (is_alone && has_positions)))
+    return diagnose_inside(train, held_out, nominal, options, progress);
+  if (no_truth && is_alone)
+    return Error{train.front().name, "no truth, a sample a second or more",
                  "one: the towing vehicle's own wheels are no measure of its way"};
 
   const bool is_towed = std::holds_alternative<EncoderTrailer>(nominal.kind);

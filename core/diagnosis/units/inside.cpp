@@ -1,6 +1,7 @@
 #include "core/diagnosis/units/inside.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
@@ -38,8 +39,6 @@ Result<std::vector<Recording>> recordings_of(const Known& known, const std::vect
   return own;
 }
 
-bool is_of_a_truth_without_headings(const Finding& f) { return is_of_the_truth(f.effect) || f.effect == "clock_rate"; }
-
 Result<std::vector<Recording>> as_recorded(const std::vector<Understood>& set, const Vehicle& nominal,
                                            std::size_t unit) {
   std::vector<Recording> own;
@@ -48,9 +47,11 @@ Result<std::vector<Recording>> as_recorded(const std::vector<Understood>& set, c
   return own;
 }
 
-Result<Judged> judged_by_the_others(const std::vector<Understood>& train, const std::vector<Understood>& held_out,
-                                    GeometryFit geometry, bool by_positions, const Vehicle& nominal,
-                                    DiagnosisOptions options, const Progress& progress) {
+// Each unit's recordings, with what stands for its truth.
+using OwnRecordings = std::function<Result<std::vector<Recording>>(const Known&, bool held_out, std::size_t unit)>;
+
+Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, bool by_positions,
+                         const Vehicle& nominal, DiagnosisOptions options, const Progress& progress) {
   const std::vector<VehicleUnit> units = units_of(nominal);
   Judged judged{std::move(geometry), {}};
   Known known{without_mounting(judged.geometry.vehicle), judged.geometry.drives};
@@ -58,13 +59,10 @@ Result<Judged> judged_by_the_others(const std::vector<Understood>& train, const 
   const JointRounding rounding = rounding_from_inside(nominal);
   options.family_wise_error /= static_cast<double>(units.size());
   for (std::size_t u = 0; u < units.size(); ++u) {
-    const bool by_truth = by_positions && units[u].carries_truth;
-    options.truth_step_m = by_truth ? 0.0 : rounding.position_m;
-    options.truth_step_rad = by_truth ? 0.0 : rounding.heading_rad;
-    const Result<std::vector<Recording>> own =
-                                             by_truth ? as_recorded(train, nominal, u) : recordings_of(known, train, u),
-                                         own_held_out = by_truth ? as_recorded(held_out, nominal, u)
-                                                                 : recordings_of(known, held_out, u);
+    const bool by_truth = by_positions && units[u].carries_truth, by_others = units.size() > 1 && !by_truth;
+    options.truth_step_m = by_others ? rounding.position_m : 0.0;
+    options.truth_step_rad = by_others ? rounding.heading_rad : 0.0;
+    const Result<std::vector<Recording>> own = recordings(known, false, u), own_held_out = recordings(known, true, u);
     if (!own || !own_held_out) return own ? own_held_out.error() : own.error();
     Vehicle vehicle = vehicle_of_unit(units[u], by_truth ? nominal : without_mounting(nominal));
     Result<Diagnosis> one = diagnose(*own, *own_held_out, vehicle, options, progress);
@@ -72,7 +70,8 @@ Result<Judged> judged_by_the_others(const std::vector<Understood>& train, const 
     leave_out_standing(*one, *own, units[u].drive);
     // What is no fault of its readings all of them tell together.
     std::erase_if(one->findings, [&](const Finding& f) {
-      return !is_data_fault(f.effect) && !(by_truth && is_of_a_truth_without_headings(f));
+      return !is_data_fault(f.effect) && !(by_truth && is_of_the_truth(f.effect)) &&
+             (by_others || f.effect != "clock_rate");
     });
     if (one->findings.empty() && one->verdict != Verdict::cannot_say) one->verdict = Verdict::nothing_missing;
     judged.units.push_back(std::move(*one));
@@ -121,9 +120,20 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
                                               : geometry_from_inside(train_without, nominal, progress);
   if (!geometry) return geometry.error();
   take_asides(told.model, *geometry);
-  Result<Judged> judged = judged_by_the_others(
-      train_without, understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal), std::move(*geometry),
-      by_positions, nominal, options, [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
+  const std::vector<Understood> held_out_without =
+      understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal);
+  const auto recordings = [&](const Known& known, bool are_held_out, std::size_t u) -> Result<std::vector<Recording>> {
+    const std::vector<Understood>& set = are_held_out ? held_out_without : train_without;
+    if (by_positions && units[u].carries_truth) return as_recorded(set, nominal, u);
+    if (units.size() > 1) return recordings_of(known, set, u);
+    std::vector<Recording> own;
+    for (std::size_t r = 0; r < set.size(); ++r)
+      own.push_back(recording_by_positions(*set[r].recording, set[r].samples, (are_held_out ? runs_held_out : runs)[r],
+                                           (are_held_out ? clock_held_out_s : clock_s)[r], told.model));
+    return own;
+  };
+  Result<Judged> judged = judged_by(recordings, std::move(*geometry), by_positions, nominal, options,
+                                    [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
   if (!judged) return judged.error();
   for (std::size_t u = 0; u < units.size(); ++u) {
     Diagnosis& one = judged->units[u];
@@ -135,8 +145,9 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   put_names_into(told, d);
   if (by_positions) {
     d.warnings.insert(d.warnings.begin(),
-                      "the truth has no headings: where the units are and how large, all of them and "
-                      "the truth tell together; by itself each was judged by the others' way");
+                      units.size() == 1 ? "the truth has no headings: the trailer's wheels and its hitch tell them"
+                                        : "the truth has no headings: where the units are and how large, all of them "
+                                          "and the truth tell together; by itself each was judged by the others' way");
     mark_named(d);
     return d;
   }

@@ -113,6 +113,26 @@ TEST(DrivetrainBacklash, AWheelThatRunsEasilyRunsAheadByTheGapWhileItsMotorBrake
   EXPECT_NEAR(ahead_rad(1.0), 0.0, 1e-9);   // braked harder by its own drag, it never leaves the flank that drives it
 }
 
+// Nothing that the floor does to a wheel between its flanks reaches its motor: else both bounced from flank to flank at
+// 80 Hz, skidding, and the vehicle turned by 24 mrad/s.
+TEST(DrivetrainBacklash, TurnsAVehicleWithRealMotorsByNoMoreThanTheGapAndItsSkid) {
+  const double gap_rad = 0.0029;
+  const auto heading_rad = [](std::vector<ActiveEffect> effects) {
+    Scenario s = table_drive({phase(10.0, 0.54, 0.0), phase(5.0, 0.0, 1.4), phase(10.0, 0.54, 0.0)}, std::move(effects));
+    s.actual.mass_kg = 30.0;
+    s.actual.moment_of_inertia_kgm2 = 1.34;
+    s.motor = {.ideal = false, .wheel_inertia_kgm2 = 0.02, .torque_limit_nm = 8.0, .proportional_gain = 4.0, .integral_gain = 40.0};
+    s.floor.roughness.largest_height_m = 2.5e-4;
+    const Simulation end = finished(s);
+    return end.state().true_pose.heading_rad;
+  };
+  const double turned_rad = heading_rad({{"drivetrain_backlash", "right_wheel", {{"gap_rad", gap_rad}, {"drag_mps2", 0.37}}}});
+  // Four times the gap, at whose end a motor of 8 N m and 0.02 kg m2 may be 0.11 m/s too fast: as long a skid as a grip
+  // of 5.5 m/s2 allows.
+  const double too_fast_mps = std::sqrt(2.0 * 8.0 / 0.02 * gap_rad) * kRadius_m;
+  EXPECT_NEAR(turned_rad, heading_rad({}), 4.0 * (gap_rad * kRadius_m + 0.5 * too_fast_mps * too_fast_mps / 5.5) / kBase_m);
+}
+
 TEST(EncoderMissedCounts, LosesItsShareAboveTheSpeedAlone) {
   const ActiveEffect missed{"encoder_missed_counts", "left_wheel", {{"fraction", 0.02}, {"above_radps", 4.0}}};
   const Simulation slow = finished(table_drive({phase(10.0, 0.2, 0.0)}, {missed}));  // 2.7 rad/s

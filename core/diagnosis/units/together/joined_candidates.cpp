@@ -35,26 +35,36 @@ std::vector<Motions> swung(std::vector<Motions> push, const DriveView& view, con
   return push;
 }
 
-// To where between the shapes that were tried it says most.
+// To where between the shapes that were tried it says most: one number after the other, and once more where others
+// have moved meanwhile.
 void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_white,
            const std::vector<std::vector<double>>& tried, ScoredTogether& best) {
-  for (int k : free_shapes(*c.effect)) {
-    const auto i = static_cast<std::size_t>(k);
-    double step = 1e300;
-    for (const std::vector<double>& shape : tried)
-      if (const double away = std::abs(shape[i] - best.shape[i]); away > 1e-9) step = std::min(step, away);
-    for (int halves = 0; halves < 4 && step < 1e300; ++halves) {
-      step *= 0.5;
-      for (double side : {-step, step}) {
-        std::vector<double> shape = best.shape;
-        shape[i] += side;
-        JoinedColumns columns = columns_at(model, c, shape);
-        const JoinedTest test = model.test(columns, believed_white);
-        if (test.judged() <= best.test.judged()) continue;
-        best.take_if_better(test, shape, std::move(columns));
-        break;
+  constexpr int kMostRounds = 4;
+  const std::vector<double> begun = best.shape;
+  bool moved = true;
+  for (int round = 0; round < kMostRounds && moved; ++round) {
+    moved = false;
+    for (int k : free_shapes(*c.effect)) {
+      const auto i = static_cast<std::size_t>(k);
+      double step = 1e300;
+      for (const std::vector<double>& shape : tried)
+        if (const double away = std::abs(shape[i] - begun[i]); away > 1e-9) step = std::min(step, away);
+      if (step == 1e300) continue;
+      for (int halves = 0; halves < 4; ++halves) {
+        step *= 0.5;
+        for (double side : {-step, step}) {
+          std::vector<double> shape = best.shape;
+          shape[i] += side;
+          JoinedColumns columns = columns_at(model, c, shape);
+          const JoinedTest test = model.test(columns, believed_white);
+          if (test.judged() <= best.test.judged()) continue;
+          best.take_if_better(test, shape, std::move(columns));
+          moved = true;
+          break;
+        }
       }
     }
+    if (free_shapes(*c.effect).size() < 2) break;
   }
 }
 
@@ -107,9 +117,11 @@ std::vector<JoinedCandidate> joined_candidates(const JoinedModel& model) {
     if (e.name == "floor_slope_creep" && !model.has_truth()) continue;  // it is the way of all of them
     if (!e.acts_on_motion() || !e.motions || e.only_commands || e.of_each_recording || e.name == "wheel_toe") continue;
     if (e.local && e.name != "slip_zone") continue;
-    if (e.name != "floor_slope_creep")
+    const bool of_each = e.name != "floor_slope_creep";
+    if (of_each)
       for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
-    if (is_of_all(e) && model.has_truth()) list.push_back({&e, all, e.component == "floor" ? "floor" : "vehicle"});
+    if (is_of_all(e) && model.has_truth() && (all.size() > 1 || !of_each))
+      list.push_back({&e, all, e.component == "floor" ? "floor" : "vehicle"});
   }
   return list;
 }
@@ -144,28 +156,50 @@ JoinedColumns columns_at(const JoinedModel& model, const JoinedCandidate& c, con
   return model.columns_of(motions_at(model, c, shape), c.effect->amplitudes.size(), c.units);
 }
 
-ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, double believed_white) {
+JoinedColumns columns_at(const JoinedModel& model, const JoinedCandidate& c,
+                         const std::vector<std::vector<double>>& shapes) {
+  std::vector<JoinedModel::MotionsOf> each;
+  for (const std::vector<double>& shape : shapes) each.push_back(motions_at(model, c, shape));
+  return model.columns_of_each(each, c.effect->amplitudes.size(), c.units);
+}
+
+ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& c, double believed_white,
+                           const std::vector<Vec2>& places) {
   ScoredTogether best;
   best.candidate = c;
   std::vector<std::vector<double>> shapes = shapes_of(*c.effect, model.views(c.units.front()));
+  if (c.effect->name == "slip_zone")
+    for (const Vec2& place : places)
+      for (const double radius_m : {0.25, 0.5, 0.9}) shapes.push_back({place.x_m, place.y_m, radius_m, 0.0});
   std::vector<double> said(shapes.size(), 0.0);
-  const auto try_shape = [&](std::size_t k) {
-    JoinedColumns columns = columns_at(model, c, shapes[k]);
-    const JoinedTest test = model.test(columns, believed_white);
-    said[k] = test.statistic;
-    const bool is_better = !best.columns || test.judged() > best.test.judged();
-    best.take_if_better(test, shapes[k], std::move(columns));
-    return is_better;
+  std::size_t at = 0;
+  const auto try_shapes = [&](std::size_t from, std::size_t to, std::size_t step) {
+    constexpr std::size_t kAtOnce = 16;
+    const std::size_t amplitudes = c.effect->amplitudes.size();
+    for (std::size_t k = from; k < to;) {
+      std::vector<std::size_t> numbers;
+      std::vector<std::vector<double>> some;
+      for (; k < to && some.size() < kAtOnce; k += step) numbers.push_back(k), some.push_back(shapes[k]);
+      const JoinedColumns columns = columns_at(model, c, some);
+      const std::vector<JoinedTest> tests = model.tests(columns, amplitudes, believed_white);
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        said[numbers[i]] = tests[i].statistic;
+        if (best.columns && tests[i].judged() <= best.test.judged()) continue;
+        at = numbers[i];
+        best.take_if_better(
+            tests[i], some[i],
+            columns.middleCols(static_cast<Eigen::Index>(i * amplitudes), static_cast<Eigen::Index>(amplitudes)));
+      }
+    }
   };
   const std::size_t stride = !c.effect->local && shapes.size() > kFewShapes ? shapes.size() / kFewShapes + 1 : 1;
-  std::size_t at = 0;
-  for (std::size_t k = 0; k < shapes.size(); k += stride)
-    if (try_shape(k)) at = k;
-  if (stride > 1)
-    for (std::size_t k = at > stride ? at - stride + 1 : 0; k < std::min(at + stride, shapes.size()); ++k) try_shape(k);
+  try_shapes(0, shapes.size(), stride);
+  if (stride > 1) {
+    const std::size_t middle = at;
+    try_shapes(middle > stride ? middle - stride + 1 : 0, std::min(middle + stride, shapes.size()), 1);
+  }
   if (!best.columns) return best;
-  for (int rounds = 0; rounds < (free_shapes(*c.effect).size() > 1 ? 2 : 1); ++rounds)
-    climb(model, c, believed_white, shapes, best);
+  climb(model, c, believed_white, shapes, best);
   take_simpler_form(model, believed_white, best);
   if (c.effect->of_one_recording) best.least_inflation = scatter_elsewhere(shapes, said, best);
   best.test.inflation = std::max(best.test.inflation, best.least_inflation);

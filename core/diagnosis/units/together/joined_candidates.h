@@ -39,8 +39,13 @@ std::vector<std::vector<double>> shapes_of(const Effect& effect, const std::vect
 JoinedModel::MotionsOf motions_at(const JoinedModel& model, const JoinedCandidate& candidate,
                                   const std::vector<double>& shape);
 JoinedColumns columns_at(const JoinedModel& model, const JoinedCandidate& candidate, const std::vector<double>& shape);
+// At each shape, side by side.
+JoinedColumns columns_at(const JoinedModel& model, const JoinedCandidate& candidate,
+                         const std::vector<std::vector<double>>& shapes);
 
-// At the shape that says most; of many, every so many-th first, and then those beside the best.
-ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& candidate, double believed_white);
+// At the shape that says most; of many, every so many-th first, and then those beside the best. A patch of floor is
+// sought at `places` besides: on a wide floor those of its own grid lie far apart.
+ScoredTogether at_its_best(const JoinedModel& model, const JoinedCandidate& candidate, double believed_white,
+                           const std::vector<Vec2>& places);
 
 }  // namespace odolab

@@ -87,7 +87,11 @@ JoinedColumn JoinedFilter::by_length(const std::function<void(Vehicle&, double)>
   column.read.resize(rows(), static_cast<Index>(readings()));
   for (std::size_t r = 0; r < readings(); ++r) {
     const Reading& reading = readings_[r];
-    const std::vector<Pose>& units = steps_[r].predicted;
+    // Where joints hold the others to the first: what they seem to be off by is noise, and a derivative that shares it
+    // is led by it.
+    std::vector<Pose> units = {steps_[r].predicted[0]};
+    const Pose body = units[0] * reading.unit_T_body[0];
+    for (std::size_t u = 1; u < this->units(); ++u) units.push_back(body * inverse(reading.unit_T_body[u]));
     column.read.col(static_cast<Index>(r)) = (read_at(units, units_T_body(other, reading.joints), reading.truth) -
                                               read_at(units, reading.unit_T_body, reading.truth)) /
                                              kStep;

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kMostRows = 3 * static_cast<int>(kMostJoinedUnits);
+constexpr int kMostRows = 3 * static_cast<int>(kMostJoinedUnits) + 3;
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRows, kMostRows>;
 
 constexpr double kEpoch_s = 0.075;  // and more, from one reading of the joints to the next that is looked at
@@ -141,7 +141,7 @@ void JoinedFilter::put_in(const JoinedColumn& column, double value) {
 // Robotics Research 29(5):502-528, 2010).
 MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
                                    const std::vector<Pose>& unit_T_body) const {
-  MatrixXd turn = MatrixXd::Identity(rows(), rows());
+  MatrixXd turn = MatrixXd::Identity(states(), states());
   const auto swing = [&](const std::vector<Pose>& poses, std::size_t u) {  // of the body, by the unit's heading
     const Vec2 arm = rotated(unit_T_body[u].position(), poses[u].heading_rad);
     return Eigen::Vector2d(-arm.y_m, arm.x_m);
@@ -152,13 +152,20 @@ MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::v
     turn.block<2, 2>(k, k) = by;
     turn.block<2, 1>(k, k + 2) = by * swing(before, u) - swing(after, u);
     turn.block<2, 2>(k, 0) = Eigen::Matrix2d::Identity() - by;
-    turn.block<2, 1>(k, 2) = swing(after, 0) - by * swing(before, 0);
+    // How far it stands from the first turns with that.
+    const auto apart = [&](const std::vector<Pose>& poses) {
+      const Vec2 to = (poses[u] * unit_T_body[u]).position() - (poses[0] * unit_T_body[0]).position();
+      return Eigen::Vector2d(-to.y_m, to.x_m);
+    };
+    turn.block<2, 1>(k, 2) = swing(after, 0) - by * swing(before, 0) + apart(after) - by * apart(before);
   }
   return turn;
 }
 
 double JoinedFilter::run(const JoinedNoise& noise) {
-  const Index n = rows();  // of the state, too: three numbers of each unit
+  wanders_ = noise.wander_m_per_sqrt_s > 0.0 || noise.wander_rad_per_sqrt_s > 0.0;
+  wander_lasts_s_ = noise.wander_lasts_s;
+  const Index n = rows(), count_of_states = states(), of_frame = n;
   steps_.resize(readings());
   residual_ = VectorXd::Zero(n * static_cast<Index>(readings()));
   double minus_two_log = 0.0;
@@ -168,23 +175,27 @@ double JoinedFilter::run(const JoinedNoise& noise) {
   for (const DifferentialDrive& d : drives_)
     count_m.push_back(2.0 * kPi * 0.5 * (d.wheel_radius_left_m + d.wheel_radius_right_m) / d.counts_per_wheel_turn());
 
-  Small p(n, n);
+  Small p = Small::Zero(count_of_states, count_of_states);
+  Pose wandered;    // the truth's frame
+  int refused = 0;  // samples of the truth in a row
+  const double wander2[] = {std::pow(noise.wander_m_per_sqrt_s, 2), std::pow(noise.wander_m_per_sqrt_s, 2),
+                            std::pow(noise.wander_rad_per_sqrt_s, 2)};
   std::vector<Pose> at(units());
-  const auto start = [&](const Pose& body, const Reading& reading, bool in_the_room) {
+  const auto start = [&](const Pose& body, const Reading& reading, bool in_room) {
     for (std::size_t u = 0; u < units(); ++u) at[u] = body * inverse(reading.unit_T_body[u]);
     p.setZero();
     for (Index k = 0; k < n; k += 3) {
-      if (k == 0 && !in_the_room) continue;  // where nothing says where the room is, the first unit begins it
+      if (k == 0 && !in_room) continue;  // where nothing says where the room is, the first unit begins it
       p(k, k) = p(k + 1, k + 1) = kUnknown_m * kUnknown_m;
       p(k + 2, k + 2) = kUnknown_rad * kUnknown_rad;
     }
   };
-  if (std::any_of(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; }))
-    start(started_at(), readings_.front(), true);
-  else
-    start({}, readings_.front(), false);
+  const bool in_the_room = std::any_of(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; });
+  start(in_the_room ? started_at() : Pose{}, readings_.front(), in_the_room);
+  for (Index k = 0; k < 3 && wanders_ && wander_lasts_s_ > 0.0; ++k)
+    p(of_frame + k, of_frame + k) = 0.5 * wander2[k] * wander_lasts_s_;
 
-  Small seen(n, n), err(n, n);
+  Small seen(n, count_of_states), err(n, n);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1> by(n);
   for (std::size_t r = 0; r < readings(); ++r) {
     Step& step = steps_[r];
@@ -220,14 +231,27 @@ double JoinedFilter::run(const JoinedNoise& noise) {
         p.block<3, 3>(k, k) += to_room * body * to_room.transpose();
         at[u] = at[u] * moved;
       }
+      if (wanders_) {
+        const double kept = kept_of_frame(r), lasts_s = reading.time_s - readings_[r - 1].time_s;
+        p.bottomRows(3) *= kept;
+        p.rightCols(3) *= kept;
+        wandered = {kept * wandered.x_m, kept * wandered.y_m, kept * wandered.heading_rad};
+        for (Index k = 0; k < 3; ++k)
+          p(of_frame + k, of_frame + k) +=
+              wander2[k] * (wander_lasts_s_ > 0.0 ? 0.5 * wander_lasts_s_ * (1.0 - kept * kept) : lasts_s);
+      }
     }
     step.predicted = at;
+    step.uncertain = p;
 
     // What is read, and how it depends on the units' poses.
     const Pose first = at[0] * reading.unit_T_body[0];
-    const VectorXd read = read_at(at, reading.unit_T_body, reading.truth);
+    std::optional<Pose> truth = reading.truth;
+    if (truth)
+      truth = Pose{truth->x_m - wandered.x_m, truth->y_m - wandered.y_m, truth->heading_rad - wandered.heading_rad};
+    const VectorXd read = read_at(at, reading.unit_T_body, truth);
     const Eigen::Matrix2d to_first = turned(-first.heading_rad);
-    const Eigen::Matrix2d to_truth = turned(reading.truth ? -reading.truth->heading_rad : 0.0);
+    const Eigen::Matrix2d to_truth = turned(truth ? -truth->heading_rad : 0.0);
     const Index of_joints = n - 3;
     seen.setZero();
     const auto put = [&](Index row, const Eigen::Matrix2d& frame, std::size_t u, double sign) {
@@ -239,9 +263,16 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     };
     for (std::size_t u = 1; u < units(); ++u) {
       put(3 * static_cast<Index>(u) - 3, to_first, u, 1.0);
-      put(3 * static_cast<Index>(u) - 3, to_first, 0, -1.0);
+      const Index row = 3 * static_cast<Index>(u) - 3;
+      put(row, to_first, 0, -1.0);
+      seen(row, 2) += read[row + 1];  // it is seen by the first, which turns
+      seen(row + 1, 2) -= read[row];
     }
     if (reading.truth) put(of_joints, to_truth, 0, 1.0);
+    if (reading.truth && wanders_) {
+      seen.block<2, 2>(of_joints, of_frame) = to_truth;
+      seen(of_joints + 2, of_frame + 2) = 1.0;
+    }
 
     err.setZero();
     for (std::size_t j = 0; j < reading.by_joint.size(); ++j) {
@@ -279,23 +310,51 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     err(of_joints + 1, of_joints + 1) += noise.truth_position_m * noise.truth_position_m;
     err(of_joints + 2, of_joints + 2) += noise.truth_heading_rad * noise.truth_heading_rad;
 
-    const auto squared = [&](Index from, Index count) {
-      const Small h = seen.middleRows(from, count);
+    // Whether the truth is none of its outliers, which cost what the last does that is none: samples that are left out
+    // for nothing would make any noise likely that leaves out many.
+    const auto is_taken = [&] {
+      const Small h = seen.middleRows(of_joints, truth_rows_);
       Small s = h * p * h.transpose();
-      s += err.block(from, from, count, count);
-      return read.segment(from, count).dot(s.llt().solve(read.segment(from, count)));
+      s += err.block(of_joints, of_joints, truth_rows_, truth_rows_);
+      const Eigen::LLT<Small> root(s);
+      const VectorXd off = read.segment(of_joints, truth_rows_);
+      if (off.dot(root.solve(off)) < kGateOfTruth) return true;
+      minus_two_log += kGateOfTruth;
+      for (Index k = 0; k < truth_rows_; ++k) minus_two_log += 2.0 * std::log(root.matrixLLT()(k, k));
+      return false;
+    };
+    // A truth that is contradicted all the time is right, and the poses are lost.
+    const auto is_lost = [&] {
+      constexpr int kMostInARow = 8;
+      if (++refused < kMostInARow) return false;
+      Small rigid = Small::Zero(count_of_states, 3);
+      for (std::size_t u = 0; u < units(); ++u) {
+        const Index k = 3 * static_cast<Index>(u);
+        rigid.block<3, 3>(k, 0).setIdentity();
+        rigid(k, 2) = -(at[u].y_m - at[0].y_m);
+        rigid(k + 1, 2) = at[u].x_m - at[0].x_m;
+      }
+      const Eigen::Vector3d unknown2(kUnknown_m * kUnknown_m, kUnknown_m * kUnknown_m, kUnknown_rad * kUnknown_rad);
+      p += rigid * unknown2.asDiagonal() * rigid.transpose();
+      return true;
     };
     if (reading.joints_are_read && r > 0 && are_torn_apart(read, of_joints)) {
-      const Eigen::Matrix3d of_first = p.topLeftCorner<3, 3>();  // what joins the units has jumped: they are put anew
+      const Small before = p;  // what joins the units has jumped: they are put anew
       start(first, reading, true);
-      p.topLeftCorner<3, 3>() = of_first;
+      p.topLeftCorner<3, 3>() = before.topLeftCorner<3, 3>();
+      if (wanders_) {
+        p.topRightCorner<3, 3>() = before.topRightCorner<3, 3>();
+        p.bottomLeftCorner<3, 3>() = before.bottomLeftCorner<3, 3>();
+        p.bottomRightCorner<3, 3>() = before.bottomRightCorner<3, 3>();
+      }
       step.starts = true;
       step.predicted = step.corrected = at;
       continue;
     }
     // Either the joints, or the truth, or both: a block of rows.
     const Index from = reading.joints_are_read ? 0 : of_joints;
-    const bool with_truth = reading.truth && (r == 0 || squared(of_joints, truth_rows_) < kGateOfTruth);
+    const bool with_truth = reading.truth && (is_taken() || is_lost());
+    if (with_truth) refused = 0;
     const Index m = of_joints + (with_truth ? truth_rows_ : 0) - from;
     if (m <= 0) {
       step.corrected = at;
@@ -316,16 +375,19 @@ double JoinedFilter::run(const JoinedNoise& noise) {
       residual_[static_cast<Index>(r) * n + from + a] = white[a];
       minus_two_log += white[a] * white[a] + 2.0 * std::log(root.matrixLLT()(a, a));
     }
-    by = gain * -read.segment(from, m);
+    const VectorXd off = gain * -read.segment(from, m);
+    if (wanders_)
+      wandered = {wandered.x_m + off[of_frame], wandered.y_m + off[of_frame + 1],
+                  wandered.heading_rad + off[of_frame + 2]};
     p -= gain * ph.transpose();
     // Where units stand against the first is linear in what they are off by; where they stand in the room is not, once
     // the first turns.
-    const VectorXd apart = read.head(of_joints) + seen.topRows(of_joints) * by;
-    at[0] = {at[0].x_m + by[0], at[0].y_m + by[1], at[0].heading_rad + by[2]};
+    const VectorXd apart = read.head(of_joints) + seen.topRows(of_joints) * off;
+    at[0] = {at[0].x_m + off[0], at[0].y_m + off[1], at[0].heading_rad + off[2]};
     const Pose body = at[0] * reading.unit_T_body[0];
     for (std::size_t u = 1; u < units(); ++u) {
       const Index k = 3 * static_cast<Index>(u);
-      const double about_rad = at[u].heading_rad + by[k + 2];
+      const double about_rad = at[u].heading_rad + off[k + 2];
       at[u] = body * Pose{apart[k - 3], apart[k - 2], apart[k - 1]} * inverse(reading.unit_T_body[u]);
       at[u].heading_rad = unwrapped(at[u].heading_rad, about_rad);
     }
@@ -339,36 +401,10 @@ double JoinedFilter::run(const JoinedNoise& noise) {
   return minus_two_log;
 }
 
-Pose JoinedFilter::started_at() const {
-  const auto by_wheels = [&](const Reading& r) { return on_the_way(way_[0], r.time_s) * r.unit_T_body[0]; };
-  const Pose first = by_wheels(readings_.front());
-  if (truth_rows_ == 3) {
-    const auto seen = std::find_if(readings_.begin(), readings_.end(), [](const Reading& r) { return !!r.truth; });
-    return *seen->truth * between(by_wheels(*seen), first);
-  }
-  // Positions alone: as the first unit's way lies best upon them, while it is too short to have gone astray.
-  constexpr double kFew_m = 3.0;
-  std::vector<Vec2> way, truth;
-  Vec2 mean_way{}, mean_truth{};
-  double gone_m = 0.0;
-  for (std::size_t r = 0; r < readings_.size() && (gone_m < kFew_m || way.size() < 2); ++r) {
-    if (r > 0) gone_m += 0.5 * (rolled_m_[0][r - 1][0] + rolled_m_[0][r - 1][1]);
-    if (!readings_[r].truth) continue;
-    way.push_back(by_wheels(readings_[r]).position());
-    truth.push_back(readings_[r].truth->position());
-    mean_way = mean_way + way.back();
-    mean_truth = mean_truth + truth.back();
-  }
-  mean_way = 1.0 / static_cast<double>(way.size()) * mean_way;
-  mean_truth = 1.0 / static_cast<double>(way.size()) * mean_truth;
-  double cosine = 0.0, sine = 0.0;
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    cosine += dot(way[i] - mean_way, truth[i] - mean_truth);
-    sine += cross(way[i] - mean_way, truth[i] - mean_truth);
-  }
-  const double turn_rad = std::atan2(sine, cosine);
-  const Vec2 at = mean_truth + rotated(first.position() - mean_way, turn_rad);
-  return {at.x_m, at.y_m, first.heading_rad + turn_rad};
+double JoinedFilter::kept_of_frame(std::size_t reading) const {
+  return wander_lasts_s_ > 0.0
+             ? std::exp(-(readings_[reading].time_s - readings_[reading - 1].time_s) / wander_lasts_s_)
+             : 1.0;
 }
 
 Pose JoinedFilter::on_the_way(const Track& track, double time_s) {
@@ -384,12 +420,23 @@ Track JoinedFilter::track(std::size_t unit) const {
 MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
   const Index n = rows(), count = static_cast<Index>(columns.size());
   MatrixXd out = MatrixXd::Zero(n * static_cast<Index>(readings()), count);
-  MatrixXd off = MatrixXd::Zero(n, count), passed(n, count);
+  MatrixXd off = MatrixXd::Zero(states(), count), passed(states(), count);
   const bool acts = std::any_of(columns.begin(), columns.end(), [](const JoinedColumn& c) {
     return c.read.cols() > 0 || std::any_of(c.moved.begin(), c.moved.end(), [](const auto& m) { return m.cols() > 0; });
   });
   if (!acts) return out;
+  const auto acts_at = [&](std::size_t r) {
+    return std::any_of(columns.begin(), columns.end(), [&](const JoinedColumn& c) {
+      const auto k = static_cast<Index>(r);
+      return (c.read.cols() > 0 && (c.read.col(k).array() != 0.0).any()) ||
+             (r > 0 && std::any_of(c.moved.begin(), c.moved.end(),
+                                   [&](const auto& m) { return m.cols() > 0 && (m.col(k - 1).array() != 0.0).any(); }));
+    });
+  };
+  bool has_acted = false;
   for (std::size_t r = 0; r < readings(); ++r) {
+    has_acted = has_acted || acts_at(r);
+    if (!has_acted) continue;
     const Step& step = steps_[r];
     if (step.starts && r > 0) {
       // The units are put anew where the first one and the joints say: what the first is off by, all are.
@@ -397,6 +444,7 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
         for (std::size_t u = 1; u < units(); ++u) off.col(c).segment<3>(3 * static_cast<Index>(u)).setZero();
       continue;
     }
+    if (r > 0 && wanders_) off.bottomRows(3) *= kept_of_frame(r);
     if (r > 0)
       for (std::size_t u = 0; u < units(); ++u) {
         const auto k = 3 * static_cast<Index>(u);
@@ -427,42 +475,6 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
     off.swap(passed);
   }
   return out;
-}
-
-std::vector<JoinedFilter::Impact> JoinedFilter::impacts(const VectorXd& left) const {
-  const Index n = rows();
-  std::vector<Impact> all(readings() - 1);
-  VectorXd score = VectorXd::Zero(n);
-  MatrixXd information = MatrixXd::Zero(n, n);
-  for (std::size_t r = readings() - 1; r > 0; --r) {
-    const Step& step = steps_[r];
-    if (step.starts) {  // what went before is known by the first unit alone
-      score.tail(n - 3).setZero();
-      information.rightCols(n - 3).setZero();
-      information.bottomRows(n - 3).setZero();
-    } else if (step.count > 0) {
-      score = step.out.transpose() * left.segment(static_cast<Index>(r) * n + step.first_row, step.count) +
-              step.on.transpose() * score;
-      information = step.out.transpose() * step.out + step.on.transpose() * information * step.on;
-    }
-    Impact& here = all[r - 1];
-    here.time_s = 0.5 * (readings_[r - 1].time_s + readings_[r].time_s);
-    here.units = step.predicted;
-    here.score = score;
-    here.information = information;
-    for (std::size_t u = 0; u < units(); ++u) {  // back over the way: a heading before swings what follows
-      const auto k = 3 * static_cast<Index>(u);
-      const Vec2 ahead = step.predicted[u].position() - steps_[r - 1].corrected[u].position();
-      score[k + 2] += -ahead.y_m * score[k] + ahead.x_m * score[k + 1];
-      information.col(k + 2) += -ahead.y_m * information.col(k) + ahead.x_m * information.col(k + 1);
-    }
-    for (std::size_t u = 0; u < units(); ++u) {
-      const auto k = 3 * static_cast<Index>(u);
-      const Vec2 ahead = step.predicted[u].position() - steps_[r - 1].corrected[u].position();
-      information.row(k + 2) += -ahead.y_m * information.row(k) + ahead.x_m * information.row(k + 1);
-    }
-  }
-  return all;
 }
 
 }  // namespace odolab

@@ -22,6 +22,8 @@ struct JoinedNoise {
   double joint_steps = 0.4;             // what a joint reads, in steps of its encoder
   double apart_m = 1e-4;                // by how much a unit stands elsewhere than rigid joints would have it
   double truth_position_m = 0.01, truth_heading_rad = 0.01;
+  // Of the truth's frame against the room, each coordinate, in time; forgotten with a time constant, 0: never.
+  double wander_m_per_sqrt_s = 0.0, wander_rad_per_sqrt_s = 0.0, wander_lasts_s = 0.0;
 };
 
 // What a change of the model by one does to a recording.
@@ -51,12 +53,16 @@ class JoinedFilter {
   double run(const JoinedNoise& noise);
   const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
   Track track(std::size_t unit) const;                           // as corrected
+  // Of each unit, by all that is read before and after (A. E. Bryson and M. Frazier, "Smoothing for linear and
+  // nonlinear dynamic systems", Proceedings of the Optimum System Synthesis Conference, 1963, as modified by G. J.
+  // Bierman 1973).
+  std::vector<Track> smoothed() const;
 
   // Whitened columns, side by side: what the residual would be if the world did so and the model did not know.
   Eigen::MatrixXd carried(const std::vector<JoinedColumn>& columns) const;
 
   // What a sudden motion of the units on the way to each reading would say, of what is left of the whitened numbers:
-  // the score of each unit's x, y and heading in the room, and their information.
+  // the score of each unit's x, y and heading in the room, and their information; the truth's frame comes last.
   struct Impact {
     double time_s = 0.0;  // in the middle of that way
     std::vector<Pose> units;
@@ -86,6 +92,7 @@ class JoinedFilter {
   struct Step {
     bool starts = false;
     std::vector<Pose> predicted, corrected;  // of each unit
+    Eigen::MatrixXd uncertain;               // covariance of the states as predicted
     Eigen::Index first_row = 0, count = 0;   // of what was read
     Eigen::MatrixXd whitener, out;           // of what is read; of what the poses are off by, as it is seen
     Eigen::MatrixXd gain, on;                // what the poses take of it; what goes on of what they were off by
@@ -109,6 +116,11 @@ class JoinedFilter {
 
   // The body at the first reading, by the truth.
   Pose started_at() const;
+  // What the poses are off by, and behind them the truth's frame where that wanders: along x, y and in heading.
+  Eigen::Index states() const { return rows() + (wanders_ ? 3 : 0); }
+  double kept_of_frame(std::size_t reading) const;  // since the reading before
+  // What the states at a reading say of those at the one before, given its score there.
+  void carry_back(std::size_t reading, Eigen::VectorXd& score) const;
 
   Vehicle vehicle_;
   std::vector<UnitSample> samples_;
@@ -120,6 +132,8 @@ class JoinedFilter {
   std::vector<std::vector<std::array<double, 2>>> rolled_m_;  // [unit][epoch] by each wheel, to and fro
   std::vector<std::vector<Piece>> pieces_;                    // of each unit
   std::vector<std::size_t> first_piece_;                      // of each step, alike in all units; one more at the end
+  bool wanders_ = false;                                      // as it ran last
+  double wander_lasts_s_ = 0.0;
   std::vector<Step> steps_;
   Eigen::VectorXd residual_;
 };

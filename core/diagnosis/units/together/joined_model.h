@@ -61,6 +61,9 @@ class JoinedModel {
   using MotionsOf = std::function<std::vector<Motions>(const DriveView&)>;
   JoinedColumns columns_of(const MotionsOf& motions, std::size_t amplitudes,
                            const std::vector<std::size_t>& units) const;
+  // Of several, side by side: the filters are gone through once for all of them.
+  JoinedColumns columns_of_each(const std::vector<MotionsOf>& each, std::size_t amplitudes,
+                                const std::vector<std::size_t>& units) const;
 
   struct Acting {
     MotionsOf motions;
@@ -73,6 +76,8 @@ class JoinedModel {
   void put_in(const std::vector<Acting>& acting);
 
   JoinedTest test(const JoinedColumns& columns, double batches_believed_white = kFewestBatchesBelieved) const;
+  // Of several with so many columns each, side by side; each by itself.
+  std::vector<JoinedTest> tests(const JoinedColumns& all, std::size_t amplitudes, double batches_believed_white) const;
   std::vector<JoinedFilter::Impact> impacts(std::size_t run) const;  // of what is left beside all that was let in
   ScoreByBatches score_by_batches(const JoinedColumns& columns) const;
   // Of each recording, what columns that are not in the model say at these values.
@@ -82,18 +87,30 @@ class JoinedModel {
   void let_in(const JoinedColumns& columns);
 
  private:
+  struct NoiseSize {
+    double JoinedNoise::*of;
+    double least, most;
+  };
+  // Minus twice the log-likelihood at the best of them.
+  double fit_sizes(const std::vector<NoiseSize>& sizes);
+  std::vector<NoiseSize> sizes_of_truth() const;
+  bool let_frame_wander();  // whether it does; the model is to be linearised anew then
   void make_filters();
   std::vector<JoinedColumn> moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,
                                      const std::vector<std::size_t>& units) const;
   void linearise();
   // What columns at such values leave once all of the model is fitted to it.
   Eigen::VectorXd trace_of(const JoinedColumns& columns, const Eigen::VectorXd& value) const;
+  // `cross`: products of the model's own columns with these.
+  JoinedTest test_of(const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::MatrixXd& cross,
+                     double batches_believed_white) const;
   // How well a sum of the model's own numbers is known.
   double stderr_of(const Eigen::VectorXd& sum) const;
   // Of the score along a direction of what is left.
   ScoreByBatches score_along(const Eigen::VectorXd& direction) const;
   void solve();  // for what has been put into z_
   void hold_the_body(Eigen::MatrixXd& prior) const;
+  void let_joints_say_nothing_of_scale();
   double minus_two_log_likelihood(const JoinedNoise& noise);
 
   std::vector<JoinedRun> given_;
@@ -104,7 +121,8 @@ class JoinedModel {
     std::string name;
     double prior = 0.0;
     std::function<void(Vehicle&, double)> add;
-    double moved = 0.0;  // from the file
+    double grows_m = 0.0;  // where all lengths grow by one
+    double moved = 0.0;    // from the file
   };
   std::vector<Length> lengths_;
   std::vector<DifferentialDrive> drives_of_file_;

@@ -84,11 +84,36 @@ bool is_physical(const ScoredTogether& s) {
   return true;
 }
 
+// Where the moments are that say most.
+std::vector<Vec2> places_of_moments(const JoinedModel& model) {
+  std::vector<Vec2> places;
+  for (const JoinedMoments& kind : joined_moments(model))
+    for (const JoinedMoment& m : kind.strongest) {
+      const DriveView& view = model.views(kind.units.front())[static_cast<std::size_t>(m.run)];
+      places.push_back(view.steps[std::min(view.step_at(m.time_s), view.steps.size() - 1)].position);
+    }
+  return places;
+}
+
 // Two things of the same moment.
 bool is_one_moment(const ScoredTogether& a, const ScoredTogether& b) {
   constexpr double kClose_s = 1.0;
   if (!a.candidate.effect->of_one_recording || !b.candidate.effect->of_one_recording) return false;
   return a.shape[0] == b.shape[0] && std::abs(a.shape[1] - b.shape[1]) < kClose_s;
+}
+
+// What has a place, within a slippery patch or next to it: the patch's shape is not quite what it is taken for.
+bool lies_in_patch(const ScoredTogether& s, const ScoredTogether& patch) {
+  constexpr double kBeside_m = 0.2;
+  if (patch.candidate.effect->name != "slip_zone" || s.candidate.effect->of_one_recording) return false;
+  const auto of = [](const ScoredTogether& one, const char* name) -> std::optional<double> {
+    for (std::size_t i = 0; i < one.candidate.effect->shapes.size(); ++i)
+      if (one.candidate.effect->shapes[i].name == name) return one.shape[i];
+    return std::nullopt;
+  };
+  const std::optional<double> x_m = of(s, "x_m"), y_m = of(s, "y_m");
+  return x_m && y_m &&
+         std::hypot(*x_m - *of(patch, "x_m"), *y_m - *of(patch, "y_m")) < *of(patch, "radius_m") + kBeside_m;
 }
 
 // One number that says as much as the three of a push at that moment.
@@ -161,11 +186,12 @@ class Naming {
     const std::vector<JoinedCandidate> list = joined_candidates(model_);
     scored_.resize(list.size());
     std::vector<ScoreByBatches> scores(list.size());
+    const std::vector<Vec2> places = places_of_moments(model_);
     parallel_for(
         static_cast<int>(list.size()),
         [&](int k) {
           const auto i = static_cast<std::size_t>(k);
-          scored_[i] = at_its_best(model_, list[i], kFewestBatchesBelieved);
+          scored_[i] = at_its_best(model_, list[i], kFewestBatchesBelieved, places);
           if (scored_[i].columns && !list[i].effect->scan) scores[i] = model_.score_by_batches(*scored_[i].columns);
         },
         {}, progress);
@@ -260,6 +286,7 @@ class Naming {
 
   bool is_named(const ScoredTogether& s) const {
     return std::any_of(named_.begin(), named_.end(), [&](const ScoredTogether& n) {
+      if (lies_in_patch(s, n)) return true;
       if (s.candidate.effect->local || n.candidate.effect->local) return is_one_moment(s, n);
       return n.candidate.effect == s.candidate.effect && n.candidate.component == s.candidate.component;
     });

@@ -19,6 +19,13 @@ namespace {
 constexpr double kShortestStep_s = 0.045;  // between samples of the truth: more say nothing about what lasts
 constexpr double kCoarse_m = 0.004, kCoarseRate_hz = 25.0;
 
+// Of one sample, or of what its frame wanders meanwhile.
+double size_of_truths_error_m(const JoinedNoise& noise) {
+  constexpr double kMeanwhile_s = 10.0;
+  const double lasts_s = noise.wander_lasts_s > 0.0 ? 0.5 * noise.wander_lasts_s : kMeanwhile_s;
+  return std::max(noise.truth_position_m, noise.wander_m_per_sqrt_s * std::sqrt(lasts_s));
+}
+
 // What each unit is not asked any more, since all together know it better.
 bool is_told_together(const Finding& f) {
   static const std::set<std::string> others = {"clock_rate",      "wheel_toe",        "unknown",
@@ -56,7 +63,7 @@ std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Veh
   }
   ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
   told.model.fit_all();
-  if (told.model.has_headings() && told.model.noise().truth_position_m < kCoarse_m) return std::nullopt;
+  if (told.model.has_headings() && size_of_truths_error_m(told.model.noise()) < kCoarse_m) return std::nullopt;
   told.said = joined_names(told.model, family_wise_error, progress);
   return told;
 }
@@ -89,13 +96,13 @@ std::vector<Understood> understood_without(const ToldTogether& told, const std::
     if (told.said.names.empty()) continue;
     JoinedFilter where(runs[r], told.model.vehicle(), clock_s[r]);
     where.run(told.model.noise());
+    const std::vector<Track> tracks = where.smoothed();
     std::vector<std::vector<BodyMotion>> motions(units.size());
     for (std::size_t u = 0; u < units.size(); ++u) {
       FittedModel model;
       for (const Finding& f : findings_of(told, u)) model.effects.push_back({f.as_active(), {}, f.where.recording});
-      motions[u] =
-          motions_of(drive_view(0, run_of_wheels(all.back().samples, u), units[u].drive, false, where.track(u)),
-                     model.effects_in(recordings[r].name));
+      motions[u] = motions_of(drive_view(0, run_of_wheels(all.back().samples, u), units[u].drive, false, tracks[u]),
+                              model.effects_in(recordings[r].name));
     }
     all.back().samples = without_effects(all.back().samples, units, motions).samples;
   }

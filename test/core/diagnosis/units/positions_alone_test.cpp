@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/units/together/joined_filter.h"
+#include "core/diagnosis/units/together/joined_model.h"
 #include "core/diagnosis/units/unit_recordings.h"
 #include "test/support/linked_runs.h"
 
@@ -66,6 +66,104 @@ TEST(JoinedFilter, FindsItsHeadingByPositionsAlone) {
   EXPECT_NEAR(wrapped(by_filter.back().pose.heading_rad - actual_rad), 0.0, 0.012);
 }
 
+// One sample in twenty is a metre off, the first among them.
+TEST(JoinedFilter, FindsItsHeadingThoughARadioIsAMetreOffNowAndThen) {
+  const Clapper trucks = fine_clapper();
+  const Vehicle vehicle = vehicle_of(trucks);
+  const Recording read = linked_run(trucks, under_a_total_station(), 415);
+  JoinedRun run{unit_samples(read, vehicle), tracked_positions(read), false};
+  Random random(415);
+  for (std::size_t i = 0; i < run.tracked.size(); i += 20)
+    run.tracked[i].pose = {run.tracked[i].pose.x_m + random.normal(), run.tracked[i].pose.y_m + random.normal(), 0.0};
+  JoinedFilter filter(run, vehicle, 0.0);
+  JoinedNoise noise;
+  noise.truth_position_m = 0.005;
+  filter.run(noise);
+  const double actual_rad = truth_samples(read).back().heading_rad.value();
+  EXPECT_NEAR(wrapped(filter.track(0).back().pose.heading_rad - actual_rad), 0.0, 0.012);  // as without them
+}
+
+// Satellites: 5 mm of each sample by itself, and a frame that is off by 12 mm and forgets it in 30 s.
+TEST(JoinedModel, KnowsATruthWhoseFrameWanders) {
+  constexpr double kFrame_m = 0.012, kLasts_s = 30.0;
+  const Clapper trucks = fine_clapper();
+  const auto noise_under = [&](double frame_m) {
+    std::vector<JoinedRun> runs;
+    Random random(416);
+    for (std::uint64_t k = 0; k < 2; ++k) {
+      const Recording read = linked_run(trucks, under_a_total_station(), 416 + k);
+      runs.push_back({unit_samples(read, vehicle_of(trucks)), tracked_positions(read), false});
+      Vec2 frame{frame_m * random.normal(), frame_m * random.normal()};
+      double last_s = 0.0;
+      for (TimedPose& t : runs.back().tracked) {
+        const double kept = std::exp(-(t.time_s - last_s) / kLasts_s), anew = frame_m * std::sqrt(1.0 - kept * kept);
+        frame = kept * frame + Vec2{anew * random.normal(), anew * random.normal()};
+        last_s = t.time_s;
+        t.pose = {t.pose.x_m + frame.x_m, t.pose.y_m + frame.y_m, 0.0};
+      }
+    }
+    JoinedModel model(runs, vehicle_of(trucks), {}, {"1", "2"});
+    model.fit_all();
+    return model.noise();
+  };
+  const JoinedNoise still = noise_under(0.0), wandering = noise_under(kFrame_m);
+  EXPECT_EQ(still.wander_m_per_sqrt_s, 0.0);
+  EXPECT_NEAR(wandering.truth_position_m, 0.005, 0.0008);  // a step of the search is 15 %
+  EXPECT_NEAR(wandering.wander_m_per_sqrt_s / (kFrame_m * std::sqrt(2.0 / kLasts_s)), 1.0, 0.3);
+}
+
+// How far tracks are from where the truck was, root mean square.
+double off_m(const Track& track, const Recording& actual) {
+  const Track way = tracked_poses(actual);
+  double squares_m2 = 0.0;
+  for (const TimedPose& t : track) {
+    const Vec2 off = t.pose.position() - pose_at(way, t.time_s)->position();
+    squares_m2 += dot(off, off) / static_cast<double>(track.size());
+  }
+  return std::sqrt(squares_m2);
+}
+
+// What comes after says as much as what came before: a radio that errs by 50 mm.
+TEST(JoinedFilter, KnowsItsWayBetterByWhatComesAfter) {
+  const Clapper trucks = fine_clapper();
+  const Vehicle vehicle = vehicle_of(trucks);
+  LinkedRunSettings s = under_a_total_station(), exactly = s;
+  s.truth_m = 0.05;
+  exactly.truth_m = exactly.truth_rad = 0.0;
+  const Recording actual = linked_run(trucks, exactly, 414), read = linked_run(trucks, s, 414);
+  JoinedFilter filter({unit_samples(read, vehicle), tracked_positions(read), false}, vehicle, 0.0);
+  JoinedNoise noise;
+  noise.truth_position_m = s.truth_m;
+  noise.wheel_m_per_sqrt_m = s.wheel_noise;
+  filter.run(noise);
+  const double filtered_m = off_m(filter.track(0), actual), smoothed_m = off_m(filter.smoothed()[0], actual);
+  EXPECT_LT(smoothed_m, 0.7 * filtered_m);
+}
+
+// What units contradict each other by is noise, and would be less were they all smaller: a radio that errs by 0.1 m
+// does not stand against that.
+TEST(JoinedModel, LetsUnitsSayNothingOfHowLargeTheyAllAre) {
+  const Clapper trucks = fine_clapper();
+  LinkedRunSettings s = under_a_total_station();
+  s.truth_m = 0.1;
+  constexpr int kRobots = 3;
+  double mean = 0.0;  // in standard errors
+  for (std::uint64_t robot = 0; robot < kRobots; ++robot) {
+    std::vector<JoinedRun> runs;
+    for (std::uint64_t run = 0; run < 2; ++run) {
+      const Recording r = linked_run(trucks, s, 450 + 10 * robot + run);
+      runs.push_back({unit_samples(r, vehicle_of(trucks)), tracked_positions(r), false});
+    }
+    JoinedModel model(runs, vehicle_of(trucks), {}, {"1", "2"});
+    model.fit_all();
+    double share = 0.0;
+    for (const VehicleUnit& unit : units_of(model.vehicle()))
+      share += 0.25 * (unit.drive.wheel_radius_left_m + unit.drive.wheel_radius_right_m);
+    mean += (share / trucks.truck_a.wheel_radius_left_m - 1.0) / model.stderr_of_scale() / kRobots;
+  }
+  EXPECT_LT(std::abs(mean), 3.0 / std::sqrt(kRobots));  // they had been five too small
+}
+
 // From the inside only ratios would show.
 TEST(DiagnoseUnits, MeasureHowLargeAllWheelsAreByPositionsAlone) {
   const Clapper actual = larger(fine_clapper(), 0.01);
@@ -97,6 +195,25 @@ TEST(DiagnoseUnits, TellALinkThatReadsShortFromSmallWheelsByPositionsAlone) {
   const FoundParameter& bias = d->findings[0].parameters[0];
   EXPECT_NEAR(bias.value, kBias_m, 3.5 * bias.stderr_value);
   EXPECT_LT(bias.stderr_value, 0.1 * std::abs(kBias_m));
+}
+
+// The towing vehicle's wheels are not looked at: its heading is the trailer's, and what the hitch reads.
+TEST(DiagnoseUnits, MeasureATrailerByPositionsOfWhatTowsIt) {
+  EncoderTrailer actual;
+  actual.hitch_angle_resolution_rad = 0.0005;
+  const EncoderTrailer file = actual;
+  for (double* length : {&actual.trailer.wheel_radius_left_m, &actual.trailer.wheel_radius_right_m,
+                         &actual.trailer.wheelbase_m, &actual.drawbar_length_m})
+    *length *= 1.008;
+  const LinkedRunSettings s = under_a_total_station();
+  const Result<Diagnosis> d = diagnose(
+      without_headings({trailer_run(actual, s, 441), trailer_run(actual, s, 442), trailer_run(actual, s, 443)}), {},
+      vehicle_of(file));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::nothing_missing);
+  expect_known(*d, "trailer.wheel_radius_left_m", actual.trailer.wheel_radius_left_m, 0.001);
+  expect_known(*d, "trailer.wheelbase_m", actual.trailer.wheelbase_m, 0.005);
+  expect_known(*d, "drawbar_length_m", actual.drawbar_length_m, 0.006);
 }
 
 // The line through a pivot meets its axle two or three millimetres from where the file has it, which travels in turns.

@@ -1,0 +1,78 @@
+// How large the random errors are, and whether the truth's frame wanders: by the likelihood of all recordings.
+#include <algorithm>
+
+#include "core/diagnosis/units/together/joined_model.h"
+
+namespace odolab {
+
+double JoinedModel::fit_sizes(const std::vector<NoiseSize>& sizes) {
+  double here = minus_two_log_likelihood(noise_);
+  for (double factor : {2.0, 1.4, 1.15})
+    for (const NoiseSize& one : sizes)
+      for (int tries = 0; tries < 6; ++tries) {  // downhill by factors
+        JoinedNoise more = noise_, less = noise_;
+        more.*one.of = std::min(more.*one.of * factor, one.most);
+        less.*one.of = std::max(less.*one.of / factor, one.least);
+        const double up = minus_two_log_likelihood(more);
+        if (up < here) {
+          noise_ = more, here = up;
+          continue;
+        }
+        const double down = minus_two_log_likelihood(less);
+        if (down >= here) break;
+        noise_ = less, here = down;
+      }
+  return here;
+}
+
+void JoinedModel::fit_noise() {
+  std::vector<NoiseSize> all = {{&JoinedNoise::wheel_m_per_sqrt_m, 2e-5, 2e-2},
+                                {&JoinedNoise::joint_steps, 0.29, 20.0},
+                                {&JoinedNoise::apart_m, 2e-5, 5e-3},
+                                {&JoinedNoise::sideways_m_per_sqrt_m, 2e-5, 1e-2}};
+  const std::vector<NoiseSize> of_truth = sizes_of_truth();
+  all.insert(all.end(), of_truth.begin(), of_truth.end());
+  fit_sizes(all);
+  linearise();
+}
+
+std::vector<JoinedModel::NoiseSize> JoinedModel::sizes_of_truth() const {
+  std::vector<NoiseSize> sizes;
+  if (!has_truth_) return sizes;
+  const bool wanders = noise_.wander_m_per_sqrt_s > 0.0;
+  sizes.push_back({&JoinedNoise::truth_position_m, 1e-4, 0.5});
+  if (wanders) sizes.push_back({&JoinedNoise::wander_m_per_sqrt_s, 1e-5, 0.5});
+  if (has_headings_) sizes.push_back({&JoinedNoise::truth_heading_rad, 1e-4, 0.5});
+  if (has_headings_ && wanders) sizes.push_back({&JoinedNoise::wander_rad_per_sqrt_s, 1e-6, 0.5});
+  if (noise_.wander_lasts_s > 0.0) sizes.push_back({&JoinedNoise::wander_lasts_s, 0.2, 60.0});
+  return sizes;
+}
+
+// Satellites, beacons and maps: where that is beyond doubt, since a frame that wanders tells less of all that lasts.
+bool JoinedModel::let_frame_wander() {
+  constexpr double kWorthFitting = 10.0, kBeyondDoubt = 20.0;  // in twice the log-likelihood
+  const double still = minus_two_log_likelihood(noise_);
+  const JoinedNoise as_it_stands = noise_;
+  JoinedNoise best = noise_;
+  double least = still - kBeyondDoubt;
+  for (const double lasts_s : {0.0, 1.5}) {  // on and on, or back again
+    JoinedNoise from = as_it_stands;
+    double of_from = still - kWorthFitting;
+    for (const double rate : {5e-4, 2e-3, 8e-3}) {
+      noise_ = as_it_stands;
+      noise_.wander_m_per_sqrt_s = rate;
+      if (has_headings_) noise_.wander_rad_per_sqrt_s = 0.3 * rate;
+      noise_.wander_lasts_s = lasts_s;
+      const double here = minus_two_log_likelihood(noise_);
+      if (here < of_from) of_from = here, from = noise_;
+    }
+    if (from.wander_m_per_sqrt_s == 0.0) continue;
+    noise_ = from;
+    const double here = fit_sizes(sizes_of_truth());
+    if (here < least) least = here, best = noise_;
+  }
+  noise_ = best;
+  return best.wander_m_per_sqrt_s > 0.0;
+}
+
+}  // namespace odolab
