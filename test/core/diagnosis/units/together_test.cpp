@@ -106,7 +106,7 @@ TEST(JoinedFilter, HasJointsSayNothingOfATurnOfAllUnitsAlike) {
 }
 
 // What a filter leaves where the file has a number a little more is the number's column; noise that the whitened
-// numbers share with it had turned the truth's mounting and clock by 5 mm and 17 ms (a platform of another program).
+// numbers share with it had moved the truth's mounting and clock by 6 mm and 14 ms (a platform of another program).
 TEST(JoinedFilter, LeavesWhatALengthsColumnSays) {
   MultiCastor platform = three_castor_vehicle();
   platform.wheel_encoder_resolution_rad = 0.02;
