@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/units/others_way.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
@@ -62,6 +63,12 @@ void take_asides(const JoinedModel& model, GeometryFit& fit) {
     fit.aside_stderr_m.resize(to->castors.size());
     fit.aside_stderr_m[i] = model.stderr_of_aside_m(i);
   }
+}
+
+Pose start_of(const JoinedModel& model, std::size_t run) {
+  const Pose unit = model.runs()[run].smoothed().front().front().pose;
+  return unit *
+         inverse(tracked_T_axle(without_mounting(model.vehicle()), 0, model.given()[run].samples.front().joints));
 }
 
 void widen_by_scale(double share, Diagnosis& one) {

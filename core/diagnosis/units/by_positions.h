@@ -24,6 +24,9 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
 // Where the lines through the pivots meet the axles, with or without a truth; other vehicles' fits stay as they are.
 void take_asides(const JoinedModel& model, GeometryFit& fit);
 
+// Where the vehicle's reference point is in the room when a recording starts.
+Pose start_of(const JoinedModel& model, std::size_t run);
+
 // Of a unit that was judged by the others: its wheels are known no better than all wheels together are, by this share.
 void widen_by_scale(double share, Diagnosis& one);
 

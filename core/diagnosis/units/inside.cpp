@@ -29,12 +29,19 @@ struct Judged {
   std::vector<Diagnosis> units;
 };
 
-Result<std::vector<Recording>> recordings_of(const Known& known, const std::vector<Understood>& set, std::size_t unit) {
+// `begun`: where the vehicle's reference point is in the room at the start of each recording, if that is known.
+Result<std::vector<Recording>> recordings_of(const Known& known, const std::vector<Understood>& set,
+                                             const std::vector<Pose>& begun, std::size_t unit) {
   std::vector<Recording> own;
-  for (const Understood& r : set) {
-    const Result<Track> track = way_by_others(known, r.samples, unit);
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    Result<Track> track = way_by_others(known, set[k].samples, unit);
     if (!track) return track.error();
-    own.push_back(recording_of_unit(*r.recording, r.samples, *track, known.vehicle, unit, 0.0, true));
+    if (!begun.empty()) {
+      const Pose room_T_way = begun[k] * inverse(track->front().pose);
+      for (TimedPose& t : *track) t.pose = room_T_way * t.pose;
+      unwrap_headings(*track);
+    }
+    own.push_back(recording_of_unit(*set[k].recording, set[k].samples, *track, known.vehicle, unit, 0.0, true));
   }
   return own;
 }
@@ -107,12 +114,17 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
                      [&](double share) { return goes_on(progress, 0.3 * share); });
   if (!goes_on(progress, 0.3)) return Error{"diagnosis", "stopped before its end", ""};
   std::vector<double> clock_s(runs.size()), clock_held_out_s(runs_held_out.size());
+  std::vector<Pose> begun, begun_held_out;
   if (by_positions) {
-    for (std::size_t r = 0; r < runs.size(); ++r) clock_s[r] = told.model.clock_s(r);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      clock_s[r] = told.model.clock_s(r);
+      begun.push_back(start_of(told.model, r));
+    }
     for (std::size_t r = 0; r < runs_held_out.size(); ++r) {
       JoinedModel one({runs_held_out[r]}, told.model.vehicle(), {}, {held_out[r].name});
       one.fit(2);
       clock_held_out_s[r] = one.clock_s(0);
+      begun_held_out.push_back(start_of(one, 0));
     }
   }
   const std::vector<Understood> train_without = understood_without(told, train, runs, clock_s, nominal);
@@ -125,7 +137,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   const auto recordings = [&](const Known& known, bool are_held_out, std::size_t u) -> Result<std::vector<Recording>> {
     const std::vector<Understood>& set = are_held_out ? held_out_without : train_without;
     if (by_positions && units[u].carries_truth) return as_recorded(set, nominal, u);
-    if (units.size() > 1) return recordings_of(known, set, u);
+    if (units.size() > 1) return recordings_of(known, set, are_held_out ? begun_held_out : begun, u);
     std::vector<Recording> own;
     for (std::size_t r = 0; r < set.size(); ++r)
       own.push_back(recording_by_positions(*set[r].recording, set[r].samples, (are_held_out ? runs_held_out : runs)[r],
