@@ -24,8 +24,8 @@ GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nomin
       estimate.stderr_value = known->stderr_value;
       estimate.determined = known->stderr_value < kDeterminedBelow * p.prior;
       estimate.is_from_inside = p.component != "truth";
+      if (estimate.determined) p.of(fit.vehicle) = estimate.value += known->value;
     }
-    if (estimate.determined) p.of(fit.vehicle) = estimate.value += model.length(p.name)->value;
     fit.joints.push_back(std::move(estimate));
   }
   for (const VehicleUnit& unit : units_of(model.vehicle())) fit.drives.push_back(unit.drive);

@@ -10,7 +10,7 @@
 
 namespace odolab {
 
-// Places that are read once a second or more in every recording.
+// Places that are read once a second or more in every recording; true where there is none.
 bool have_positions(const std::vector<Recording>& recordings);
 
 // The joints, the wheels, where the truth sits, and its clocks.

@@ -153,7 +153,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   const std::vector<VehicleUnit> units = units_of(nominal);
   const bool no_truth =
       std::any_of(runs.begin(), runs.end(), [](const JoinedRun& run) { return !comes_often(run.tracked); });
-  const bool has_positions = have_positions(train) && (held_out.empty() || have_positions(held_out));
+  const bool has_positions = have_positions(train) && have_positions(held_out);
   const bool is_alone = units.size() == 1 && !units[0].carries_truth;
   if (no_truth && (units.size() > 1 || (is_alone && has_positions)))
     return diagnose_inside(train, held_out, nominal, options, progress);

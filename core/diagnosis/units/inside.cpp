@@ -98,7 +98,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     return Error{nominal.name,
                  std::to_string(units.size()) + " units and no outside truth with headings, a sample a second or more",
                  "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
-  const bool by_positions = have_positions(train) && (held_out.empty() || have_positions(held_out));
+  const bool by_positions = have_positions(train) && have_positions(held_out);
   const auto runs_of = [&](const std::vector<Recording>& set) {
     std::vector<JoinedRun> runs;
     for (const Recording& r : set)

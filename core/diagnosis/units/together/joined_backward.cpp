@@ -12,12 +12,7 @@ std::vector<Track> JoinedFilter::smoothed() const {
   VectorXd score = VectorXd::Zero(states());
   for (std::size_t r = readings(); r-- > 0;) {
     const Step& step = steps_[r];
-    if (step.starts && r > 0) {
-      score.segment(3, rows() - 3).setZero();
-    } else if (step.count > 0) {
-      score = step.out.transpose() * residual_.segment(static_cast<Index>(r) * rows() + step.first_row, step.count) +
-              step.on.transpose() * score;
-    }
+    take_in(r, residual_, score);
     const VectorXd off = step.uncertain * score;
     for (std::size_t u = 0; u < units(); ++u) {
       const Index k = 3 * static_cast<Index>(u);
@@ -28,6 +23,16 @@ std::vector<Track> JoinedFilter::smoothed() const {
     if (r > 0) carry_back(r, score);
   }
   return tracks;
+}
+
+void JoinedFilter::take_in(std::size_t reading, const VectorXd& left, VectorXd& score) const {
+  const Step& step = steps_[reading];
+  if (step.starts && reading > 0) {  // what went before is known by the first unit alone
+    score.segment(3, rows() - 3).setZero();
+  } else if (step.count > 0) {
+    score = step.out.transpose() * left.segment(static_cast<Index>(reading) * rows() + step.first_row, step.count) +
+            step.on.transpose() * score;
+  }
 }
 
 // Back over the way: a heading before swings what follows.
@@ -47,13 +52,11 @@ std::vector<JoinedFilter::Impact> JoinedFilter::impacts(const VectorXd& left) co
   MatrixXd information = MatrixXd::Zero(states(), states());
   for (std::size_t r = readings() - 1; r > 0; --r) {
     const Step& step = steps_[r];
-    if (step.starts) {  // what went before is known by the first unit alone
-      score.segment(3, n - 3).setZero();
+    take_in(r, left, score);
+    if (step.starts) {
       information.middleCols(3, n - 3).setZero();
       information.middleRows(3, n - 3).setZero();
     } else if (step.count > 0) {
-      score = step.out.transpose() * left.segment(static_cast<Index>(r) * n + step.first_row, step.count) +
-              step.on.transpose() * score;
       information = step.out.transpose() * step.out + step.on.transpose() * information * step.on;
     }
     Impact& here = all[r - 1];

@@ -39,12 +39,13 @@ std::vector<Motions> swung(std::vector<Motions> push, const DriveView& view, con
 // have moved meanwhile.
 void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_white,
            const std::vector<std::vector<double>>& tried, ScoredTogether& best) {
-  constexpr int kMostRounds = 4;
+  const std::vector<int> free = free_shapes(*c.effect);
+  const int most_rounds = free.size() > 1 ? 4 : 1;
   const std::vector<double> begun = best.shape;
   bool moved = true;
-  for (int round = 0; round < kMostRounds && moved; ++round) {
+  for (int round = 0; round < most_rounds && moved; ++round) {
     moved = false;
-    for (int k : free_shapes(*c.effect)) {
+    for (int k : free) {
       const auto i = static_cast<std::size_t>(k);
       double step = 1e300;
       for (const std::vector<double>& shape : tried)
@@ -64,7 +65,6 @@ void climb(const JoinedModel& model, const JoinedCandidate& c, double believed_w
         }
       }
     }
-    if (free_shapes(*c.effect).size() < 2) break;
   }
 }
 

@@ -119,6 +119,8 @@ class JoinedFilter {
   // What the poses are off by, and behind them the truth's frame where that wanders: along x, y and in heading.
   Eigen::Index states() const { return rows() + (wanders_ ? 3 : 0); }
   double kept_of_frame(std::size_t reading) const;  // since the reading before
+  // Adds to a score of the states behind a reading what it says itself, of what is left of the whitened numbers.
+  void take_in(std::size_t reading, const Eigen::VectorXd& left, Eigen::VectorXd& score) const;
   // What the states at a reading say of those at the one before, given its score there.
   void carry_back(std::size_t reading, Eigen::VectorXd& score) const;
 
