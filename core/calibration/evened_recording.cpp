@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -32,7 +33,7 @@ std::string sentence(const std::string& name, const char* what, const EvenStamps
 
 // New times of the rows that hold a value of the channels that belong together; NaN elsewhere.
 struct NewTimes {
-  bool (*belongs)(const std::string&);
+  std::function<bool(const std::string&)> belongs;
   std::vector<double> time_s;
 };
 
@@ -82,41 +83,41 @@ std::vector<double> row_times(const std::vector<char>& taken, const EvenStamps& 
 
 // Rows in which all of these channels hold a value, or nothing where one is missing in a row that holds another: those
 // were read apart from each other.
-std::optional<std::vector<char>> rows_of(const Recording& recording, const char* first, const char* second) {
-  const Channel *a = recording.channel(first), *b = recording.channel(second);
-  if (!a || !b) return std::nullopt;
+std::optional<std::vector<char>> rows_of(const Recording& recording, const std::vector<std::string>& channels) {
   std::vector<char> taken(recording.time_s.size());
   bool any = false;
-  for (std::size_t i = 0; i < taken.size(); ++i) {
-    taken[i] = !std::isnan(a->values[i]);
-    if (std::isnan(b->values[i]) == (taken[i] != 0)) return std::nullopt;
-    any = any || taken[i];
+  for (const std::string& name : channels) {
+    const Channel* c = recording.channel(name);
+    if (!c) return std::nullopt;
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      const bool is_read = !std::isnan(c->values[i]);
+      if (&name == &channels.front()) taken[i] = is_read;
+      if (is_read != (taken[i] != 0)) return std::nullopt;
+      any = any || is_read;
+    }
   }
   if (!any) return std::nullopt;
   return taken;
 }
 
-}  // namespace
+// What was read of the encoders: rows, and paths at their times.
+struct ReadEncoders {
+  std::optional<std::vector<char>> rows;
+  std::vector<double> time_s;
+  std::vector<std::vector<double>> paths;
+  std::function<bool(const std::string&)> belongs;
+};
 
-std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive) {
+std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadEncoders& read) {
   EvenedRecording out;
   std::vector<NewTimes> parts;
-  std::optional<std::vector<char>> read = rows_of(recording, "left_wheel_rad", "right_wheel_rad");
-  if (!read) read = rows_of(recording, "left_ticks", "right_ticks");
-  if (read) {
-    std::vector<double> time_s, left, right;
-    for (const WheelSample& w : wheel_samples(recording, drive)) {
-      time_s.push_back(w.time_s);
-      left.push_back(w.left_rad);
-      right.push_back(w.right_rad);
+  if (read.rows &&
+      static_cast<std::ptrdiff_t>(read.time_s.size()) == std::count(read.rows->begin(), read.rows->end(), 1))
+    if (const auto even = even_stamps(read.time_s, read.paths)) {
+      if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "encoder", *even));
+      parts.push_back({read.belongs, row_times(*read.rows, *even)});
     }
-    if (static_cast<std::ptrdiff_t>(time_s.size()) == std::count(read->begin(), read->end(), 1))
-      if (const auto even = even_stamps(time_s, {left, right})) {
-        if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "encoder", *even));
-        parts.push_back({of_wheels, row_times(*read, *even)});
-      }
-  }
-  if (const auto seen = rows_of(recording, "truth_x_m", "truth_y_m")) {
+  if (const auto seen = rows_of(recording, {"truth_x_m", "truth_y_m"})) {
     std::vector<double> time_s, x, y;
     for (const TruthSample& t : truth_samples(recording)) {
       time_s.push_back(t.time_s);
@@ -131,6 +132,37 @@ std::optional<EvenedRecording> evened(const Recording& recording, const Differen
   if (parts.empty()) return std::nullopt;
   out.recording = with(recording, parts);
   return out;
+}
+
+}  // namespace
+
+std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive) {
+  ReadEncoders read{rows_of(recording, {"left_wheel_rad", "right_wheel_rad"}), {}, {{}, {}}, of_wheels};
+  if (!read.rows) read.rows = rows_of(recording, {"left_ticks", "right_ticks"});
+  if (read.rows)
+    for (const WheelSample& w : wheel_samples(recording, drive)) {
+      read.time_s.push_back(w.time_s);
+      read.paths[0].push_back(w.left_rad);
+      read.paths[1].push_back(w.right_rad);
+    }
+  return evened_by(recording, read);
+}
+
+std::optional<EvenedRecording> evened(const Recording& recording, const std::vector<std::string>& encoders) {
+  ReadEncoders read{rows_of(recording, encoders), {}, {}, [&](const std::string& name) {
+                      return std::find(encoders.begin(), encoders.end(), name) != encoders.end();
+                    }};
+  if (read.rows) {
+    for (std::size_t i = 0; i < recording.time_s.size(); ++i)
+      if ((*read.rows)[i]) read.time_s.push_back(recording.time_s[i]);
+    for (const std::string& name : encoders) {
+      if (name.find("wheel_rad") == std::string::npos) continue;
+      std::vector<double>& path = read.paths.emplace_back();
+      for (std::size_t i = 0; i < recording.time_s.size(); ++i)
+        if ((*read.rows)[i]) path.push_back(recording.channel(name)->values[i]);
+    }
+  }
+  return evened_by(recording, read);
 }
 
 }  // namespace odolab

@@ -19,4 +19,7 @@ struct EvenedRecording {
 // own path for the truth.
 std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive);
 
+// The same of a linked or castor vehicle, of which all encoders are read at once: their columns.
+std::optional<EvenedRecording> evened(const Recording& recording, const std::vector<std::string>& encoders);
+
 }  // namespace odolab

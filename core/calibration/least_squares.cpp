@@ -187,8 +187,8 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
            determined[column::wheelbase];
   };
   determine();
-  bool scale_is_open = false;  // while ratios show
-  if (!some_of_drive()) {
+  bool scale_is_open = false;  // while ratios show: a radius that stayed as it is would put its error on the others
+  if (!determined[column::wheel_radius_left] || !determined[column::wheel_radius_right]) {
     fit.hold_mean_radius();
     determine();
     scale_is_open = some_of_drive();

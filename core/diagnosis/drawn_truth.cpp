@@ -55,13 +55,20 @@ TimeStretches drawn_truth(const std::vector<TruthSample>& truth) {
   }
   if (metres.size() < 20 || !trembles(off)) return drawn;
   const double usual_m = median(metres), most_m = kOfMeasured * usual_m, most_rad = kOfMeasured * median(radians);
+  // Where it hardly moves, a truth may tremble less; but not for long, and get somewhere.
+  constexpr std::size_t kForLong = 12;
+  constexpr double kSomewhere = 3.0;  // of what it is off as a rule
   std::size_t first = 0;
   for (std::size_t i = 0; i <= off.size(); ++i) {
-    // Where it hardly moves, a truth may tremble less.
-    if (i < off.size() && off[i].way_m > usual_m && length(off[i].by_m) <= most_m &&
-        std::abs(off[i].by_rad) <= most_rad)
-      continue;
-    if (i - first >= kInARow) drawn.emplace_back(truth[first].time_s, truth[i + 1].time_s);
+    if (i < off.size() && length(off[i].by_m) <= most_m && std::abs(off[i].by_rad) <= most_rad) continue;
+    const std::size_t row = i - first;
+    if (row >= kInARow) {
+      double way_m = 0.0;
+      for (std::size_t k = first; k < i; ++k) way_m += off[k].way_m;
+      const double gone_m = length(truth[i + 1].position - truth[first].position);
+      if (way_m > usual_m * static_cast<double>(row) || (row >= kForLong && gone_m > kSomewhere * usual_m))
+        drawn.emplace_back(truth[first].time_s, truth[i + 1].time_s);
+    }
     first = i + 1;
   }
   return drawn;

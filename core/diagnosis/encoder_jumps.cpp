@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/diagnosis/part_of_run.h"
 
 namespace odolab {
 
@@ -70,30 +71,6 @@ bool is_off_a_steady_pace(const Rates& rates, std::size_t i, double gap_s, doubl
          std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) <= kBeside * out_by;
 }
 
-// That part of a run, its wheels read on by so much from the reading behind `at` on.
-InnovationRun part_about(const InnovationRun& run, std::size_t at, double offset_s, double left_more_rad,
-                         double right_more_rad) {
-  constexpr double kAround_s = 1.5, kMore_s = 0.3;
-  InnovationRun part;
-  part.truth_has_heading = run.truth_has_heading;
-  part.counts_show = run.counts_show;
-  const double time_s = run.wheels[at].time_s;
-  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
-    if (std::abs(run.wheels[i].time_s - time_s) > kAround_s + kMore_s) continue;
-    part.wheels.push_back(run.wheels[i]);
-    if (i <= at) continue;
-    part.wheels.back().left_rad += left_more_rad;
-    part.wheels.back().right_rad += right_more_rad;
-  }
-  for (std::size_t k = 0; k < run.truth.size(); ++k) {
-    if (std::abs(run.truth[k].time_s - offset_s - time_s) > kAround_s) continue;
-    part.truth.push_back(run.truth[k]);
-    part.set_aside.push_back(0);
-    part.cut.push_back(is_cut(run, k));
-  }
-  return part;
-}
-
 }  // namespace
 
 TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector<double>& angle_rad, double radius_m,
@@ -132,21 +109,21 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
     time_s.push_back(w.time_s), left_rad.push_back(w.left_rad), right_rad.push_back(w.right_rad);
   const Rates of_left = rates_of(time_s, left_rad), of_right = rates_of(time_s, right_rad);
   const double count = count_rad(run, calibrated.drive);
-  FilterOptions options;
-  options.derivatives = false;
   JumpsOfWheels jumps;
   for (std::size_t i = 1; i + 1 < of_left.each.size(); ++i) {
     const double gap_s = time_s[i + 1] - time_s[i];
     const bool left = is_off_a_steady_pace(of_left, i, gap_s, count),
                right = is_off_a_steady_pace(of_right, i, gap_s, count);
     if (!left && !right) continue;
+    const InnovationRun as_read = part_of_run(run, time_s[i], time_s[i], calibrated.truth.time_offset_s);
     const auto misfit = [&](double share) {
-      const InnovationRun part = part_about(run, i, calibrated.truth.time_offset_s,
-                                            left ? -share * of_left.out_by[i] * gap_s : 0.0,
-                                            right ? -share * of_right.out_by[i] * gap_s : 0.0);
-      if (part.truth.size() < 2) return 0.0;
-      const InnovationSums sums = filtered(part, summed_up(part, calibrated), calibrated, options);
-      return sums.chi2 + sums.log_determinant;
+      InnovationRun part = as_read;
+      for (WheelSample& w : part.wheels) {
+        if (w.time_s <= time_s[i]) continue;
+        if (left) w.left_rad -= share * of_left.out_by[i] * gap_s;
+        if (right) w.right_rad -= share * of_right.out_by[i] * gap_s;
+      }
+      return misfit_of(part, calibrated);
     };
     // A parabola through none of it, half and all: the likelihood is one of the share.
     const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = none - 2.0 * half + all;

@@ -61,23 +61,28 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     wheels = obeying_wheels(command_samples(recording), drive);
   }
   const std::vector<TruthSample> truth = truth_samples(recording);
-  if (wheels.size() < 4 || truth.size() < 4) return out;
+  constexpr std::size_t kFewest = 4;
+  if (wheels.size() < kFewest) return out;
 
-  if (const TimeStretches drawn = drawn_truth(truth); !drawn.empty()) {
+  const bool is_followed = truth.size() >= kFewest, is_measured = is_followed && !vehicle.truth.is_reckoned;
+  if (const TimeStretches drawn = is_measured ? drawn_truth(truth) : TimeStretches{}; !drawn.empty()) {
     leave_truth_out(out.recording, rows_within(drawn, out.recording.time_s, true));
     out.warnings.push_back(recording.name + ": the truth goes in a straight line " + times_text(drawn) +
                            ", as where gaps are filled: left out");
   }
-  DataFault frozen{"truth_frozen", "truth", recording.name, frozen_truth(truth, wheels, drive), ""};
+  DataFault frozen{"truth_frozen", "truth", recording.name,
+                   is_measured ? frozen_truth(truth, wheels, drive) : TimeStretches{}, ""};
   if (!frozen.time_s.empty()) {
     leave_truth_out(out.recording, rows_within(frozen.time_s, out.recording.time_s, false));
     frozen.sentence = in_words_of_frozen(frozen.time_s.size());
     out.faults.push_back(frozen);
   }
-  if (std::optional<MeasuredRecording> measured = without_carried_truth(out.recording)) {
-    out.recording = std::move(measured->recording);
-    out.warnings.push_back(std::move(measured->said));
-  }
+  if (is_measured)
+    if (std::optional<MeasuredRecording> measured = without_carried_truth(out.recording)) {
+      out.recording = std::move(measured->recording);
+      out.warnings.push_back(std::move(measured->said));
+    }
+  if (out.from_commands && !is_followed) return out;
   if (out.from_commands) {
     const auto leave_out = [&](const TimeStretches& times, const std::string& what) {
       if (times.empty()) return;
@@ -102,7 +107,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     const double radius = wheel == 0 ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
     DataFault fault{"encoder_data_fault", wheel == 0 ? "left_wheel" : "right_wheel", recording.name, {}, ""};
     const Wheel which = wheel == 0 ? Wheel::left : Wheel::right;
-    fault.time_s = standing_encoder(wheels, which, truth, vehicle);
+    if (is_followed) fault.time_s = standing_encoder(wheels, which, truth, vehicle);
     for (const TimeStretches& more :
          {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive), moved_at_rest(wheels, which)})
       fault.time_s.insert(fault.time_s.end(), more.begin(), more.end());

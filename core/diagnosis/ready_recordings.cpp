@@ -9,6 +9,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/encoder_jumps.h"
+#include "core/diagnosis/lost_counts.h"
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/noiseless_truth.h"
 #include "core/diagnosis/truth_elsewhere.h"
@@ -79,43 +80,46 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
   return true;
 }
 
-// Where a reading is off its wheel's pace and the truth knows nothing of it, it is left out. Whether there is any.
-bool leave_out_encoder_jumps(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
-                             const Vehicle& nominal) {
-  std::vector<JumpsOfWheels> of_each(each.size());
+// Where a reading is off its wheel's pace and the truth knows nothing of it, or a wheel stands and the truth goes on,
+// it is left out. Whether there is any.
+bool leave_out_what_encoders_lose(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
+                                  const Vehicle& nominal) {
+  std::vector<JumpsOfWheels> jumps(each.size()), lost(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
     const Result<InnovationRun> run = ready_run(*each[r], nominal);
     if (!run || each[r]->from_commands) return;
     const InnovationModel model = model_of(ready.calibration, r);
-    of_each[r] = jumps_against_truth(*run, model);
+    jumps[r] = jumps_against_truth(*run, model);
+    lost[r] = lost_counts(*run, model);
   });
   bool any = false;
   struct Of {
+    const std::vector<JumpsOfWheels>& found;
     TimeStretches JumpsOfWheels::*wheel;
     const char *component, *in_words;
   };
-  constexpr Of kOf[] = {{&JumpsOfWheels::left, "left_wheel", "the left encoder jumps"},
-                        {&JumpsOfWheels::right, "right_wheel", "the right encoder jumps"},
-                        {&JumpsOfWheels::both, "both_wheels", "both encoders jump at once"}};
-  for (std::size_t r = 0; r < each.size(); ++r)
-    for (const Of& of : kOf) {
-      TimeStretches& jumps = of_each[r].*of.wheel;
-      std::erase_if(jumps, [&](const auto& jump) {
-        return std::any_of(each[r]->left_out_s.begin(), each[r]->left_out_s.end(),
-                           [&](const auto& known) { return jump.first < known.second && jump.second > known.first; });
-      });
-      if (jumps.empty()) continue;
-      any = true;
-      each[r]->faults.push_back({"encoder_data_fault", of.component, each[r]->recording.name, jumps,
-                                 std::string(of.in_words) + ", and the truth goes on as before, " +
-                                     std::to_string(jumps.size()) + " time(s); left out"});
-    }
+  const Of all[] = {{jumps, &JumpsOfWheels::left, "left_wheel", "the left encoder jumps"},
+                    {jumps, &JumpsOfWheels::right, "right_wheel", "the right encoder jumps"},
+                    {jumps, &JumpsOfWheels::both, "both_wheels", "both encoders jump at once"},
+                    {lost, &JumpsOfWheels::left, "left_wheel", "the left encoder stands still"},
+                    {lost, &JumpsOfWheels::right, "right_wheel", "the right encoder stands still"},
+                    {lost, &JumpsOfWheels::both, "both_wheels", "both encoders stand still at once"}};
   for (std::size_t r = 0; r < each.size(); ++r) {
     TimeStretches& left_out_s = each[r]->left_out_s;
-    for (const Of& of : kOf) {
-      const TimeStretches& jumps = of_each[r].*of.wheel;
-      left_out_s.insert(left_out_s.end(), jumps.begin(), jumps.end());
+    const TimeStretches known = left_out_s;
+    for (const Of& of : all) {
+      TimeStretches times = of.found[r].*of.wheel;
+      std::erase_if(times, [&](const auto& time) {
+        return std::any_of(known.begin(), known.end(),
+                           [&](const auto& k) { return time.first < k.second && time.second > k.first; });
+      });
+      if (times.empty()) continue;
+      any = true;
+      each[r]->faults.push_back({"encoder_data_fault", of.component, each[r]->recording.name, times,
+                                 std::string(of.in_words) + ", and the truth goes on as before, " +
+                                     std::to_string(times.size()) + " time(s); left out"});
+      left_out_s.insert(left_out_s.end(), times.begin(), times.end());
     }
     left_out_s = joined(std::move(left_out_s));
   }
@@ -186,7 +190,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
-  if (leave_out_encoder_jumps(ready, each, nominal))
+  if (leave_out_what_encoders_lose(ready, each, nominal))
     if (const Result<Done> done = calibrate(); !done) return done.error();
   if (leave_out_truth_elsewhere(ready, each, nominal))
     if (const Result<Done> done = calibrate(); !done) return done.error();

@@ -227,6 +227,35 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   return found;
 }
 
+TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
+  constexpr std::size_t kPace = 5, kFewest = 3;
+  constexpr double kSteady = 0.5;      // of the pace
+  constexpr double kCounts = 4.0;      // that a pace has in each interval
+  constexpr double kWheel_mps2 = 3.0;  // as for a wheel that halts
+  TimeStretches found;
+  const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
+  const double least_rad = kCounts * least_count_rad(wheels, wheel);
+  for (const auto& [first, last] : holds_of(wheels, wheel, kPace + 1)) {
+    if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
+    const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
+                              static_cast<double>(last + 1 + 2 * kPace - first);
+    // The first and the last interval may be in part of the hold.
+    const auto is_abrupt = [&](bool per_second) {
+      const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second, false),
+                 after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second, false);
+      const double stops = before.at(wheels[first].time_s), goes_on = after.at(wheels[last].time_s);
+      const double least = std::min(std::abs(stops), std::abs(goes_on));
+      const double each_rad = least * (per_second ? interval_s : 1.0);
+      return stops * goes_on > 0.0 && each_rad > least_rad &&
+             each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
+             before.largest_deviation < kSteady * std::abs(stops) &&
+             after.largest_deviation < kSteady * std::abs(goes_on);
+    };
+    if (is_abrupt(true) || is_abrupt(false)) found.push_back({wheels[first].time_s, wheels[last + 1].time_s});
+  }
+  return found;
+}
+
 TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel) {
   constexpr std::size_t kRests = 5;  // readings before, and behind
   constexpr double kCounts = 5.0, kShort_s = 0.05;

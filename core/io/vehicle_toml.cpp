@@ -78,12 +78,20 @@ void fields(Constness<Toml, SynchroDrive>& drive, Toml& toml, const std::string&
   toml.field("steering_counts_per_revolution", drive.steering_counts_per_revolution);
 }
 
+// A tracked vehicle's file may have a differential drive's names instead.
+bool calls_sprockets_wheels(const TomlTable& table) { return table.has("wheel_radius_left_m"); }
+bool calls_sprockets_wheels(const TomlText&) { return false; }
+
 template <typename Toml>
 void fields(Constness<Toml, Tracked>& vehicle, Toml& toml, const std::string&) {
-  require(toml, {"sprocket_radius_left_m", "sprocket_radius_right_m", "track_width_m"});
-  toml.field("sprocket_radius_left_m", vehicle.sprocket_radius_left_m);
-  toml.field("sprocket_radius_right_m", vehicle.sprocket_radius_right_m);
-  toml.field("track_width_m", vehicle.track_width_m);
+  const bool as_wheels = calls_sprockets_wheels(toml);
+  const char* left = as_wheels ? "wheel_radius_left_m" : "sprocket_radius_left_m";
+  const char* right = as_wheels ? "wheel_radius_right_m" : "sprocket_radius_right_m";
+  const char* width = as_wheels ? "wheelbase_m" : "track_width_m";
+  require(toml, {left, right, width});
+  toml.field(left, vehicle.sprocket_radius_left_m);
+  toml.field(right, vehicle.sprocket_radius_right_m);
+  toml.field(width, vehicle.track_width_m);
   toml.field("slip_factor", vehicle.slip_factor);
   encoder_fields(vehicle, toml);
 }

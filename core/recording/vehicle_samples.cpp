@@ -124,6 +124,21 @@ Recording recording_of(const std::vector<CastorSample>& samples) {
   });
 }
 
+std::vector<std::string> encoder_columns(const Vehicle& vehicle) {
+  struct Of {
+    std::vector<AlignedChannel> operator()(const LinkedTrucks&) const { return linked_channels(); }
+    std::vector<AlignedChannel> operator()(const EncoderTrailer&) const { return trailer_channels(); }
+    std::vector<AlignedChannel> operator()(const SmartEncoderTrailer&) const { return trailer_channels(); }
+    std::vector<AlignedChannel> operator()(const MultiCastor& v) const { return castor_channels(v.castors.size()); }
+    std::vector<AlignedChannel> operator()(const DifferentialDrive&) const { return {}; }
+    std::vector<AlignedChannel> operator()(const Tracked&) const { return {}; }
+    std::vector<AlignedChannel> operator()(const SynchroDrive&) const { return {}; }
+  };
+  std::vector<std::string> names;
+  for (const AlignedChannel& channel : std::visit(Of{}, vehicle.kind)) names.push_back(channel.name);
+  return names;
+}
+
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle) {
   struct Of {
     const Recording& recording;

@@ -61,6 +61,9 @@ Recording recording_of(const std::vector<LinkedSample>& samples);
 Recording recording_of(const std::vector<TrailerSample>& samples);
 Recording recording_of(const std::vector<CastorSample>& samples);
 
+// The columns of a linked or castor vehicle's encoders; none of any other.
+std::vector<std::string> encoder_columns(const Vehicle& vehicle);
+
 // The columns that an encoder-based estimate of such a vehicle needs and this recording lacks, e.g. "link_angle_a_rad,
 // link_length_m"; empty where nothing is missing.
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle);

@@ -23,6 +23,7 @@ namespace odolab {
 struct TruthMounting {
   Pose axle_T_tracked;         // the tracked point and its heading in the frame of the axle's centre
   double time_offset_s = 0.0;  // positive: the truth's stamps are late
+  bool is_reckoned = false;    // by what other wheels turned: nobody measured it, or filled its gaps
 };
 
 // A new kind is one file beside this one, one type here, one list of fields in core/io/vehicle_toml.cpp.

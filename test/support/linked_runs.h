@@ -22,6 +22,21 @@ inline Vehicle vehicle_of(const VehicleKind& kind) {
   return v;
 }
 
+// Two trucks whose link is read to half a milliradian and a tenth of a millimetre.
+inline Clapper fine_clapper() {
+  Clapper trucks;
+  trucks.link_angle_resolution_rad = 0.0005;
+  trucks.link_length_resolution_m = 0.0001;
+  return trucks;
+}
+
+// All of it, wheels and axles.
+inline Clapper larger(Clapper trucks, double share) {
+  for (DifferentialDrive* d : {&trucks.truck_a, &trucks.truck_b})
+    for (double* length : {&d->wheel_radius_left_m, &d->wheel_radius_right_m, &d->wheelbase_m}) *length *= 1.0 + share;
+  return trucks;
+}
+
 struct LinkedRunSettings {
   double duration_s = 30.0;
   double step_s = 0.01;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/units/geometry_from_inside.h"
+#include "core/diagnosis/units/mended_counts.h"
 
 namespace odolab {
 
@@ -29,6 +30,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
   for (std::size_t u = 0; u < units.size(); ++u)
     calibrated = with_drive(calibrated, u, std::get<DifferentialDrive>(of_units[u].calibration.vehicle.kind));
   std::vector<Understood> all = understood_without(of_units, train, nominal);
+  for (Understood& u : all) u.samples = with_mended_counts(std::move(u.samples), nominal).samples;
 
   const Result<GeometryFit> inside = geometry_from_inside(all, calibrated, progress);
   std::vector<GeometryFit> without;  // each run in turn

@@ -13,24 +13,40 @@ bool have_positions(const std::vector<Recording>& recordings) {
                      [](const Recording& r) { return comes_often(tracked_positions(r)); });
 }
 
-GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal) {
-  constexpr double kDeterminedBelow = 0.5;  // of what was expected before
+bool have_ends(const std::vector<Recording>& recordings) {
+  return std::all_of(recordings.begin(), recordings.end(),
+                     [](const Recording& r) { return tracked_poses(r).size() > 1; });
+}
+
+GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings) {
   GeometryFit fit;
   fit.vehicle = nominal;
   for (const JointParameter& p : joint_parameters(nominal)) {
-    JointEstimate estimate{p};
-    estimate.nominal = estimate.value = p.of(fit.vehicle);
-    if (const std::optional<JoinedModel::Known> known = model.length(p.name)) {
-      estimate.stderr_value = known->stderr_value;
-      estimate.determined = known->stderr_value < kDeterminedBelow * p.prior;
-      estimate.is_from_inside = p.component != "truth";
-      if (estimate.determined) p.of(fit.vehicle) = estimate.value += known->value;
-    }
-    fit.joints.push_back(std::move(estimate));
+    fit.joints.push_back({p});
+    fit.joints.back().nominal = fit.joints.back().value = p.of(fit.vehicle);
+    fit.joints.back().stderr_value = p.prior;
   }
+  for (const VehicleUnit& unit : units_of(nominal)) fit.drives.push_back(unit.drive);
+  fit.clock_s.assign(recordings, 0.0);
+  fit.clock_stderr_s.assign(recordings, 0.0);
+  return fit;
+}
+
+GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal) {
+  constexpr double kDeterminedBelow = 0.5;  // of what was expected before
+  GeometryFit fit = geometry_of_file(nominal, model.given().size());
+  for (JointEstimate& estimate : fit.joints) {
+    const JointParameter& p = estimate.parameter;
+    const std::optional<JoinedModel::Known> known = model.length(p.name);
+    if (!known) continue;
+    estimate.stderr_value = known->stderr_value;
+    estimate.determined = known->stderr_value < kDeterminedBelow * p.prior;
+    estimate.is_from_inside = p.component != "truth";
+    if (estimate.determined) p.of(fit.vehicle) = estimate.value += known->value;
+  }
+  fit.drives.clear();
   for (const VehicleUnit& unit : units_of(model.vehicle())) fit.drives.push_back(unit.drive);
-  for (std::size_t r = 0; r < model.given().size(); ++r) fit.clock_s.push_back(model.clock_s(r));
-  fit.clock_stderr_s.assign(fit.clock_s.size(), 0.0);
+  for (std::size_t r = 0; r < model.given().size(); ++r) fit.clock_s[r] = model.clock_s(r);
   set_most_pivots_right(fit);
   return fit;
 }
@@ -50,6 +66,19 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
   Recording own = recording_of_unit(recording, samples, tracked, model.vehicle(), 0, clock_s, true);
   std::erase_if(own.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
   return own;
+}
+
+void take_biases(const JoinedModel& model, GeometryFit& fit, bool and_lengths) {
+  for (JointEstimate& e : fit.joints) {
+    if (e.parameter.effect.empty() || e.parameter.component == "truth") continue;
+    if (e.parameter.unit == "m" && !and_lengths) continue;
+    const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
+    if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
+    e.value = e.nominal + known->value;
+    e.stderr_value = known->stderr_value;
+    e.parameter.of(fit.vehicle) = e.value;
+    e.determined = e.is_from_inside = true;
+  }
 }
 
 void take_asides(const JoinedModel& model, GeometryFit& fit) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/calibration/evened_recording.h"
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
 #include "core/diagnosis/units/by_positions.h"
@@ -13,6 +14,7 @@
 #include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_residuals.h"
+#include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/merged_findings.h"
@@ -110,19 +112,6 @@ Read samples_of(std::vector<Understood> all) {
   return read;
 }
 
-// Biased encoders as all units tell them together, where that is better than by the geometry alone.
-void put_lengths_beside_truth(GeometryFit& geometry, const JoinedModel& model) {
-  for (JointEstimate& e : geometry.joints) {
-    if (e.parameter.effect.empty() || e.parameter.component == "truth") continue;
-    const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
-    if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
-    e.value = e.nominal + known->value;
-    e.stderr_value = known->stderr_value;
-    e.parameter.of(geometry.vehicle) = e.value;
-    e.determined = e.is_from_inside = true;
-  }
-}
-
 // Where the truth sits, and its clocks, as the unit that carries it knows them: better than stretches of half a metre
 // do.
 void put_truth_as_on(const Diagnosis& carrying, const Vehicle& nominal, GeometryFit& geometry) {
@@ -133,20 +122,30 @@ void put_truth_as_on(const Diagnosis& carrying, const Vehicle& nominal, Geometry
 }
 
 JoinedRun joined_run(const Recording& r, const Vehicle& nominal) {
-  return {without_held_counts(unit_samples(r, nominal), nominal), tracked_poses(r)};
+  MendedCounts mended = with_mended_counts(unit_samples(r, nominal), nominal);
+  JoinedRun run{std::move(mended.samples), tracked_poses(r), true, std::move(mended.guessed)};
+  if (!comes_often(run.tracked))
+    run.tracked = few_poses(std::move(run.tracked), run.samples, nominal.truth.time_offset_s);
+  return run;
 }
 
-}  // namespace
+// Stamps of arrival put back onto their even period, of all encoders alike.
+std::vector<Recording> all_evened(const std::vector<Recording>& given, const Vehicle& nominal,
+                                  std::vector<std::string>& said) {
+  std::vector<Recording> all = given;
+  const std::vector<std::string> encoders = encoder_columns(nominal);
+  for (Recording& r : all) {
+    if (encoders.empty()) break;
+    std::optional<EvenedRecording> even = evened(r, encoders);
+    if (!even) continue;
+    said.insert(said.end(), even->said.begin(), even->said.end());
+    r = std::move(even->recording);
+  }
+  return all;
+}
 
-Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                 const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
-  if (const std::vector<std::string> problems = problems_in(nominal.kind); !problems.empty())
-    return Error{nominal.name, "", problems.front()};
-  if (train.empty()) return Error{"recordings", "none", "one or more"};
-  for (const std::vector<Recording>* set : {&train, &held_out})
-    for (const Recording& r : *set)
-      if (const std::optional<Error> problem = unusable(r, nominal)) return *problem;
-
+Result<Diagnosis> diagnose_even(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                                const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
   std::vector<JoinedRun> runs, runs_held_out;
   for (const Recording& r : train) runs.push_back(joined_run(r, nominal));
   for (const Recording& r : held_out) runs_held_out.push_back(joined_run(r, nominal));
@@ -157,14 +156,16 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   const bool is_alone = units.size() == 1 && !units[0].carries_truth;
   if (no_truth && (units.size() > 1 || (is_alone && has_positions)))
     return diagnose_inside(train, held_out, nominal, options, progress);
-  if (no_truth && is_alone)
-    return Error{train.front().name, "no truth, a sample a second or more",
-                 "one: the towing vehicle's own wheels are no measure of its way"};
+  if (no_truth && is_alone && !(have_ends(train) && have_ends(held_out)))
+    return Error{train.front().name, "no truth",
+                 "one, of both ends of each run at least: the towing vehicle's own wheels are no measure of its way"};
 
   const bool is_towed = std::holds_alternative<EncoderTrailer>(nominal.kind);
-  GeometryFit geometry = is_towed ? geometry_of_trailer(runs, nominal) : fitted_geometry(runs, nominal);
+  GeometryFit geometry = no_truth   ? geometry_of_file(nominal, runs.size())
+                         : is_towed ? geometry_of_trailer(runs, nominal)
+                                    : fitted_geometry(runs, nominal);
   std::vector<ClockRate> clocks;
-  if (!carries_truth(units)) clocks = put_clocks_right(runs, nominal, geometry);
+  if (!carries_truth(units) && !no_truth) clocks = put_clocks_right(runs, nominal, geometry);
   if (is_towed && !clocks.empty()) geometry = geometry_of_trailer(runs, nominal);
   if (!clocks.empty() && !runs_held_out.empty()) {
     GeometryFit of_held_out = geometry;
@@ -173,7 +174,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
   set_most_pivots_right(geometry);
   std::vector<double> clock_held_out_s;
   for (const JoinedRun& run : runs_held_out)
-    clock_held_out_s.push_back(fitted_geometry({run}, geometry.vehicle).clock_s.front());
+    clock_held_out_s.push_back(no_truth ? 0.0 : fitted_geometry({run}, geometry.vehicle).clock_s.front());
   if (!goes_on(progress, 0.1)) return Error{"diagnosis", "stopped before its end", ""};
 
   std::optional<ToldTogether> told;
@@ -184,7 +185,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
                          [&](double share) { return goes_on(progress, 0.1 * share); });
   }
   if (told) {
-    put_lengths_beside_truth(geometry, told->model);
+    take_biases(told->model, geometry, true);
     set_most_pivots_right(geometry);
   }
 
@@ -223,7 +224,7 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
       return goes_on(progress, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units.size()));
     });
     if (!one) return one.error();
-    if (!units[u].carries_truth && !told) {
+    if (!units[u].carries_truth && !told && !no_truth) {
       const auto& calibrated = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
       std::optional<ErringJoint> of_unit =
           erring_joint(runs, geometry.clock_s, with_drive(geometry.vehicle, u, calibrated), u);
@@ -271,6 +272,24 @@ Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std:
     if (!frozen.empty() && d.verdict == Verdict::nothing_missing) d.verdict = Verdict::found;
   }
   mark_named(d);
+  return d;
+}
+
+}  // namespace
+
+Result<Diagnosis> diagnose_units(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                                 const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  if (const std::vector<std::string> problems = problems_in(nominal.kind); !problems.empty())
+    return Error{nominal.name, "", problems.front()};
+  if (train.empty()) return Error{"recordings", "none", "one or more"};
+  for (const std::vector<Recording>* set : {&train, &held_out})
+    for (const Recording& r : *set)
+      if (const std::optional<Error> problem = unusable(r, nominal)) return *problem;
+  std::vector<std::string> said;
+  const std::vector<Recording> even = all_evened(train, nominal, said),
+                               even_held_out = all_evened(held_out, nominal, said);
+  Result<Diagnosis> d = diagnose_even(even, even_held_out, nominal, options, progress);
+  if (d) d->warnings.insert(d->warnings.end(), said.begin(), said.end());
   return d;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {
@@ -16,13 +17,16 @@ struct JointEstimate {
   bool determined = false;      // else the value is the nominal one
   bool is_from_inside = false;  // for the most part known by what the units contradict each other
   double feigned = 0.0;         // how far from the file what these recordings cannot tell may put it
+  // A bias that is smaller is none: what matters in practice, and less of what the units contradict each other in.
+  double least_bias() const { return is_from_inside ? 0.25 * parameter.least : parameter.least; }
 };
 
 // One recording's samples, and the outside truth or what stands in its place, on the truth's clock.
 struct JoinedRun {
   std::vector<UnitSample> samples;
   Track tracked;
-  bool has_headings = true;  // else those of `tracked` are zero
+  bool has_headings = true;                 // else those of `tracked` are zero
+  std::vector<TimeStretches> guessed = {};  // of each unit: where what a wheel turned is a guess; empty: nowhere
 };
 
 struct GeometryFit {

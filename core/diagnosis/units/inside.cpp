@@ -5,6 +5,7 @@
 
 #include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
+#include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/together/told_together.h"
@@ -34,7 +35,7 @@ Result<std::vector<Recording>> recordings_of(const Known& known, const std::vect
                                              const std::vector<Pose>& begun, std::size_t unit) {
   std::vector<Recording> own;
   for (std::size_t k = 0; k < set.size(); ++k) {
-    Result<Track> track = way_by_others(known, set[k].samples, unit);
+    Result<Track> track = way_by_others(known, with_mended_counts(set[k].samples, known.vehicle).samples, unit);
     if (!track) return track.error();
     if (!begun.empty()) {
       const Pose room_T_way = begun[k] * inverse(track->front().pose);
@@ -44,6 +45,11 @@ Result<std::vector<Recording>> recordings_of(const Known& known, const std::vect
     own.push_back(recording_of_unit(*set[k].recording, set[k].samples, *track, known.vehicle, unit, 0.0, true));
   }
   return own;
+}
+
+std::vector<Understood> mended(std::vector<Understood> all, const Vehicle& nominal) {
+  for (Understood& u : all) u.samples = with_mended_counts(std::move(u.samples), nominal).samples;
+  return all;
 }
 
 Result<std::vector<Recording>> as_recorded(const std::vector<Understood>& set, const Vehicle& nominal,
@@ -72,6 +78,7 @@ Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, 
     const Result<std::vector<Recording>> own = recordings(known, false, u), own_held_out = recordings(known, true, u);
     if (!own || !own_held_out) return own ? own_held_out.error() : own.error();
     Vehicle vehicle = vehicle_of_unit(units[u], by_truth ? nominal : without_mounting(nominal));
+    vehicle.truth.is_reckoned = by_others;
     Result<Diagnosis> one = diagnose(*own, *own_held_out, vehicle, options, progress);
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, *own, units[u].drive);
@@ -86,6 +93,31 @@ Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, 
   return judged;
 }
 
+// What is looked at of an outside truth.
+enum class Outside { nothing, ends, positions };
+
+std::vector<JoinedRun> runs_of(const std::vector<Recording>& set, Outside outside, const Vehicle& nominal) {
+  std::vector<JoinedRun> runs;
+  for (const Recording& r : set) {
+    MendedCounts mended = with_mended_counts(unit_samples(r, nominal), nominal);
+    JoinedRun run{std::move(mended.samples), {}, outside == Outside::ends, std::move(mended.guessed)};
+    if (outside == Outside::positions) run.tracked = tracked_positions(r);
+    if (outside == Outside::ends) run.tracked = few_poses(tracked_poses(r), run.samples, nominal.truth.time_offset_s);
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+// Ends where the vehicle comes back to where it set off do not tell how large it is.
+Outside outside_of(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                   const std::vector<std::string>& names, const Vehicle& nominal) {
+  constexpr double kTellTheScale = 0.01;
+  if (have_positions(train) && have_positions(held_out)) return Outside::positions;
+  if (!have_ends(train) || !have_ends(held_out) || units_of(nominal).size() < 2) return Outside::nothing;
+  const JoinedModel by_ends(runs_of(train, Outside::ends, nominal), nominal, {}, names);
+  return by_ends.stderr_of_scale() < kTellTheScale ? Outside::ends : Outside::nothing;
+}
+
 }  // namespace
 
 Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
@@ -98,39 +130,38 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     return Error{nominal.name,
                  std::to_string(units.size()) + " units and no outside truth with headings, a sample a second or more",
                  "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
-  const bool by_positions = have_positions(train) && have_positions(held_out);
-  const auto runs_of = [&](const std::vector<Recording>& set) {
-    std::vector<JoinedRun> runs;
-    for (const Recording& r : set)
-      runs.push_back({without_held_counts(unit_samples(r, nominal), nominal),
-                      by_positions ? tracked_positions(r) : Track{}, false});
-    return runs;
-  };
   std::vector<std::string> names;
   for (const Recording& r : train) names.push_back(r.name);
-  const std::vector<JoinedRun> runs = runs_of(train), runs_held_out = runs_of(held_out);
+  const Outside outside = outside_of(train, held_out, names, nominal);
+  const bool by_positions = outside == Outside::positions, is_measured = outside != Outside::nothing;
+  const std::vector<JoinedRun> runs = runs_of(train, outside, nominal),
+                               runs_held_out = runs_of(held_out, outside, nominal);
   const ToldTogether told =
-      *told_together(runs, by_positions ? nominal : without_mounting(nominal), {}, names, options.family_wise_error,
+      *told_together(runs, is_measured ? nominal : without_mounting(nominal), {}, names, options.family_wise_error,
                      [&](double share) { return goes_on(progress, 0.3 * share); });
   if (!goes_on(progress, 0.3)) return Error{"diagnosis", "stopped before its end", ""};
   std::vector<double> clock_s(runs.size()), clock_held_out_s(runs_held_out.size());
   std::vector<Pose> begun, begun_held_out;
-  if (by_positions) {
+  if (is_measured) {
     for (std::size_t r = 0; r < runs.size(); ++r) {
       clock_s[r] = told.model.clock_s(r);
       begun.push_back(start_of(told.model, r));
     }
     for (std::size_t r = 0; r < runs_held_out.size(); ++r) {
       JoinedModel one({runs_held_out[r]}, told.model.vehicle(), {}, {held_out[r].name});
-      one.fit(2);
+      if (by_positions) one.fit(2);
       clock_held_out_s[r] = one.clock_s(0);
       begun_held_out.push_back(start_of(one, 0));
     }
   }
   const std::vector<Understood> train_without = understood_without(told, train, runs, clock_s, nominal);
-  Result<GeometryFit> geometry = by_positions ? geometry_by_positions(told.model, nominal)
-                                              : geometry_from_inside(train_without, nominal, progress);
+  Result<GeometryFit> geometry = is_measured ? geometry_by_positions(told.model, nominal)
+                                             : geometry_from_inside(mended(train_without, nominal), nominal, progress);
   if (!geometry) return geometry.error();
+  if (!is_measured) {
+    take_biases(told.model, *geometry, false);
+    set_most_pivots_right(*geometry);
+  }
   take_asides(told.model, *geometry);
   const std::vector<Understood> held_out_without =
       understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal);
@@ -149,7 +180,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   if (!judged) return judged.error();
   for (std::size_t u = 0; u < units.size(); ++u) {
     Diagnosis& one = judged->units[u];
-    if (by_positions && !units[u].carries_truth) widen_by_scale(told.model.stderr_of_scale(), one);
+    if (is_measured && !(by_positions && units[u].carries_truth)) widen_by_scale(told.model.stderr_of_scale(), one);
     if (acts_on(told, u)) std::erase_if(one.findings, [](const Finding& f) { return is_data_fault(f.effect); });
     one = with_names(told, u, one, one);  // counts from which something was taken off are no whole ones
   }
@@ -163,7 +194,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     mark_named(d);
     return d;
   }
-  for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = true;
+  for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = !is_measured;
   const auto is_common = [](const auto& of) {
     return std::find(common_effects().begin(), common_effects().end(), of.effect) != common_effects().end();
   };
@@ -174,8 +205,11 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     d.not_testable.push_back({name, "without an outside truth what all units do alike does not show between them",
                               "the same with an outside truth that has headings"});
   d.warnings.insert(d.warnings.begin(),
-                    "no outside truth with headings, a sample a second or more: the units were judged against each "
-                    "other; their scale, and what they all do alike, is not seen");
+                    std::string("no outside truth with headings, a sample a second or more: the units were judged "
+                                "against each other; ") +
+                        (is_measured ? "how large they all are the poses at the ends tell, and what they all do alike "
+                                       "is not seen"
+                                     : "their scale, and what they all do alike, is not seen"));
   return d;
 }
 

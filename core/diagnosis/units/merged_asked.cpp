@@ -30,7 +30,7 @@ AskedEffect asked_bias(const JointEstimate& e, int encoders) {
   const double off = e.value - e.nominal, z = off / e.stderr_value;
   a.log_likelihood_gain = 0.5 * z * z;
   a.p_value = std::min(1.0, encoders * chi_square_tail(z * z, 1));
-  a.least_seen = FoundParameter{e.parameter.parameter, std::max(kSigmasOfBias * e.stderr_value, e.parameter.least), 0.0,
+  a.least_seen = FoundParameter{e.parameter.parameter, std::max(kSigmasOfBias * e.stderr_value, e.least_bias()), 0.0,
                                 e.parameter.unit};
   return a;
 }

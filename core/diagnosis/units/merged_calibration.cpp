@@ -98,6 +98,7 @@ LeastSquaresCalibration merged_calibration(const std::vector<Diagnosis>& diagnos
     }
     for (const std::string& sentence : one.cannot_tell)
       sum.cannot_tell.push_back(units[u].name.empty() ? sentence : part_words(units[u].name) + ": " + sentence);
+    sum.scale_is_open = sum.scale_is_open || one.scale_is_open;
     sum.innovations += one.innovations;
     sum.outliers += one.outliers;
     const double share = 1.0 / static_cast<double>(units.size());

@@ -36,6 +36,7 @@ bool same_zone(const Finding& a, const Finding& b) {
 bool is_event(const Finding& f) { return parameter_of(f, "at_s") != nullptr; }
 
 bool same_cause(const Finding& a, const Finding& b) {
+  if (is_data_fault(a.effect) && a.where.recording != b.where.recording) return false;
   return a.effect == b.effect && is_common(a.effect) && same_zone(a, b) && (!is_event(a) || !is_event(b));
 }
 
@@ -208,13 +209,13 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
     if (same != all.end()) {
       FoundParameter& bias = same->parameters.front();
       bias.value += off;
-      if (std::abs(bias.value) < std::max(e.parameter.least, kSigmasOfBias * bias.stderr_value))
+      if (std::abs(bias.value) < std::max(e.least_bias(), kSigmasOfBias * bias.stderr_value))
         all.erase(same);
       else if (std::abs(z) > kSigmasOfBias)
         same->log_likelihood_gain += 0.5 * z * z;
       continue;
     }
-    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.parameter.least) continue;
+    if (std::abs(z) < kSigmasOfBias || std::abs(off) < e.least_bias()) continue;
     if (e.feigned > 0.0 && std::abs(off) < e.feigned + kSigmasOfBias * e.stderr_value) {
       not_told.push_back(or_scale_in_words(e));
       continue;

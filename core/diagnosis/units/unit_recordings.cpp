@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/drawn_truth.h"
 
 namespace odolab {
 
@@ -38,12 +38,27 @@ Recording recording_by(std::vector<Row> rows, const Recording& from) {
   return recording;
 }
 
+// Between readings that are so far apart that nobody knows what joints did meanwhile.
+bool is_in_gap(const std::vector<UnitSample>& samples, double time_s) {
+  constexpr double kPeriods = 2.5, kLeast_s = 0.1;
+  const auto after = std::lower_bound(samples.begin(), samples.end(), time_s,
+                                      [](const UnitSample& s, double t) { return s.time_s < t; });
+  if (after == samples.begin() || after == samples.end()) return false;
+  const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  return after->time_s - (after - 1)->time_s > std::max(kLeast_s, kPeriods * usual_s);
+}
+
 Row pose_row(double time_s, const Pose& pose) { return {time_s, kNone, kNone, pose.x_m, pose.y_m, pose.heading_rad}; }
 
 Track tracked(const Recording& recording, bool with_headings) {
   Track track;
-  for (const TruthSample& t : truth_samples(recording)) {
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  const TimeStretches drawn = drawn_truth(truth);
+  for (const TruthSample& t : truth) {
     if (with_headings && !t.heading_rad) continue;
+    if (std::any_of(drawn.begin(), drawn.end(),
+                    [&](const auto& gap) { return t.time_s > gap.first && t.time_s < gap.second; }))
+      continue;
     const Pose pose{t.position.x_m, t.position.y_m, with_headings ? *t.heading_rad : 0.0};
     const bool repeats = !track.empty() && pose.x_m == track.back().pose.x_m && pose.y_m == track.back().pose.y_m &&
                          pose.heading_rad == track.back().pose.heading_rad;
@@ -62,6 +77,16 @@ Track tracked_positions(const Recording& recording) { return tracked(recording, 
 bool comes_often(const Track& t) {
   constexpr double kLongest_s = 1.0;
   return t.size() > 1 && t.back().time_s - t.front().time_s <= kLongest_s * static_cast<double>(t.size() - 1);
+}
+
+Track few_poses(Track tracked, const std::vector<UnitSample>& samples, double late_s) {
+  constexpr double kStanding_s = 0.5;
+  for (TimedPose& t : tracked) {
+    const double first_s = samples.front().time_s + late_s, last_s = samples.back().time_s + late_s;
+    if (t.time_s < first_s && t.time_s > first_s - kStanding_s) t.time_s = first_s;
+    if (t.time_s > last_s && t.time_s < last_s + kStanding_s) t.time_s = last_s;
+  }
+  return tracked;
 }
 
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle) {
@@ -87,6 +112,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
     for (const TimedPose& t : tracked) {
       const double at_s = t.time_s - offset_s;
       if (samples.empty() || at_s < samples.front().time_s || at_s > samples.back().time_s) continue;
+      if (is_in_gap(samples, at_s)) continue;
       rows.push_back(pose_row(at_s, t.pose * tracked_T_axle(vehicle, unit, joints_at(samples, at_s))));
     }
   } else {
@@ -103,42 +129,6 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
     }
   }
   return recording_by(std::move(rows), recording);
-}
-
-std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle) {
-  constexpr std::ptrdiff_t kRestsOn = 3;  // samples
-  const std::vector<VehicleUnit> units = units_of(vehicle);
-  for (std::size_t u = 0; u < units.size(); ++u) {
-    const std::vector<WheelSample> wheels = wheels_of(samples, u);
-    if (wheels.size() < 4) continue;
-    for (const Wheel wheel : {Wheel::left, Wheel::right}) {
-      TimeStretches held = catching_up_encoder(wheels, wheel);
-      for (const TimeStretches& more : {halting_encoder(wheels, wheel, units[u].drive), moved_at_rest(wheels, wheel)})
-        held.insert(held.end(), more.begin(), more.end());
-      const auto rad_of = [&](UnitSample& s, Wheel of) -> double& {
-        return of == Wheel::left ? s.wheels[u].left_rad : s.wheels[u].right_rad;
-      };
-      const auto rad = [&](UnitSample& s) -> double& { return rad_of(s, wheel); };
-      const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
-      const auto first_at = [&](double time_s) {
-        return std::lower_bound(samples.begin(), samples.end(), time_s - 1e-9,
-                                [](const UnitSample& s, double t) { return s.time_s < t; });
-      };
-      for (const auto& [from_s, to_s] : held) {
-        const auto from = first_at(from_s), to = first_at(to_s);
-        if (from == samples.end() || to == samples.end()) continue;
-        const double jump_rad = rad(*to) - rad(*from);
-        const bool rests_on = samples.end() - to > kRestsOn && rad(*(to + kRestsOn)) == rad(*to);
-        if (rests_on && rad_of(*to, other) == rad_of(*from, other)) {  // the counter alone moved
-          for (auto s = to; s != samples.end(); ++s) rad(*s) -= jump_rad;
-          continue;
-        }
-        for (auto s = from; s != to; ++s)
-          rad(*s) = rad(*from) + (s->time_s - from->time_s) / (to->time_s - from->time_s) * jump_rad;
-      }
-    }
-  }
-  return samples;
 }
 
 }  // namespace odolab

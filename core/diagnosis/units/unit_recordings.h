@@ -8,12 +8,15 @@
 namespace odolab {
 
 // The recorded truth as poses of the tracked point, headings unwrapped; without samples that repeat the one before to
-// the bit. Empty where it has no headings.
+// the bit, and without those that somebody drew into its gaps. Empty where it has no headings.
 Track tracked_poses(const Recording& recording);
 // The same of a truth whose headings are not looked at: they are zero.
 Track tracked_positions(const Recording& recording);
 bool comes_often(
     const Track& tracked);  // once a second, in the mean, or more: else it is too little to judge a unit by
+// Of poses that do not come often each counts: the first and the last may be stamped half a second before and behind
+// the encoders, where a vehicle stands; they are put at their first and last readings. `late_s`: the truth's clock.
+Track few_poses(Track tracked, const std::vector<UnitSample>& samples, double late_s);
 
 // The vehicle that a unit's recording is of: its drive, and the truth's mounting where the tracked point sits on it.
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);
@@ -22,10 +25,5 @@ Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle);
 // recording. Else the truth stays as it was recorded, for the unit that carries it. `tracked`: see tracked_poses.
 Recording recording_of_unit(const Recording& recording, const std::vector<UnitSample>& samples, const Track& tracked,
                             const Vehicle& vehicle, std::size_t unit, double clock_s, bool by_joints);
-
-// Where a wheel's count held and then caught up, or halted on the way, it goes evenly instead, and where it moved alone
-// at rest it goes on from there: what tells the joints and clocks of all units is not to be led astray by it. A unit's
-// own recording keeps it, to be found.
-std::vector<UnitSample> without_held_counts(std::vector<UnitSample> samples, const Vehicle& vehicle);
 
 }  // namespace odolab

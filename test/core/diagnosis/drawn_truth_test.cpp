@@ -46,6 +46,24 @@ TEST(DrawnTruth, IsFoundWhereGapsWereFilledWithStraightLines) {
   EXPECT_EQ(drawn[1].second, truth[425].time_s);
 }
 
+// Nearly round the circle in twelve seconds: the line goes a fifteenth of the way, slower than the truth trembles.
+TEST(DrawnTruth, IsFoundWhereItsLineIsSlowAndLong) {
+  std::vector<TruthSample> truth = driven(0.005);
+  draw_a_line(truth, 200, 318);
+  const TimeStretches drawn = drawn_truth(truth);
+  ASSERT_EQ(drawn.size(), 1u);
+  EXPECT_EQ(drawn[0].first, truth[200].time_s);
+  EXPECT_EQ(drawn[0].second, truth[318].time_s);
+}
+
+// A tracker that holds what hardly changes.
+TEST(DrawnTruth, IsNotFoundWhereAVehicleRests) {
+  std::vector<TruthSample> truth = driven(0.005);
+  for (std::size_t i = 201; i < 300; ++i)
+    truth[i].position = truth[200].position, truth[i].heading_rad = truth[200].heading_rad;
+  EXPECT_TRUE(drawn_truth(truth).empty());
+}
+
 TEST(DrawnTruth, IsNotFoundInNoise) { EXPECT_TRUE(drawn_truth(driven(0.005)).empty()); }
 
 TEST(DrawnTruth, IsNotFoundWhereAVehicleDrivesStraightWithoutNoise) { EXPECT_TRUE(drawn_truth(driven(0.0)).empty()); }

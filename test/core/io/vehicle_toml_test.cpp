@@ -39,6 +39,19 @@ TEST(VehicleToml, ReadsTheContractsExample) {
   EXPECT_EQ(drive.gear_ratio, 1.0);
 }
 
+// Its sprockets may be called wheels, as a differential drive's are.
+TEST(VehicleToml, ReadsATrackedVehicleByTheNamesOfADifferentialDrive) {
+  ScratchFolder folder;
+  const std::string path = folder.write("x.toml",
+                                        "kind = \"tracked\"\n[tracked]\nwheel_radius_left_m = 0.081\n"
+                                        "wheel_radius_right_m = 0.08\nwheelbase_m = 0.47\n");
+  const Result<Vehicle> vehicle = read_vehicle(path);
+  ASSERT_TRUE(vehicle.ok()) << vehicle.error().message();
+  const auto& tracked = std::get<Tracked>(vehicle->kind);
+  EXPECT_EQ(tracked.sprocket_radius_left_m, 0.081);
+  EXPECT_EQ(tracked.track_width_m, 0.47);
+}
+
 TEST(VehicleToml, RoundTripKeepsEveryBit) {
   ScratchFolder folder;
   Vehicle vehicle;

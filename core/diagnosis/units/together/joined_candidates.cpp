@@ -103,6 +103,11 @@ void ScoredTogether::take_if_better(const JoinedTest& other, const std::vector<d
   columns = std::make_shared<const JoinedColumns>(std::move(of));
 }
 
+double least_said(const Vehicle& vehicle) {
+  constexpr double kLeast = 25.0, kLeastOfCastors = 100.0;
+  return std::holds_alternative<MultiCastor>(vehicle.kind) ? kLeastOfCastors : kLeast;
+}
+
 std::vector<JoinedCandidate> joined_candidates(const JoinedModel& model) {
   const std::vector<VehicleUnit> units = units_of(model.vehicle());
   std::vector<std::size_t> all;
@@ -114,13 +119,13 @@ std::vector<JoinedCandidate> joined_candidates(const JoinedModel& model) {
       for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
   for (const Effect& e : catalogue()) {
     // A wheel that is not square to its axle is a joint's biased encoder, or where its pivot is: both are in the model.
-    if (e.name == "floor_slope_creep" && !model.has_truth()) continue;  // it is the way of all of them
+    if (e.name == "floor_slope_creep" && !model.follows_truth()) continue;  // it is the way of all of them
     if (!e.acts_on_motion() || !e.motions || e.only_commands || e.of_each_recording || e.name == "wheel_toe") continue;
     if (e.local && e.name != "slip_zone") continue;
     const bool of_each = e.name != "floor_slope_creep";
     if (of_each)
       for (std::size_t u : all) list.push_back({&e, {u}, component_of_unit(units[u].name, e.component)});
-    if (is_of_all(e) && model.has_truth() && (all.size() > 1 || !of_each))
+    if (is_of_all(e) && model.follows_truth() && (all.size() > 1 || !of_each))
       list.push_back({&e, all, e.component == "floor" ? "floor" : "vehicle"});
   }
   return list;

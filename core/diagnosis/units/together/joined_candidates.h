@@ -32,6 +32,10 @@ struct ScoredTogether {
   void take_if_better(const JoinedTest& other, const std::vector<double>& at, JoinedColumns of);
 };
 
+// Twice what the likelihood of all gains by what is said, at least. Castors on one rigid frame drag each other along as
+// nothing else does that is joined: a smaller gain is the trace of that.
+double least_said(const Vehicle& vehicle);
+
 // What lasts and patches of floor, of each unit; and of all of them what a whole vehicle does.
 std::vector<JoinedCandidate> joined_candidates(const JoinedModel& model);
 

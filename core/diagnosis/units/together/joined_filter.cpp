@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/units/unit_recordings.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -39,7 +40,10 @@ bool are_torn_apart(const VectorXd& read, Index of_joints) {
 }  // namespace
 
 JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double clock_s)
-    : vehicle_(vehicle), samples_(run.samples), truth_rows_(run.has_headings ? 3 : 2) {
+    : vehicle_(vehicle),
+      samples_(run.samples),
+      truth_rows_(run.has_headings ? 3 : 2),
+      outliers_show_(comes_often(run.tracked)) {
   for (std::size_t u = 0; u < samples_.front().wheels.size(); ++u) {
     drives_.push_back(units_of(vehicle_)[u].drive);
     way_.push_back(dead_reckoned(wheels_of(samples_, u), drives_.back(), Pose{}, HeadingRule::arc));
@@ -101,6 +105,11 @@ JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double 
       rolled_m_[u].push_back({b[0] - a[0], b[1] - a[1]});
     }
   }
+  is_guessed_.assign(units(), std::vector<char>(readings_.size() - 1, 0));
+  for (std::size_t u = 0; u < run.guessed.size(); ++u)
+    for (const auto& [from_s, to_s] : run.guessed[u])
+      for (std::size_t e = 0; e + 1 < readings_.size(); ++e)
+        if (readings_[e].time_s < to_s && readings_[e + 1].time_s > from_s) is_guessed_[u][e] = 1;
   cut_into_pieces();
 }
 
@@ -218,13 +227,18 @@ double JoinedFilter::run(const JoinedNoise& noise) {
         p.col(k) -= ahead[1] * p.col(k + 2);
         p.col(k + 1) += ahead[0] * p.col(k + 2);
         const auto [left_m, right_m] = rolled_m_[u][r - 1];
-        const double square = noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m, base_m = drives_[u].wheelbase_m;
+        const double base_m = drives_[u].wheelbase_m;
+        const auto variance_m2 = [&, u](double rolled_m) {
+          constexpr double kGuess = 2.0, kGuess_m = 0.002;  // of what was guessed, and more
+          const double guess_m = is_guessed_[u][r - 1] ? kGuess * rolled_m + kGuess_m : 0.0;
+          return noise.wheel_m_per_sqrt_m * noise.wheel_m_per_sqrt_m * rolled_m + guess_m * guess_m;
+        };
         Eigen::Matrix3d body = Eigen::Matrix3d::Zero();
         Eigen::Vector3d one;
         one << 0.5, -0.5 * moved.x_m / base_m, -1.0 / base_m;  // a turn on the way carries half of it aside
-        body += square * left_m * one * one.transpose();
+        body += variance_m2(left_m) * one * one.transpose();
         one << 0.5, 0.5 * moved.x_m / base_m, 1.0 / base_m;
-        body += square * right_m * one * one.transpose();
+        body += variance_m2(right_m) * one * one.transpose();
         body(1, 1) += noise.sideways_m_per_sqrt_m * noise.sideways_m_per_sqrt_m * 0.5 * (left_m + right_m);
         Eigen::Matrix3d to_room = Eigen::Matrix3d::Identity();
         to_room.topLeftCorner<2, 2>() = room;
@@ -313,6 +327,7 @@ double JoinedFilter::run(const JoinedNoise& noise) {
     // Whether the truth is none of its outliers, which cost what the last does that is none: samples that are left out
     // for nothing would make any noise likely that leaves out many.
     const auto is_taken = [&] {
+      if (!outliers_show_) return true;
       const Small h = seen.middleRows(of_joints, truth_rows_);
       Small s = h * p * h.transpose();
       s += err.block(of_joints, of_joints, truth_rows_, truth_rows_);

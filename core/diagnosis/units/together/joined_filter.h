@@ -127,11 +127,13 @@ class JoinedFilter {
   Vehicle vehicle_;
   std::vector<UnitSample> samples_;
   Eigen::Index truth_rows_ = 3;
+  bool outliers_show_ = true;  // not among the poses of both ends alone
   std::vector<DifferentialDrive> drives_;
   std::vector<Track> way_;  // of each unit, by its wheels alone
   std::vector<Reading> readings_;
   std::vector<std::vector<Pose>> moved_;                      // [unit][epoch]
   std::vector<std::vector<std::array<double, 2>>> rolled_m_;  // [unit][epoch] by each wheel, to and fro
+  std::vector<std::vector<char>> is_guessed_;                 // [unit][epoch] what a wheel turned
   std::vector<std::vector<Piece>> pieces_;                    // of each unit
   std::vector<std::size_t> first_piece_;                      // of each step, alike in all units; one more at the end
   bool wanders_ = false;                                      // as it ran last

@@ -69,7 +69,7 @@ std::vector<JoinedGroup> joined_groups(const JoinedModel& model) {
     if (!errors) continue;
     for (const TruthError& error : *errors) {
       // Without a truth the wheels' size is the file's, and a length that goes with it may be read truly.
-      if (!model.has_truth() && error.variable == kWhatItReads && error.is_of_a_length) continue;
+      if (!model.follows_truth() && error.variable == kWhatItReads && error.is_of_a_length) continue;
       all.push_back({error.component, error.channel + " goes with " + error.variable,
                      [term = error.term, u](const JoinedModel& m) {
                        return m.columns_of([&](const DriveView& view) { return term->motions(view, {}); },

@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/units/unit_models.h"
+#include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
 
@@ -29,16 +30,22 @@ std::string aside_name(std::size_t castor) { return "castor[" + std::to_string(c
 
 }  // namespace
 
+bool JoinedTest::lasts_throughout() const {
+  constexpr double kUneven = 2.5, kBeyondDoubt = 200.0;  // what acts in a few places scatters, unless it says so much
+  return cross_validated > 0.0 && (inflation < kUneven || judged() > kBeyondDoubt);
+}
+
 JoinedModel::JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, std::vector<double> clock_s,
                          std::vector<std::string> names)
     : given_(std::move(runs)), vehicle_(vehicle), clock_s_(std::move(clock_s)), names_(std::move(names)) {
   clock_s_.resize(given_.size(), 0.0);
   for (const JoinedRun& run : given_) {
     has_truth_ = has_truth_ || !run.tracked.empty();
+    follows_truth_ = follows_truth_ && comes_often(run.tracked);
     has_headings_ = has_headings_ || (!run.tracked.empty() && run.has_headings);
   }
   for (JointParameter& p : joint_parameters(vehicle_))
-    if (p.component != "truth" || (has_truth_ && (has_headings_ || p.unit == "m")))
+    if (p.component != "truth" || (follows_truth_ && (has_headings_ || p.unit == "m")))
       lengths_.push_back({p.name, p.prior, [of = p.of](Vehicle& v, double by) { of(v) += by; }, grows_m(p, vehicle_)});
   if (const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind))
     for (std::size_t i = 0; i < platform->castors.size(); ++i)  // where the pivot's line meets the axle
@@ -78,7 +85,7 @@ void JoinedModel::fit_all() {
     fit(2);
     fit_noise();
   }
-  if (!has_truth_) return;
+  if (!follows_truth_) return;
   const bool wanders = let_frame_wander();
   linearise();
   if (!wanders) return;
@@ -101,7 +108,7 @@ void JoinedModel::fit(int iterations) {
       drive.wheelbase_m *= 1.0 + step[c++];
       vehicle_ = with_drive(vehicle_, u, drive);
     }
-    if (has_truth_)
+    if (follows_truth_)
       for (double& clock : clock_s_) clock += step[c++];
     make_filters();
     linearise();
@@ -115,7 +122,7 @@ void JoinedModel::solve() {
 
 void JoinedModel::linearise() {
   minus_two_log_likelihood(noise_);
-  const Index columns = static_cast<Index>(lengths_.size() + 3 * units() + (has_truth_ ? given_.size() : 0));
+  const Index columns = static_cast<Index>(lengths_.size() + 3 * units() + (follows_truth_ ? given_.size() : 0));
   std::vector<MatrixXd> z(filters_.size());
   std::vector<std::vector<Track>> smoothed(filters_.size());
   parallel_for(static_cast<int>(filters_.size()), [&](int r) {
@@ -126,7 +133,7 @@ void JoinedModel::linearise() {
     for (const Length& length : lengths_) own.push_back(run.by_length(length.add));
     for (std::size_t u = 0; u < units(); ++u)
       for (int which = 0; which < 3; ++which) own.push_back(run.by_wheels(u, which));
-    if (has_truth_)
+    if (follows_truth_)
       for (std::size_t other = 0; other < given_.size(); ++other)
         own.push_back(other == k ? run.by_clock() : run.nothing());
     z[k] = run.carried(own);

@@ -22,6 +22,8 @@ struct JoinedTest {
   Eigen::VectorXd value;
   Eigen::MatrixXd covariance;
   double judged() const { return statistic / inflation; }
+  // Not by what happens in a few places only, and predicts what it was not fitted on.
+  bool lasts_throughout() const;
 };
 
 // Columns of all recordings, side by side: rows of all recordings below each other.
@@ -43,6 +45,7 @@ class JoinedModel {
   const std::vector<std::string>& names() const { return names_; }
   const Vehicle& vehicle() const { return vehicle_; }
   bool has_truth() const { return has_truth_; }
+  bool follows_truth() const { return follows_truth_; }            // not by poses at the ends of a run alone
   bool has_headings() const { return has_headings_; }              // of the truth
   double clock_s(std::size_t run) const { return clock_s_[run]; }  // the truth's offset, on top of the vehicle's
   const JoinedNoise& noise() const { return noise_; }
@@ -126,7 +129,7 @@ class JoinedModel {
   };
   std::vector<Length> lengths_;
   std::vector<DifferentialDrive> drives_of_file_;
-  bool has_truth_ = false, has_headings_ = false;
+  bool has_truth_ = false, follows_truth_ = true, has_headings_ = false;
   std::vector<Acting> acting_;
   JoinedNoise noise_;
   std::vector<JoinedFilter> filters_;

@@ -67,7 +67,7 @@ std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
   for (std::size_t u = 0; u < model.units(); ++u) all.push_back(u);
   for (std::size_t u : all)
     for (Wheel wheel : {Wheel::left, Wheel::right, Wheel::both}) kinds.push_back({{u}, wheel, {}, 0.0, 1.0});
-  if (model.has_truth() && all.size() > 1) kinds.push_back({all, Wheel::both, {}, 0.0, 1.0});
+  if (model.follows_truth() && all.size() > 1) kinds.push_back({all, Wheel::both, {}, 0.0, 1.0});
 
   std::vector<std::vector<std::vector<JoinedMoment>>> of_run(model.runs().size());
   parallel_for(static_cast<int>(of_run.size()), [&](int run) {

@@ -6,31 +6,27 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
-#include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/together/joined_candidates.h"
-#include "core/diagnosis/units/together/joined_groups.h"
 #include "core/diagnosis/units/together/joined_moments.h"
+#include "core/diagnosis/units/together/joined_unnamed.h"
 
 namespace odolab {
 
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-// Twice what the likelihood gains, at least: of what lasts; of what was sought in many places or from many times on;
-// and of a push that one unit feels alone, which as a rule is a joint that errs.
-constexpr double kLeast = 25.0, kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
+// Twice what the likelihood gains, at least: of what was sought in many places or from many times on; and of a push
+// that one unit feels alone, which as a rule is a joint that errs.
+constexpr double kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
 constexpr double kAsMuchOfAPush = 0.85;
 constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
 constexpr double kNearlyLeast = 20.0;   // of a moment, before its form and time are sought
-constexpr double kUneven = 2.5,
-                 kBeyondDoubt = 200.0;  // the scatter of what acts in a few places, unless it says so much
 constexpr double kTrace = 0.03;         // of the strongest name: what is less is its form's
 constexpr double kSaysAsMuch = 0.8;     // beside the name: then it is no other name for the same
-constexpr double kUnnamedInstead = 1.15;
 constexpr double k95 = 1.96;
 
 void judge(ScoredTogether& s, std::size_t looked_at) {
@@ -38,25 +34,10 @@ void judge(ScoredTogether& s, std::size_t looked_at) {
   s.p_value = std::min(1.0, p * static_cast<double>(looked_at) * std::exp(s.log_tests));
 }
 
-// Not by what happens in a few places only, and predicts what it was not fitted on.
-bool lasts_throughout(const JoinedTest& test) {
-  return test.cross_validated > 0.0 && (test.inflation < kUneven || test.judged() > kBeyondDoubt);
-}
-
 // In many places, or from many times on.
 bool is_sought(const Effect& e) {
   return e.local ||
          std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
-}
-
-double least_of(const Effect& e) { return is_sought(e) ? kLeastSought : kLeast; }
-
-bool holds(const ScoredTogether& s, double family_wise_error) {
-  const bool is_push_of_one = s.candidate.effect->name == "collision" && s.candidate.units.size() == 1;
-  const double least = is_push_of_one       ? kLeastOfOneUnit
-                       : s.of_moments > 0.0 ? kLeastSought
-                                            : least_of(*s.candidate.effect);
-  return s.p_value < family_wise_error && s.test.judged() > least && (s.of_moments > 0.0 || lasts_throughout(s.test));
 }
 
 // Whether it moves a wheel by more than counts and the joints' rounding make of nothing.
@@ -122,13 +103,6 @@ bool is_simpler(const ScoredTogether& s, const ScoredTogether& than) {
          s.test.judged() > kAsMuchOfAPush * than.test.judged();
 }
 
-// Says of a finding that it has no name, and what it goes with.
-void put_words(Finding& unknown, const std::string& goes_with) {
-  unknown.effect = "unknown";
-  unknown.where.regime = goes_with;
-  unknown.sentence = "something that no entry of the catalogue describes: " + goes_with;
-}
-
 class Naming {
  public:
   Naming(JoinedModel& model, double family_wise_error) : model_(model), p_(family_wise_error) {}
@@ -144,14 +118,23 @@ class Naming {
     for (std::size_t k = 0; k < named_.size(); ++k) result.names.push_back(name_of(k));
     std::vector<ScoredTogether> beside;
     if (!named_.empty()) ask_again(without(named_.size()), beside = scored_);
-    result.asked = asked_together(scored_, beside, least_of);
-    look_for_the_unnamed(result);
-    if (!result.unknown) result.unknown = pushed_again_and_again();
+    result.asked = asked_together(scored_, beside, [&](const Effect& e) { return least_of(e); });
+    result.unknown = unnamed_together(model_, named_, p_);
     if (!named_.empty()) model_.put_in(acting());
     return result;
   }
 
  private:
+  double least_of(const Effect& e) const { return is_sought(e) ? std::max(least_, kLeastSought) : least_; }
+
+  bool holds(const ScoredTogether& s) const {
+    const bool is_push_of_one = s.candidate.effect->name == "collision" && s.candidate.units.size() == 1;
+    const double least = std::max(least_of(*s.candidate.effect), is_push_of_one       ? kLeastOfOneUnit
+                                                                 : s.of_moments > 0.0 ? kLeastSought
+                                                                                      : 0.0);
+    return s.p_value < p_ && s.test.judged() > least && (s.of_moments > 0.0 || s.test.lasts_throughout());
+  }
+
   std::vector<JoinedModel::Acting> acting() const {
     std::vector<JoinedModel::Acting> all;
     for (const ScoredTogether& s : named_)
@@ -169,13 +152,13 @@ class Naming {
       if (!named_.empty()) ask_again(with, now);
       for (ScoredTogether& s : scored_moments(with)) now.push_back(std::move(s));
       for (ScoredTogether& s : now) {
-        if (!holds(s, p_) || !is_physical(s) || is_named(s)) continue;
+        if (!holds(s) || !is_physical(s) || is_named(s)) continue;
         if (!named_.empty() && s.test.judged() < kTrace * named_.front().test.judged()) continue;
         if (!best || s.says() > best->says()) best = &s;
       }
       if (!best) break;
       for (ScoredTogether& s : now)
-        if (is_simpler(s, *best) && holds(s, p_) && is_physical(s)) best = &s;
+        if (is_simpler(s, *best) && holds(s) && is_physical(s)) best = &s;
       with.let_in(*best->columns);
       named_.push_back(*best);
     }
@@ -304,7 +287,7 @@ class Naming {
     for (std::size_t k = named_.size(); k-- > 0;) {
       const JoinedModel others = without(k);
       ask_again(others, named_[k]);
-      if (!holds(named_[k], p_) || !comes_back_in_each(others, named_[k]))
+      if (!holds(named_[k]) || !comes_back_in_each(others, named_[k]))
         named_.erase(named_.begin() + static_cast<std::ptrdiff_t>(k));
     }
     for (std::size_t k = 0; k < named_.size(); ++k) ask_again(without(k), named_[k]);
@@ -357,7 +340,7 @@ class Naming {
     ask_again(others, instead);
     for (ScoredTogether& other : instead) {
       if (other.candidate.effect->name == e.name && other.candidate.component == s.candidate.component) continue;
-      if (!is_physical(other) || other.test.judged() < kLeast) continue;
+      if (!is_physical(other) || other.test.judged() < least_) continue;
       const double less_tried = 2.0 * std::max(0.0, s.log_tests - other.log_tests);
       if (other.test.judged() < s.test.judged() - kClearlyBeaten - less_tried || is_simpler(s, other)) continue;
       const double alone = other.test.judged();
@@ -419,68 +402,8 @@ class Naming {
     return all;
   }
 
-  void look_for_the_unnamed(JoinedNames& result) const {
-    JoinedModel with = model_;
-    double named = 0.0;
-    for (const ScoredTogether& s : named_) {
-      with.let_in(*s.columns);
-      named += s.test.judged();
-    }
-    const std::vector<JoinedGroup> groups = joined_groups(model_);
-    std::vector<Finding> found(groups.size());
-    std::vector<double> excess(groups.size(), 0.0);
-    parallel_for(static_cast<int>(groups.size()), [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
-      const JoinedColumns columns = groups[k].columns(model_);
-      const JoinedTest beside = with.test(columns), instead = named_.empty() ? beside : model_.test(columns);
-      const double tests = static_cast<double>(groups.size());
-      const double p = beside.freedom > 0 ? chi_square_tail(beside.judged(), beside.freedom) * tests : 1.0;
-      const bool more_beside = p < 0.1 * p_ && beside.judged() > kLeast + 2.0 * beside.freedom &&
-                               beside.judged() - beside.freedom > kMostLeft * named && lasts_throughout(beside);
-      const bool more_instead =
-          !named_.empty() && p < 0.1 * p_ &&
-          instead.judged() - 2.0 * instead.freedom - 2.0 * std::log(tests) > kUnnamedInstead * named;
-      if (!more_beside && !more_instead) return;
-      if (groups[k].is_more_than_rounding) {
-        const Eigen::VectorXd& value = beside.value;
-        if (!groups[k].is_more_than_rounding(std::vector<double>(value.begin(), value.end()))) return;
-      }
-      Finding& f = found[k];
-      put_words(f, groups[k].words);
-      f.component = groups[k].component;
-      f.log_likelihood_gain = 0.5 * (named_.empty() ? beside.judged() : std::max(beside.judged(), instead.judged()));
-      f.p_value = std::min(1.0, p);
-      excess[k] = f.log_likelihood_gain - 0.5 * beside.freedom;
-    });
-    const auto most = std::max_element(excess.begin(), excess.end());
-    if (most == excess.end() || *most <= 0.0) return;
-    const auto best = static_cast<std::size_t>(most - excess.begin());
-    result.unknown = found[best];
-    const JoinedColumns columns = groups[best].columns(model_);
-    result.unknown->gathered = gathered_evidence(with.evidence_of(columns, with.test(columns).value), model_.names(),
-                                                 result.unknown->log_likelihood_gain);
-    for (const JoinedName& n : result.names)
-      result.unknown->alternatives.push_back(
-          {n.finding.effect, n.finding.component, n.finding.log_likelihood_gain, ""});
-  }
-
-  // Who pushes a vehicle twice has another cause, which comes and goes.
-  std::optional<Finding> pushed_again_and_again() const {
-    Finding unknown;
-    int pushes = 0;
-    for (const ScoredTogether& s : named_) {
-      unknown.log_likelihood_gain += 0.5 * s.test.judged();
-      unknown.p_value = std::min(unknown.p_value, s.p_value);
-      unknown.alternatives.push_back({s.candidate.effect->name, s.candidate.component, 0.5 * s.test.judged(), ""});
-      if (s.candidate.effect->name != "collision") continue;
-      if (++pushes == 1) unknown.component = s.candidate.component;
-    }
-    if (pushes < 2) return std::nullopt;
-    put_words(unknown, "at moments of their own, as by pushes that no one gave");
-    return unknown;
-  }
-
   JoinedModel& model_;
+  double least_ = least_said(model_.vehicle());
   double p_, believed_white_ = kFewestBatchesBelieved;
   std::vector<ScoredTogether> scored_, named_;
 };

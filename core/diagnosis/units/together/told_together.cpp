@@ -63,7 +63,8 @@ std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Veh
   }
   ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
   told.model.fit_all();
-  if (told.model.has_headings() && size_of_truths_error_m(told.model.noise()) < kCoarse_m) return std::nullopt;
+  if (told.model.follows_truth() && told.model.has_headings() && size_of_truths_error_m(told.model.noise()) < kCoarse_m)
+    return std::nullopt;
   told.said = joined_names(told.model, family_wise_error, progress);
   return told;
 }

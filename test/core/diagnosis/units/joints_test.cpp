@@ -29,13 +29,6 @@ std::vector<Recording> trailer_runs(const EncoderTrailer& actual, std::uint64_t 
   return runs;
 }
 
-Clapper clapper_with_a_fine_link() {
-  Clapper clapper;
-  clapper.link_angle_resolution_rad = 0.0005;
-  clapper.link_length_resolution_m = 0.0001;
-  return clapper;
-}
-
 // Four runs, of which every third sample of the truth is left: some eight a second.
 std::vector<Recording> under_a_slow_camera(const Clapper& actual, const LinkedRunSettings& settings,
                                            std::uint64_t seed) {
@@ -126,7 +119,7 @@ TEST(DiagnoseUnits, TakeATruthThatIsTurnedOnATowForNoBiasOfTheHitch) {
 
 // A camera of eight samples a second, 15 mm and two degrees tells nothing of how long the link is; both trucks know it.
 TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
-  const Clapper file = clapper_with_a_fine_link();
+  const Clapper file = fine_clapper();
   Clapper actual = file;
   constexpr double kBias_m = -0.015;
   actual.link_length_offset_m = kBias_m;
@@ -143,7 +136,7 @@ TEST(DiagnoseUnits, NameABiasOfTheLinksLengthOfWhichTheTruthTellsNothing) {
 
 // Under that camera an oval wheel of a third of a per cent is a twentieth of a sample's error; the other truck sees it.
 TEST(DiagnoseUnits, NameWhatOneTruckDoesThatTheOtherSeesBetterThanACoarseTruth) {
-  const Clapper file = clapper_with_a_fine_link();
+  const Clapper file = fine_clapper();
   constexpr double kAmplitude = 0.003;
   for (const double amplitude : {0.0, kAmplitude}) {
     LinkedRunSettings settings;
@@ -225,40 +218,21 @@ TEST(AddBiases, SayTheSumOfWhatGeometryAndUnitSay) {
   EXPECT_NEAR(all[0].parameters[0].value, 0.0232, 1e-12);
 }
 
-TEST(WithoutHeldCounts, GoEvenlyWhereACountHeldAndCaughtUp) {
-  const MultiCastor platform = three_castor_vehicle();
-  Recording run = castor_run(platform, {}, 341);
-  const std::vector<UnitSample> true_samples = unit_samples(run, vehicle_of(platform));
-  for (Channel& c : run.channels)
-    if (c.name == "castor2_left_wheel_rad") std::fill(c.values.begin() + 400, c.values.begin() + 410, c.values[400]);
-  const std::vector<UnitSample> mended =
-      without_held_counts(unit_samples(run, vehicle_of(platform)), vehicle_of(platform));
-  // 0.4 s at an even pace but for what it gains or loses meanwhile: a tenth of the way, where the count stood.
-  const double way = std::abs(true_samples[410].wheels[1].left_rad - true_samples[400].wheels[1].left_rad);
-  ASSERT_GT(way, 0.5);
-  for (std::size_t i = 395; i < 415; ++i)
-    EXPECT_NEAR(mended[i].wheels[1].left_rad, true_samples[i].wheels[1].left_rad, 0.1 * way) << i;
-  EXPECT_EQ(mended[405].wheels[1].right_rad, true_samples[405].wheels[1].right_rad);
-}
-
-TEST(WithoutHeldCounts, GoOnFromThereWhereACountMovedAloneAtRest) {
-  const MultiCastor platform = three_castor_vehicle();
-  Recording run = castor_run(platform, {}, 341);
-  // Then all stand for a second, in which one count steps back.
-  constexpr std::size_t kRest = 25, kStep = 12;
-  constexpr double kBack_rad = 0.5;
-  const std::size_t end = run.time_s.size();
-  const double period_s = run.time_s[end - 1] - run.time_s[end - 2];
-  for (std::size_t i = 1; i <= kRest; ++i)
-    run.time_s.push_back(run.time_s[end - 1] + period_s * static_cast<double>(i));
-  for (Channel& c : run.channels) c.values.resize(end + kRest, c.values[end - 1]);
-  const double stood_rad = run.channel("castor2_left_wheel_rad")->values.back();
-  for (Channel& c : run.channels)
-    if (c.name == "castor2_left_wheel_rad")
-      for (std::size_t i = end + kStep; i < end + kRest; ++i) c.values[i] -= kBack_rad;
-  const std::vector<UnitSample> mended =
-      without_held_counts(unit_samples(run, vehicle_of(platform)), vehicle_of(platform));
-  EXPECT_NEAR(mended.back().wheels[1].left_rad, stood_rad, 1e-12);
+// A tracker that repeats itself does so in each recording by itself.
+TEST(AddFindings, KeepsWhatIsWrongWithEachRecordingApart) {
+  Diagnosis of_truck;
+  for (const char* name : {"run_1.csv", "run_2.csv"}) {
+    Finding f;
+    f.effect = "truth_frozen";
+    f.component = "truth";
+    f.where.recording = name;
+    f.where.time_s = {{10.0, 11.0}};
+    of_truck.findings.push_back(f);
+  }
+  std::vector<Finding> all;
+  add_findings_of(of_truck, units_of(vehicle_of(Clapper{}))[0], {}, all);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[1].where.recording, "run_2.csv");
 }
 
 }  // namespace

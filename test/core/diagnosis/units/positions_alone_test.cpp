@@ -7,6 +7,7 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/units/together/joined_model.h"
 #include "core/diagnosis/units/unit_recordings.h"
+#include "test/support/known_lengths.h"
 #include "test/support/linked_runs.h"
 
 namespace odolab::test {
@@ -23,27 +24,6 @@ LinkedRunSettings under_a_total_station() {
 std::vector<Recording> without_headings(std::vector<Recording> runs) {
   for (Recording& r : runs) std::erase_if(r.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
   return runs;
-}
-
-Clapper fine_clapper() {
-  Clapper trucks;
-  trucks.link_angle_resolution_rad = 0.0005;
-  trucks.link_length_resolution_m = 0.0001;
-  return trucks;
-}
-
-Clapper larger(Clapper trucks, double share) {
-  for (DifferentialDrive* d : {&trucks.truck_a, &trucks.truck_b})
-    for (double* length : {&d->wheel_radius_left_m, &d->wheel_radius_right_m, &d->wheelbase_m}) *length *= 1.0 + share;
-  return trucks;
-}
-
-void expect_known(const Diagnosis& d, const std::string& name, double actual, double at_least_to) {
-  const auto& all = d.calibration.parameters;
-  const auto p = std::find_if(all.begin(), all.end(), [&](const ParameterEstimate& e) { return e.name == name; });
-  ASSERT_NE(p, all.end()) << name;
-  EXPECT_NEAR(p->value, actual, 3.5 * p->stderr_value) << name;
-  EXPECT_LT(p->stderr_value, at_least_to * actual) << name;
 }
 
 TEST(JoinedFilter, FindsItsHeadingByPositionsAlone) {

@@ -165,9 +165,7 @@ TEST(DiagnoseTogether, NamesAnOvalWheelOfATruckUnderATruthThatErrsFiftyTimesAsMu
   constexpr double kAmplitude = 0.0025;
   LinkedRunSettings s = under_a_coarse_truth();
   s.b_left = [](double, double rotation_rad, double by_rad) { return kAmplitude * std::cos(rotation_rad) * by_rad; };
-  Clapper trucks;
-  trucks.link_angle_resolution_rad = 0.0005;
-  trucks.link_length_resolution_m = 0.0001;
+  const Clapper trucks = fine_clapper();
   const std::vector<Recording> runs = {linked_run(trucks, s, 301), linked_run(trucks, s, 302),
                                        linked_run(trucks, s, 303)};
   const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
@@ -198,9 +196,7 @@ TEST(DiagnoseTogether, FeelsABumpUnderATruthThatErrsByMore) {
   const LinkedRunSettings even = under_a_coarse_truth();
   LinkedRunSettings bumped = even;
   constexpr double kAt_s = 22.0, kLasts_s = 0.1, kExtra_m = 0.006;
-  Clapper trucks;
-  trucks.link_angle_resolution_rad = 0.0005;
-  trucks.link_length_resolution_m = 0.0001;
+  const Clapper trucks = fine_clapper();
   bumped.b_left = [&](double time_s, double, double) {
     return std::abs(time_s - kAt_s) < 0.5 * kLasts_s
                ? kExtra_m / trucks.truck_b.wheel_radius_left_m * bumped.step_s / kLasts_s

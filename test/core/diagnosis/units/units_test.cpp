@@ -20,13 +20,14 @@
 namespace odolab::test {
 namespace {
 
-Clapper crooked_clapper() {
-  Clapper actual;
+Clapper crooked(Clapper actual) {
   actual.truck_a.wheel_radius_left_m *= 1.003;
   actual.truck_b.wheel_radius_right_m *= 0.996;
   actual.truck_b.wheelbase_m *= 1.008;
   return actual;
 }
+
+Clapper crooked_clapper() { return crooked({}); }
 
 EncoderTrailer crooked_trailer() {
   EncoderTrailer actual;
@@ -202,9 +203,7 @@ TEST(DiagnoseUnits, NameABiasThatACoarseTruthCannotShowByWhatTheTrucksSayOfEachO
 
 // All lengths as shares of the wheels': a link 2.5 % longer, in its file, than wheels 2.5 % too small in theirs.
 TEST(DiagnoseUnits, TakeWheelsThatAreAllTooSmallFromTheInsideForNoBiasOfTheLink) {
-  Clapper file;
-  file.link_angle_resolution_rad = 0.0005;
-  file.link_length_resolution_m = 0.0001;
+  Clapper file = fine_clapper();
   const Clapper actual = file;
   for (DifferentialDrive* truck : {&file.truck_a, &file.truck_b}) {
     truck->wheel_radius_left_m *= 0.975;
@@ -220,10 +219,8 @@ TEST(DiagnoseUnits, TakeWheelsThatAreAllTooSmallFromTheInsideForNoBiasOfTheLink)
 }
 
 TEST(DiagnoseUnits, NameABiasOfTheLinkFromTheInsideOnlyBesideTheScaleOfTheWheels) {
-  Clapper actual;
-  actual.link_angle_resolution_rad = 0.0005;
-  actual.link_length_resolution_m = 0.0001;
-  const Clapper file = actual;
+  const Clapper file = fine_clapper();
+  Clapper actual = file;
   actual.link_length_offset_m = 0.06 * actual.link_length_m;  // twice what wheels of 3 % would make of it
   std::vector<Recording> runs = clapper_runs(actual, {}, 221);
   for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
@@ -238,12 +235,8 @@ TEST(DiagnoseUnits, NameABiasOfTheLinkFromTheInsideOnlyBesideTheScaleOfTheWheels
 }
 
 TEST(DiagnoseUnits, FindALinkThatIsFourMillimetresLongerThanItReadsWithAnOutsideTruth) {
-  Clapper actual = crooked_clapper();
-  actual.link_angle_resolution_rad = 0.0005;
-  actual.link_length_resolution_m = 0.0001;
-  Clapper file;
-  file.link_angle_resolution_rad = 0.0005;
-  file.link_length_resolution_m = 0.0001;
+  const Clapper file = fine_clapper();
+  Clapper actual = crooked(file);
   actual.link_length_offset_m = -0.004;
   const Diagnosis d = diagnosed(clapper_runs(actual, {}, 231), file);
   ASSERT_EQ(d.findings.size(), 1u) << said(d);
@@ -318,9 +311,7 @@ TEST(DiagnoseUnits, TellFromTheInsideWhichTruckErrs) {
 }
 
 TEST(RoundingFromInside, HidesAPushThatOneCountOfTheOtherTruckMakesThroughTheLink) {
-  Clapper trucks;  // 0.24 mm a count, 0.7 mrad of its truck, 0.7 mm at the far end of a metre
-  trucks.link_angle_resolution_rad = 0.0005;
-  trucks.link_length_resolution_m = 0.0001;
+  const Clapper trucks = fine_clapper();  // 0.24 mm a count, 0.7 mrad of its truck, 0.7 mm at the far end of a metre
   const Vehicle vehicle = vehicle_of(trucks);
   const JointRounding rounding = rounding_from_inside(vehicle);
   const VehicleUnit b = units_of(vehicle)[1];
@@ -345,13 +336,6 @@ std::vector<JoinedRun> joined(const std::vector<Recording>& runs, const Vehicle&
   return joined;
 }
 
-Clapper clapper_with_fine_joints() {
-  Clapper trucks;
-  trucks.link_angle_resolution_rad = 0.0005;
-  trucks.link_length_resolution_m = 0.0001;
-  return trucks;
-}
-
 void wobble(Recording& run, double amplitude_rad) {
   for (Channel& c : run.channels)
     if (c.name == "link_angle_a_rad")
@@ -359,7 +343,7 @@ void wobble(Recording& run, double amplitude_rad) {
 }
 
 TEST(ErringJoint, IsTheEncoderThatWobblesAsItTurns) {
-  const Clapper trucks = clapper_with_fine_joints();
+  const Clapper trucks = fine_clapper();
   const Vehicle vehicle = vehicle_of(trucks);
   std::vector<Recording> runs = clapper_runs(trucks, {}, 241);
   EXPECT_FALSE(erring_joint(joined(runs, vehicle), {0.0, 0.0, 0.0}, vehicle, 1));
@@ -395,9 +379,9 @@ TEST(ErringJoint, IsThePivotWhoseEncoderHasPlay) {
 }
 
 TEST(DiagnoseUnits, SayThatSomethingIsMissingWhereALinksEncoderWobbles) {
-  std::vector<Recording> runs = clapper_runs(clapper_with_fine_joints(), {}, 261);
+  std::vector<Recording> runs = clapper_runs(fine_clapper(), {}, 261);
   for (Recording& r : runs) wobble(r, 0.008);
-  const Diagnosis d = diagnosed(runs, clapper_with_fine_joints());
+  const Diagnosis d = diagnosed(runs, fine_clapper());
   EXPECT_EQ(d.verdict, Verdict::unknown_effect) << said(d);
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.findings[0].effect, "unknown");

@@ -1,0 +1,89 @@
+#include "core/diagnosis/lost_counts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/part_of_run.h"
+#include "core/diagnosis/standing_encoder.h"
+
+namespace odolab {
+
+namespace {
+
+// How fast a wheel turned for a few readings up to one, or from it on.
+double pace_radps(const std::vector<WheelSample>& wheels, double WheelSample::*wheel, std::size_t from,
+                  std::size_t to) {
+  return (wheels[to].*wheel - wheels[from].*wheel) / std::max(1e-6, wheels[to].time_s - wheels[from].time_s);
+}
+
+struct Hold {
+  double from_s, to_s;
+  bool left, right;
+};
+
+// Of both wheels where they hold at once, to a reading.
+std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDrive& drive) {
+  TimeStretches left = abrupt_holds(run.wheels, Wheel::left, drive),
+                right = abrupt_holds(run.wheels, Wheel::right, drive);
+  const double interval_s =
+      (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1);
+  std::vector<Hold> holds;
+  for (const auto& [from_s, to_s] : left) {
+    const auto same = std::find_if(right.begin(), right.end(), [&, from = from_s, to = to_s](const auto& r) {
+      return std::abs(r.first - from) < 1.5 * interval_s && std::abs(r.second - to) < 1.5 * interval_s;
+    });
+    if (same == right.end()) {
+      holds.push_back({from_s, to_s, true, false});
+      continue;
+    }
+    holds.push_back({std::max(from_s, same->first), std::min(to_s, same->second), true, true});
+    right.erase(same);
+  }
+  for (const auto& [from_s, to_s] : right) holds.push_back({from_s, to_s, false, true});
+  return holds;
+}
+
+}  // namespace
+
+JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calibrated) {
+  constexpr double kBeyondDoubt = 30.0;            // of twice the log-likelihood
+  constexpr double kLeastOf = 0.4, kMostOf = 2.0;  // what the truth shows, of what the paces before and behind do
+  constexpr std::size_t kPace = 5;
+  JumpsOfWheels lost;
+  for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {
+    const auto at = [&](double time_s) {
+      return static_cast<std::size_t>(std::lower_bound(run.wheels.begin(), run.wheels.end(), time_s,
+                                                       [](const WheelSample& w, double t) { return w.time_s < t; }) -
+                                      run.wheels.begin());
+    };
+    const std::size_t first = at(hold.from_s), last = at(hold.to_s);
+    if (first < kPace + 1 || last + kPace >= run.wheels.size()) continue;
+    const double lasts_s = hold.to_s - hold.from_s;
+    // From the pace before to that behind; the last interval before may be in part of the hold.
+    const auto gone_rad = [&](double WheelSample::*wheel, double time_s) {
+      const double before = pace_radps(run.wheels, wheel, first - 1 - kPace, first - 1),
+                   behind = pace_radps(run.wheels, wheel, last, last + kPace),
+                   s = std::clamp(time_s - hold.from_s, 0.0, lasts_s);
+      return s * (before + 0.5 * s / lasts_s * (behind - before));
+    };
+    const InnovationRun as_read = part_of_run(run, hold.from_s, hold.to_s, calibrated.truth.time_offset_s);
+    const auto misfit = [&](double share) {
+      InnovationRun part = as_read;
+      for (WheelSample& w : part.wheels) {
+        if (hold.left) w.left_rad += share * gone_rad(&WheelSample::left_rad, w.time_s);
+        if (hold.right) w.right_rad += share * gone_rad(&WheelSample::right_rad, w.time_s);
+      }
+      return misfit_of(part, calibrated);
+    };
+    // A parabola through none of it, half and all: the likelihood is one of the share.
+    const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = 2.0 * (none - 2.0 * half + all),
+                 slope = all - none - bend;
+    if (bend <= 0.0 || slope >= 0.0) continue;
+    const double best = -0.5 * slope / bend, gain = 0.25 * slope * slope / bend;
+    if (gain < kBeyondDoubt || best < kLeastOf || best > kMostOf) continue;
+    (hold.left && hold.right ? lost.both : hold.left ? lost.left : lost.right).emplace_back(hold.from_s, hold.to_s);
+  }
+  return lost;
+}
+
+}  // namespace odolab

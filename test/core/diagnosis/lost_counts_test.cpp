@@ -1,0 +1,99 @@
+#include "core/diagnosis/lost_counts.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/random.h"
+#include "core/diagnosis/quality.h"
+#include "core/geometry/track.h"
+#include "core/odometry/differential_drive.h"
+
+namespace odolab {
+namespace {
+
+constexpr double kFrom_s = 6.0, kTo_s = 6.72, kReading_s = 0.04;
+
+InnovationModel believed() {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.05, 0.05};
+  return model;
+}
+
+// Straight on for twelve seconds, faster and faster, up to 0.6 m/s; the counters of some wheels hold for 0.7 s. A radio
+// that errs by 5 cm ten times a second says where the vehicle was; `stood`: it stood meanwhile.
+InnovationRun holding(bool left, bool right, bool stood) {
+  const InnovationModel model = believed();
+  Random random(5);
+  InnovationRun run;
+  Track way;
+  Pose pose;
+  double left_rad = 0.0, right_rad = 0.0;
+  for (int i = 0; i <= 300; ++i) {
+    const double t = kReading_s * i, by_rad = kReading_s * 0.5 * t;
+    const bool holds = t > kFrom_s && t < kTo_s;
+    if (!holds || !left) left_rad += by_rad;
+    if (!holds || !right) right_rad += by_rad;
+    run.wheels.push_back({t, left_rad, right_rad});
+    const double true_rad = holds && stood ? 0.0 : by_rad;
+    pose = dead_reckoned(pose, true_rad, true_rad, model.drive);
+    way.push_back({t, pose});
+  }
+  for (int k = 0; k <= 120; ++k) {
+    const Pose at = *pose_at(way, 0.1 * k);
+    run.truth.push_back({0.1 * k,
+                         {at.x_m + 0.05 * random.normal(), at.y_m + 0.05 * random.normal()},
+                         at.heading_rad + 0.05 * random.normal()});
+  }
+  run.truth_has_heading = true;
+  run.set_aside.assign(run.truth.size(), 0);
+  return run;
+}
+
+TEST(LostCounts, AreThoseOfBothWheelsWhereTheTruthGoesOn) {
+  const JumpsOfWheels found = lost_counts(holding(true, true, false), believed());
+  ASSERT_EQ(found.both.size(), 1u);
+  EXPECT_NEAR(found.both[0].first, kFrom_s, kReading_s);
+  EXPECT_NEAR(found.both[0].second, kTo_s, kReading_s);
+  EXPECT_TRUE(found.left.empty());
+  EXPECT_TRUE(found.right.empty());
+}
+
+TEST(LostCounts, AreThoseOfOneWheelWhereTheTruthKeepsItsDirection) {
+  EXPECT_EQ(lost_counts(holding(true, false, false), believed()).left.size(), 1u);
+  EXPECT_EQ(lost_counts(holding(false, true, false), believed()).right.size(), 1u);
+}
+
+// A simulator's vehicle may stop within one reading.
+TEST(LostCounts, AreNoneWhereTheVehicleStood) {
+  const JumpsOfWheels found = lost_counts(holding(true, true, true), believed());
+  EXPECT_TRUE(found.both.empty() && found.left.empty() && found.right.empty());
+}
+
+// No truth on the way has to say it: no wheel turns by four radians in one reading.
+TEST(Checked, FindsACounterThatJumpsWhereOnlyTheEndsWereMeasured) {
+  const InnovationRun run = holding(false, false, false);
+  Recording recording;
+  recording.name = "ends.csv";
+  for (const char* name : {"left_wheel_rad", "right_wheel_rad", "truth_x_m", "truth_y_m", "truth_heading_rad"})
+    recording.add_channel(name);
+  constexpr std::size_t kAt = 150;
+  constexpr double kJump_rad = 4.0;
+  for (std::size_t i = 0; i < run.wheels.size(); ++i) {
+    recording.time_s.push_back(run.wheels[i].time_s);
+    const bool is_end = i == 0 || i + 1 == run.wheels.size();
+    const double none = std::nan("");
+    const double values[] = {run.wheels[i].left_rad + (i > kAt ? kJump_rad : 0.0), run.wheels[i].right_rad,
+                             is_end ? (i == 0 ? 0.0 : 4.2) : none, is_end ? 0.0 : none, is_end ? 0.0 : none};
+    for (std::size_t k = 0; k < recording.channels.size(); ++k) recording.channels[k].values.push_back(values[k]);
+  }
+  Vehicle vehicle;
+  vehicle.kind = believed().drive;
+  const CheckedRecording ready = checked(recording, vehicle);
+  ASSERT_EQ(ready.faults.size(), 1u);
+  EXPECT_EQ(ready.faults[0].component, "left_wheel");
+  ASSERT_EQ(ready.left_out_s.size(), 1u);
+  EXPECT_NEAR(ready.left_out_s[0].first, recording.time_s[kAt], 1e-9);
+}
+
+}  // namespace
+}  // namespace odolab
