@@ -235,7 +235,8 @@ TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, 
   TimeStretches found;
   const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
   const double least_rad = kCounts * least_count_rad(wheels, wheel);
-  for (const auto& [first, last] : holds_of(wheels, wheel, kPace + 1)) {
+  for (const Hold& hold : holds_of(wheels, wheel, kPace + 1)) {
+    const std::size_t first = hold.first, last = hold.last;
     if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
     const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
                               static_cast<double>(last + 1 + 2 * kPace - first);
