@@ -49,8 +49,9 @@ class JoinedFilter {
   // The world as it would be with so much of a column's motions in it; adds to what was put in before.
   void put_in(const JoinedColumn& column, double value);
 
-  // Minus twice the log-likelihood; and all that is asked for below, of the filter as it ran last.
-  double run(const JoinedNoise& noise);
+  // Minus twice the log-likelihood, alone or with all that is asked for below, of the filter as it ran so last.
+  enum class Wanted { likelihood, columns };
+  double run(const JoinedNoise& noise, Wanted wanted = Wanted::columns);
   const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
   Track track(std::size_t unit) const;                           // as corrected
   // Of each unit, by all that is read before and after (A. E. Bryson and M. Frazier, "Smoothing for linear and
@@ -97,6 +98,20 @@ class JoinedFilter {
     Eigen::MatrixXd whitener, out;           // of what is read; of what the poses are off by, as it is seen
     Eigen::MatrixXd gain, on;                // what the poses take of it; what goes on of what they were off by
   };
+  static constexpr int kMostStates = 3 * static_cast<int>(kMostJoinedUnits) + 3;
+  using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostStates, kMostStates>;
+  struct State;
+  struct Seen;
+  // All units, where the joints put them about the body; `in_room`: that is not known to be there.
+  void put_units(State& state, const Pose& body, const Reading& reading, bool in_room) const;
+  State begun(const JoinedNoise& noise) const;
+  void go_on(std::size_t reading, const JoinedNoise& noise, State& state) const;  // on the way to it
+  void look(const Reading& reading, const JoinedNoise& noise, const State& state, Seen& seen) const;
+  // Whether a sample of the truth is none of its outliers; and whether it is the poses that are wrong.
+  bool is_taken(const Seen& seen, const Small& p, double& minus_two_log) const;
+  bool is_lost(State& state) const;
+  void put_anew(const Reading& reading, State& state) const;  // where the first unit and the joints say
+  void correct(const Reading& reading, const Seen& seen, const Eigen::VectorXd& off, State& state) const;
   // The pose between two samples; the ends hold beyond them.
   static Pose on_the_way(const Track& track, double time_s);
   Eigen::MatrixXd turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
@@ -129,7 +144,8 @@ class JoinedFilter {
   Eigen::Index truth_rows_ = 3;
   bool outliers_show_ = true;  // not among the poses of both ends alone
   std::vector<DifferentialDrive> drives_;
-  std::vector<Track> way_;  // of each unit, by its wheels alone
+  std::vector<double> joint_step_, count_m_;  // of each joint's encoder; of each unit's wheels
+  std::vector<Track> way_;                    // of each unit, by its wheels alone
   std::vector<Reading> readings_;
   std::vector<std::vector<Pose>> moved_;                      // [unit][epoch]
   std::vector<std::vector<std::array<double, 2>>> rolled_m_;  // [unit][epoch] by each wheel, to and fro

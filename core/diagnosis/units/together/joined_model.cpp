@@ -71,10 +71,11 @@ void JoinedModel::make_filters() {
     }
 }
 
-double JoinedModel::minus_two_log_likelihood(const JoinedNoise& noise) {
+double JoinedModel::minus_two_log_likelihood(const JoinedNoise& noise, JoinedFilter::Wanted wanted) {
   std::vector<double> of_run(filters_.size());
-  parallel_for(static_cast<int>(filters_.size()),
-               [&](int r) { of_run[static_cast<std::size_t>(r)] = filters_[static_cast<std::size_t>(r)].run(noise); });
+  parallel_for(static_cast<int>(filters_.size()), [&](int r) {
+    of_run[static_cast<std::size_t>(r)] = filters_[static_cast<std::size_t>(r)].run(noise, wanted);
+  });
   double sum = 0.0;
   for (double one : of_run) sum += one;
   return sum;
@@ -121,7 +122,7 @@ void JoinedModel::solve() {
 }
 
 void JoinedModel::linearise() {
-  minus_two_log_likelihood(noise_);
+  minus_two_log_likelihood(noise_, JoinedFilter::Wanted::columns);
   const Index columns = static_cast<Index>(lengths_.size() + 3 * units() + (follows_truth_ ? given_.size() : 0));
   std::vector<MatrixXd> z(filters_.size());
   std::vector<std::vector<Track>> smoothed(filters_.size());

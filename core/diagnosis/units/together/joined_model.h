@@ -114,7 +114,8 @@ class JoinedModel {
   void solve();  // for what has been put into z_
   void hold_the_body(Eigen::MatrixXd& prior) const;
   void let_joints_say_nothing_of_scale();
-  double minus_two_log_likelihood(const JoinedNoise& noise);
+  double minus_two_log_likelihood(const JoinedNoise& noise,
+                                  JoinedFilter::Wanted wanted = JoinedFilter::Wanted::likelihood);
 
   std::vector<JoinedRun> given_;
   Vehicle vehicle_;
