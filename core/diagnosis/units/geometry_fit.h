@@ -27,6 +27,7 @@ struct JoinedRun {
   Track tracked;
   bool has_headings = true;                 // else those of `tracked` are zero
   std::vector<TimeStretches> guessed = {};  // of each unit: where what a wheel turned is a guess; empty: nowhere
+  std::vector<std::size_t> believed = {};   // samples of `tracked` that are no outliers, however far off they are
 };
 
 struct GeometryFit {

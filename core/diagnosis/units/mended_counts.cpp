@@ -79,6 +79,26 @@ bool another_goes_on(std::vector<UnitSample>& samples, std::size_t unit, Wheel w
   return false;
 }
 
+// Where a count that jumps had held before, if what it makes good is what another wheel turned meanwhile; else where it
+// jumps.
+std::size_t held_from(std::vector<UnitSample>& samples, std::size_t unit, Wheel wheel, std::size_t from,
+                      std::size_t to) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kAlike = 3.0;
+  const Counts counts(samples, unit, wheel);
+  std::size_t first = from;
+  while (first > 0 && counts.rad(first - 1) == counts.rad(from)) --first;
+  if (from < first + kFewest) return from;
+  const double jump_rad = std::abs(counts.rad(to) - counts.rad(from));
+  for (std::size_t u = 0; u < samples.front().wheels.size(); ++u)
+    for (const Wheel w : kEach) {
+      const Counts other(samples, u, w);
+      const double way_rad = std::abs(other.rad(from) - other.rad(first));
+      if ((u != unit || w != wheel) && jump_rad < kAlike * way_rad && way_rad < kAlike * jump_rad) return first;
+    }
+  return from;
+}
+
 TimeStretches jumps_of(const Counts& counts, double radius_m, double count_rad) {
   std::vector<double> time_s, rad;
   for (std::size_t i = 0; i < counts.size(); ++i) time_s.push_back(counts.time_s(i)), rad.push_back(counts.rad(i));
@@ -99,6 +119,9 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
       const DifferentialDrive& drive = units[u].drive;
       Counts counts(samples, u, wheel);
       const Counts other(samples, u, wheel == Wheel::left ? Wheel::right : Wheel::left);
+      const auto guess = [&](std::size_t from, double to_s) {  // the interval before may be in part of it
+        guessed.emplace_back(counts.time_s(from > 0 ? from - 1 : 0), to_s);
+      };
       std::vector<WheelSample> wheels = wheels_of(samples, u);
       const TimeStretches moved = moved_at_rest(wheels, wheel), caught_up = catching_up_encoder(wheels, wheel);
       for (const auto& [from_s, to_s] : moved) {
@@ -111,7 +134,7 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
       }
       for (const auto& [from_s, to_s] : caught_up) {
         counts.go_evenly(counts.at(from_s), counts.at(to_s));
-        guessed.emplace_back(from_s, to_s);
+        guess(counts.at(from_s), to_s);
       }
       wheels = wheels_of(samples, u);
       TimeStretches lost = halting_encoder(wheels, wheel, drive);
@@ -119,12 +142,16 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
         if (another_goes_on(samples, u, wheel, counts.at(from_s), counts.at(to_s))) lost.emplace_back(from_s, to_s);
       for (const auto& [from_s, to_s] : joined(std::move(lost))) {
         counts.carry_on(counts.at(from_s), counts.at(to_s));
-        guessed.emplace_back(from_s, to_s);
+        guess(counts.at(from_s), to_s);
       }
       const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
       for (const auto& [from_s, to_s] : jumps_of(counts, radius_m, least_count_rad(wheels, wheel))) {
-        counts.carry_on(counts.at(from_s), counts.at(to_s));
-        guessed.emplace_back(from_s, to_s);
+        const std::size_t from = counts.at(from_s), to = counts.at(to_s), held = held_from(samples, u, wheel, from, to);
+        if (held < from)
+          counts.go_evenly(held, to);
+        else
+          counts.carry_on(from, to);
+        guess(held, to_s);
       }
     }
     guessed = joined(std::move(guessed));

@@ -45,14 +45,15 @@ JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double 
   for (const UnitSample& s : samples_) {
     for (; t < run.tracked.size() && run.tracked[t].time_s - late_s <= s.time_s; ++t) {
       const double at_s = run.tracked[t].time_s - late_s;
-      readings_.push_back({at_s, joints_at(samples_, at_s), run.tracked[t].pose, false, {}, {}});
+      const bool is_believed = std::find(run.believed.begin(), run.believed.end(), t) != run.believed.end();
+      readings_.push_back({at_s, joints_at(samples_, at_s), run.tracked[t].pose, false, t, is_believed, {}, {}});
     }
     if (s.time_s < last_s + kEpoch_s) continue;
     last_s = s.time_s;
     if (!readings_.empty() && readings_.back().time_s == s.time_s)
       readings_.back().joints_are_read = true;
     else
-      readings_.push_back({s.time_s, s.joints, std::nullopt, true, {}, {}});
+      readings_.push_back({s.time_s, s.joints, std::nullopt, true, 0, false, {}, {}});
   }
   for (Reading& reading : readings_) {
     reading.unit_T_body = units_T_body(vehicle_, reading.joints);

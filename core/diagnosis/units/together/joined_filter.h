@@ -54,6 +54,8 @@ class JoinedFilter {
   double run(const JoinedNoise& noise, Wanted wanted = Wanted::columns);
   const Eigen::VectorXd& residual() const { return residual_; }  // whitened, rows() of each reading
   Track track(std::size_t unit) const;                           // as corrected
+  // Samples of the truth that contradicted the poses one after the other, until those were taken to be lost.
+  const std::vector<std::vector<std::size_t>>& contradicting() const { return contradicting_; }
   // Of each unit, by all that is read before and after (A. E. Bryson and M. Frazier, "Smoothing for linear and
   // nonlinear dynamic systems", Proceedings of the Optimum System Synthesis Conference, 1963, as modified by G. J.
   // Bierman 1973).
@@ -86,6 +88,8 @@ class JoinedFilter {
     std::vector<double> joints;
     std::optional<Pose> truth;                // of the tracked point
     bool joints_are_read = true;              // else they are only known, from their readings before and after
+    std::size_t of_tracked = 0;               // which sample the truth is
+    bool is_believed = false;                 // it is none of the outliers
     std::vector<Pose> unit_T_body;            // the tracked point as each unit has it
     std::vector<std::vector<Pose>> by_joint;  // [joint][unit] what that moves by where the joint reads more by one
   };
@@ -108,8 +112,8 @@ class JoinedFilter {
   void go_on(std::size_t reading, const JoinedNoise& noise, State& state) const;  // on the way to it
   void look(const Reading& reading, const JoinedNoise& noise, const State& state, Seen& seen) const;
   // Whether a sample of the truth is none of its outliers; and whether it is the poses that are wrong.
-  bool is_taken(const Seen& seen, const Small& p, double& minus_two_log) const;
-  bool is_lost(State& state) const;
+  bool is_taken(const Reading& reading, const Seen& seen, const Small& p, double& minus_two_log) const;
+  bool is_lost(const Reading& reading, State& state) const;
   void put_anew(const Reading& reading, State& state) const;  // where the first unit and the joints say
   void correct(const Reading& reading, const Seen& seen, const Eigen::VectorXd& off, State& state) const;
   // The pose between two samples; the ends hold beyond them.
@@ -155,6 +159,7 @@ class JoinedFilter {
   bool wanders_ = false;                                      // as it ran last
   double wander_lasts_s_ = 0.0;
   std::vector<Step> steps_;
+  std::vector<std::vector<std::size_t>> contradicting_;
   Eigen::VectorXd residual_;
 };
 

@@ -89,9 +89,28 @@ void JoinedModel::fit_all() {
   if (!follows_truth_) return;
   const bool wanders = let_frame_wander();
   linearise();
-  if (!wanders) return;
+  if (!wanders) return believe_what_contradicts();
   fit(2);
   fit_noise();
+}
+
+void JoinedModel::believe_what_contradicts() {
+  for (std::size_t r = 0; r < filters_.size(); ++r)
+    for (const std::vector<std::size_t>& samples : filters_[r].contradicting())
+      given_[r].believed.insert(given_[r].believed.end(), samples.begin(), samples.end());
+  if (!believes_what_contradicts()) return;
+  make_filters();
+  linearise();
+}
+
+bool JoinedModel::believes_what_contradicts() const {
+  return std::any_of(given_.begin(), given_.end(), [](const JoinedRun& run) { return !run.believed.empty(); });
+}
+
+void JoinedModel::doubt_what_contradicts() {
+  for (JoinedRun& run : given_) run.believed.clear();
+  make_filters();
+  linearise();
 }
 
 void JoinedModel::fit(int iterations) {

@@ -38,6 +38,10 @@ class JoinedModel {
   void fit_all();
   void fit(int iterations);
   void fit_noise();
+  // Whether samples of the truth that contradict all before, one after the other, are believed, as where a vehicle was
+  // pushed; and no more.
+  bool believes_what_contradicts() const;
+  void doubt_what_contradicts();
 
   std::size_t units() const { return drives_of_file_.size(); }
   const std::vector<JoinedFilter>& runs() const { return filters_; }
@@ -97,6 +101,7 @@ class JoinedModel {
   // Minus twice the log-likelihood at the best of them.
   double fit_sizes(const std::vector<NoiseSize>& sizes);
   std::vector<NoiseSize> sizes_of_truth() const;
+  void believe_what_contradicts();
   bool let_frame_wander();  // whether it does; the model is to be linearised anew then
   void make_filters();
   std::vector<JoinedColumn> moved_by(std::size_t run, const MotionsOf& motions, std::size_t amplitudes,

@@ -109,6 +109,13 @@ class Naming {
 
   JoinedNames run(const Progress& progress) {
     name_all(progress);
+    const bool is_pushed = std::any_of(named_.begin(), named_.end(),
+                                       [](const ScoredTogether& s) { return s.candidate.effect->name == "collision"; });
+    if (model_.believes_what_contradicts() && !is_pushed) {
+      model_.doubt_what_contradicts();
+      named_.clear();
+      name_all(progress);
+    }
     if (!named_.empty()) {  // what they left had made the noise too large
       model_.fit_noise_beside(acting());
       named_.clear();

@@ -35,10 +35,10 @@ bool are_torn_apart(const VectorXd& read, Index of_joints) {
 
 // Where the filter stands.
 struct JoinedFilter::State {
-  std::vector<Pose> at;  // of each unit
-  Small p;               // covariance of what they, and behind them the truth's frame, are off by
-  Pose wandered;         // the truth's frame
-  int refused = 0;       // samples of the truth in a row
+  std::vector<Pose> at;                   // of each unit
+  Small p;                                // covariance of what they, and behind them the truth's frame, are off by
+  Pose wandered;                          // the truth's frame
+  std::vector<std::size_t> refused = {};  // samples of the truth in a row
 };
 
 // What is read, how it depends on the states, and how it errs.
@@ -191,8 +191,8 @@ void JoinedFilter::look(const Reading& reading, const JoinedNoise& noise, const 
 
 // Outliers cost what the last sample does that is none: samples that are left out for nothing would make any noise
 // likely that leaves out many.
-bool JoinedFilter::is_taken(const Seen& seen, const Small& p, double& minus_two_log) const {
-  if (!outliers_show_) return true;
+bool JoinedFilter::is_taken(const Reading& reading, const Seen& seen, const Small& p, double& minus_two_log) const {
+  if (!outliers_show_ || reading.is_believed) return true;
   const Index of_joints = rows() - 3;
   const Small h = seen.by_states.middleRows(of_joints, truth_rows_);
   Small s = h * p * h.transpose();
@@ -205,9 +205,10 @@ bool JoinedFilter::is_taken(const Seen& seen, const Small& p, double& minus_two_
   return false;
 }
 
-bool JoinedFilter::is_lost(State& state) const {
-  constexpr int kMostInARow = 8;
-  if (++state.refused < kMostInARow) return false;
+bool JoinedFilter::is_lost(const Reading& reading, State& state) const {
+  constexpr std::size_t kMostInARow = 8;
+  state.refused.push_back(reading.of_tracked);
+  if (state.refused.size() < kMostInARow) return false;
   Small rigid = Small::Zero(states(), 3);
   for (std::size_t u = 0; u < units(); ++u) {
     const Index k = 3 * static_cast<Index>(u);
@@ -286,6 +287,7 @@ double JoinedFilter::run(const JoinedNoise& noise, Wanted wanted) {
     residual_ = VectorXd::Zero(n * static_cast<Index>(readings()));
   }
   double minus_two_log = 0.0;
+  contradicting_.clear();
   State state = begun(noise);
   Seen seen{{}, Small(n, states()), Small(n, n)};
   std::vector<Pose> predicted;
@@ -309,8 +311,11 @@ double JoinedFilter::run(const JoinedNoise& noise, Wanted wanted) {
     // Either the joints, or the truth, or both: a block of rows. A truth that is contradicted all the time is right,
     // and the poses are lost.
     const Index from = reading.joints_are_read ? 0 : of_joints;
-    const bool with_truth = reading.truth && (is_taken(seen, state.p, minus_two_log) || is_lost(state));
-    if (with_truth) state.refused = 0;
+    const bool with_truth =
+        reading.truth && (is_taken(reading, seen, state.p, minus_two_log) || is_lost(reading, state));
+    if (with_truth && !state.refused.empty() && state.refused.back() == reading.of_tracked)
+      contradicting_.push_back(state.refused);
+    if (with_truth) state.refused.clear();
     const Index m = of_joints + (with_truth ? truth_rows_ : 0) - from;
     if (m <= 0) continue;
     const Small h = seen.by_states.middleRows(from, m);
