@@ -78,6 +78,23 @@ TEST(MendedCounts, GoOnWhereATruckStandsWithinOneReadingAndTheOtherGoesOn) {
   EXPECT_TRUE(mended.guessed[0].empty());
 }
 
+// It stood, and the truck set off while its counter held: what comes at once is what truck B went.
+TEST(MendedCounts, CatchUpThoughTheWheelStoodBeforeItsCounterHeld) {
+  const Clapper trucks = fine_clapper();
+  const Vehicle vehicle = vehicle_of(trucks);
+  constexpr std::size_t kStands = 10, kHolds = 30;  // readings
+  std::vector<UnitSample> samples;
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double rad = i < kStands ? 0.0 : 0.1 * static_cast<double>(i - kStands);
+    const double held_rad = i < kHolds ? 0.0 : rad;
+    samples.push_back({0.04 * static_cast<double>(i), {{held_rad, held_rad}, {rad, rad}}, {0.0, 0.0, 1.0}});
+  }
+  const MendedCounts mended = with_mended_counts(samples, vehicle);
+  EXPECT_NEAR(mended.samples.back().wheels[0].left_rad, samples.back().wheels[1].left_rad, 1e-9);
+  ASSERT_EQ(mended.guessed[0].size(), 1u);
+  EXPECT_LE(mended.guessed[0][0].first, samples[kStands].time_s);
+}
+
 // A board that restarts counts from zero again.
 TEST(MendedCounts, GoOnWhereACounterBeginsAnew) {
   const Clapper trucks = fine_clapper();

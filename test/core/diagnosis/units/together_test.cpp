@@ -221,5 +221,43 @@ TEST(DiagnoseTogether, FeelsABumpUnderATruthThatErrsByMore) {
   }
 }
 
+// Half a metre aside and a sixth of a turn, under a camera of 15 mm: thirty times its error, and no outlier.
+TEST(DiagnoseTogether, SayThatAVehicleWasPushedByMoreThanItsTruthErrs) {
+  constexpr std::size_t kAt = 700;
+  const Pose push{0.3, 0.4, 0.5};
+  const LinkedRunSettings s = under_a_coarse_truth();
+  const Clapper trucks = fine_clapper();
+  std::vector<Recording> runs = {linked_run(trucks, s, 321), linked_run(trucks, s, 322), linked_run(trucks, s, 323)};
+  Recording& pushed = runs[1];
+  const std::vector<TruthSample> truth = truth_samples(pushed);
+  ASSERT_GT(truth.size(), kAt);
+  // All that follows goes on from where it was pushed to.
+  const Pose from{truth[kAt].position.x_m, truth[kAt].position.y_m, *truth[kAt].heading_rad};
+  const Pose to{from.x_m + push.x_m, from.y_m + push.y_m, from.heading_rad + push.heading_rad};
+  const std::size_t n = pushed.channels.size();
+  for (std::size_t i = 0, k = 0; i < pushed.time_s.size(); ++i) {
+    if (std::isnan(pushed.channels[n - 3].values[i])) continue;
+    if (k++ < kAt) continue;
+    const Pose was{pushed.channels[n - 3].values[i], pushed.channels[n - 2].values[i],
+                   pushed.channels[n - 1].values[i]};
+    const Pose is = to * between(from, was);
+    pushed.channels[n - 3].values[i] = is.x_m;
+    pushed.channels[n - 2].values[i] = is.y_m;
+    pushed.channels[n - 1].values[i] = was.heading_rad + push.heading_rad;
+  }
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->findings.size(), 1u);
+  EXPECT_EQ(d->findings[0].effect, "collision");
+  EXPECT_EQ(d->findings[0].component, "vehicle");
+  EXPECT_EQ(d->findings[0].where.recording, pushed.name);
+  const double values[] = {push.x_m, push.y_m, push.heading_rad};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FoundParameter& p = d->findings[0].parameters[k];
+    EXPECT_NEAR(p.value, values[k], 4.0 * p.stderr_value) << p.name;
+    EXPECT_LT(p.stderr_value, 0.1) << p.name;
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test
