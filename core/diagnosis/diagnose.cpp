@@ -375,6 +375,8 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   d.findings = found;
   for (const CheckedRecording& c : ready->train)
     for (const DataFault& fault : c.faults) d.findings.push_back(finding_of(fault));
+  for (const CheckedRecording& c : ready->held_out)  // they give no finding
+    for (const DataFault& fault : c.faults) d.warnings.push_back(in_words(fault));
   for (const MovedMounting& m : ready->moved) d.findings.push_back(finding_of(m));
   if (d.verdict == Verdict::nothing_missing && !d.findings.empty()) d.verdict = Verdict::found;
   const std::vector<Confusion> confused =

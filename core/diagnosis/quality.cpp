@@ -47,6 +47,10 @@ bool is_on_its_way(const CommandSample& first) { return first.speed_mps != 0.0 |
 
 }  // namespace
 
+std::string in_words(const DataFault& fault) {
+  return fault.recording + " " + times_text(fault.time_s) + ": " + fault.sentence;
+}
+
 CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   CheckedRecording out;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);

@@ -19,6 +19,9 @@ struct DataFault {
   std::string sentence;
 };
 
+// Recording, times and sentence in one line.
+std::string in_words(const DataFault& fault);
+
 struct CheckedRecording {
   // Without the frozen truth, on even stamps where those were of arrival; with wheels in place of commands where there
   // are only commands.

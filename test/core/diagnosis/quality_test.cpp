@@ -219,5 +219,24 @@ TEST(Diagnosis, LeavesACounterThatStepsBackOutWhereTheTruthIsLateToo) {
   EXPECT_LT(d->train.calibrated->position_rms_m, 1.2 * d->train.noise_floor->position_rms_m);
 }
 
+// It gives no finding, since it gives no name either.
+TEST(Diagnosis, SaysWhatIsWrongWithARecordingThatIsHeldOut) {
+  test::CaseSettings settings;
+  settings.runs = 3;
+  settings.duration_s = 30.0;
+  test::Case c = test::generated_case(settings, 33);
+  Recording held_out = std::move(c.recordings.back());
+  c.recordings.pop_back();
+  held_out.name = "held.csv";
+  for (Channel& channel : held_out.channels)
+    for (std::size_t i = 0; channel.name == "left_wheel_rad" && i < held_out.time_s.size(); ++i)
+      if (held_out.time_s[i] > 12.0) channel.values[i] -= 7.0;
+  const Result<Diagnosis> d = diagnose(c.recordings, {held_out}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_TRUE(std::any_of(d->warnings.begin(), d->warnings.end(), [](const std::string& w) {
+    return w.rfind("held.csv from 12.0", 0) == 0 && w.find("encoder") != std::string::npos;
+  }));
+}
+
 }  // namespace
 }  // namespace odolab

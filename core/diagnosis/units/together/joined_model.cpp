@@ -95,9 +95,12 @@ void JoinedModel::fit_all() {
 }
 
 void JoinedModel::believe_what_contradicts() {
+  constexpr double kSettled_s = 5.0;  // a filter that has hardly begun is lost by itself
   for (std::size_t r = 0; r < filters_.size(); ++r)
     for (const std::vector<std::size_t>& samples : filters_[r].contradicting())
-      given_[r].believed.insert(given_[r].believed.end(), samples.begin(), samples.end());
+      if (const Track& tracked = given_[r].tracked;
+          tracked[samples.front()].time_s > tracked.front().time_s + kSettled_s)
+        given_[r].believed.insert(given_[r].believed.end(), samples.begin(), samples.end());
   if (!believes_what_contradicts()) return;
   make_filters();
   linearise();
