@@ -95,12 +95,19 @@ void JoinedModel::fit_all() {
 }
 
 void JoinedModel::believe_what_contradicts() {
-  constexpr double kSettled_s = 5.0;  // a filter that has hardly begun is lost by itself
-  for (std::size_t r = 0; r < filters_.size(); ++r)
-    for (const std::vector<std::size_t>& samples : filters_[r].contradicting())
-      if (const Track& tracked = given_[r].tracked;
-          tracked[samples.front()].time_s > tracked.front().time_s + kSettled_s)
-        given_[r].believed.insert(given_[r].believed.end(), samples.begin(), samples.end());
+  constexpr double kSettled_s = 5.0;    // a filter that has hardly begun is lost by itself
+  constexpr double kComesBack_s = 5.0;  // a tracker that took another marker for its own is no push
+  for (std::size_t r = 0; r < filters_.size(); ++r) {
+    const Track& tracked = given_[r].tracked;
+    const std::vector<std::vector<std::size_t>>& all = filters_[r].contradicting();
+    const auto begins_s = [&](std::size_t k) { return tracked[all[k].front()].time_s; };
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const bool comes_back = (k > 0 && begins_s(k) < begins_s(k - 1) + kComesBack_s) ||
+                              (k + 1 < all.size() && begins_s(k + 1) < begins_s(k) + kComesBack_s);
+      if (begins_s(k) > tracked.front().time_s + kSettled_s && !comes_back)
+        given_[r].believed.insert(given_[r].believed.end(), all[k].begin(), all[k].end());
+    }
+  }
   if (!believes_what_contradicts()) return;
   make_filters();
   linearise();

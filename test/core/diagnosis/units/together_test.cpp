@@ -221,30 +221,33 @@ TEST(DiagnoseTogether, FeelsABumpUnderATruthThatErrsByMore) {
   }
 }
 
+// The truth as if the vehicle had been pushed before one of its samples, until another.
+void move_truth(Recording& run, std::size_t from_sample, std::size_t to_sample, const Pose& push) {
+  const std::vector<TruthSample> truth = truth_samples(run);
+  ASSERT_GT(truth.size(), from_sample);
+  const Pose from{truth[from_sample].position.x_m, truth[from_sample].position.y_m, *truth[from_sample].heading_rad};
+  const Pose to{from.x_m + push.x_m, from.y_m + push.y_m, from.heading_rad + push.heading_rad};
+  const std::size_t n = run.channels.size();
+  for (std::size_t i = 0, k = 0; i < run.time_s.size(); ++i) {
+    if (std::isnan(run.channels[n - 3].values[i])) continue;
+    if (k++ < from_sample || k > to_sample) continue;
+    const Pose was{run.channels[n - 3].values[i], run.channels[n - 2].values[i], run.channels[n - 1].values[i]};
+    const Pose is = to * between(from, was);
+    run.channels[n - 3].values[i] = is.x_m;
+    run.channels[n - 2].values[i] = is.y_m;
+    run.channels[n - 1].values[i] = was.heading_rad + push.heading_rad;
+  }
+}
+
 // Half a metre aside and a sixth of a turn, under a camera of 15 mm: thirty times its error, and no outlier.
 TEST(DiagnoseTogether, SayThatAVehicleWasPushedByMoreThanItsTruthErrs) {
-  constexpr std::size_t kAt = 700;
+  constexpr std::size_t kAt = 700, kOnAndOn = 1000000;
   const Pose push{0.3, 0.4, 0.5};
   const LinkedRunSettings s = under_a_coarse_truth();
   const Clapper trucks = fine_clapper();
   std::vector<Recording> runs = {linked_run(trucks, s, 321), linked_run(trucks, s, 322), linked_run(trucks, s, 323)};
   Recording& pushed = runs[1];
-  const std::vector<TruthSample> truth = truth_samples(pushed);
-  ASSERT_GT(truth.size(), kAt);
-  // All that follows goes on from where it was pushed to.
-  const Pose from{truth[kAt].position.x_m, truth[kAt].position.y_m, *truth[kAt].heading_rad};
-  const Pose to{from.x_m + push.x_m, from.y_m + push.y_m, from.heading_rad + push.heading_rad};
-  const std::size_t n = pushed.channels.size();
-  for (std::size_t i = 0, k = 0; i < pushed.time_s.size(); ++i) {
-    if (std::isnan(pushed.channels[n - 3].values[i])) continue;
-    if (k++ < kAt) continue;
-    const Pose was{pushed.channels[n - 3].values[i], pushed.channels[n - 2].values[i],
-                   pushed.channels[n - 1].values[i]};
-    const Pose is = to * between(from, was);
-    pushed.channels[n - 3].values[i] = is.x_m;
-    pushed.channels[n - 2].values[i] = is.y_m;
-    pushed.channels[n - 1].values[i] = was.heading_rad + push.heading_rad;
-  }
+  move_truth(pushed, kAt, kOnAndOn, push);
   const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
   ASSERT_TRUE(d);
   ASSERT_EQ(d->findings.size(), 1u);
@@ -257,6 +260,17 @@ TEST(DiagnoseTogether, SayThatAVehicleWasPushedByMoreThanItsTruthErrs) {
     EXPECT_NEAR(p.value, values[k], 4.0 * p.stderr_value) << p.name;
     EXPECT_LT(p.stderr_value, 0.1) << p.name;
   }
+}
+
+// A tracker that takes another marker for its own for a second and a half, and finds it again.
+TEST(DiagnoseTogether, TakeATruthThatComesBackForNoPush) {
+  const LinkedRunSettings s = under_a_coarse_truth();
+  const Clapper trucks = fine_clapper();
+  std::vector<Recording> runs = {linked_run(trucks, s, 321), linked_run(trucks, s, 322), linked_run(trucks, s, 323)};
+  move_truth(runs[1], 700, 738, {0.3, 0.4, 0.5});
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  EXPECT_TRUE(d->findings.empty()) << d->findings.front().effect;
 }
 
 }  // namespace
