@@ -125,15 +125,13 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
       }
       return misfit_of(part, calibrated);
     };
-    // A parabola through none of it, half and all: the likelihood is one of the share.
-    const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = none - 2.0 * half + all;
+    const std::optional<ShownShare> shown = shown_share(misfit);
     const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
                  slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
     const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
                                slowed_mps2 > kNoVehicle_mps2;
-    if (none - all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt) || bend <= 0.0) continue;
-    const double best = 0.5 + 0.25 * (none - all) / bend;
-    if (std::abs(best - 1.0) >= kAllOfIt) continue;
+    if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt)) continue;
+    if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
     (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + 1]);
   }
   return jumps;

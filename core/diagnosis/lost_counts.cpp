@@ -10,7 +10,7 @@ namespace odolab {
 
 namespace {
 
-// How fast a wheel turned for a few readings up to one, or from it on.
+// How fast a wheel turned between two readings.
 double pace_radps(const std::vector<WheelSample>& wheels, double WheelSample::*wheel, std::size_t from,
                   std::size_t to) {
   return (wheels[to].*wheel - wheels[from].*wheel) / std::max(1e-6, wheels[to].time_s - wheels[from].time_s);
@@ -48,7 +48,6 @@ std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDr
 JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calibrated) {
   constexpr double kBeyondDoubt = 30.0;            // of twice the log-likelihood
   constexpr double kLeastOf = 0.4, kMostOf = 2.0;  // what the truth shows, of what the paces before and behind do
-  constexpr std::size_t kPace = 5;
   JumpsOfWheels lost;
   for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {
     const auto at = [&](double time_s) {
@@ -57,30 +56,26 @@ JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calib
                                       run.wheels.begin());
     };
     const std::size_t first = at(hold.from_s), last = at(hold.to_s);
-    if (first < kPace + 1 || last + kPace >= run.wheels.size()) continue;
+    if (first < kReadingsOfPace + 1 || last + kReadingsOfPace >= run.wheels.size()) continue;
     const double lasts_s = hold.to_s - hold.from_s;
-    // From the pace before to that behind; the last interval before may be in part of the hold.
-    const auto gone_rad = [&](double WheelSample::*wheel, double time_s) {
-      const double before = pace_radps(run.wheels, wheel, first - 1 - kPace, first - 1),
-                   behind = pace_radps(run.wheels, wheel, last, last + kPace),
-                   s = std::clamp(time_s - hold.from_s, 0.0, lasts_s);
-      return s * (before + 0.5 * s / lasts_s * (behind - before));
+    // The last interval before may be in part of the hold.
+    const auto evenly = [&](double WheelSample::*wheel) {
+      return EvenlyBetween{pace_radps(run.wheels, wheel, first - 1 - kReadingsOfPace, first - 1),
+                           pace_radps(run.wheels, wheel, last, last + kReadingsOfPace), lasts_s};
     };
+    const EvenlyBetween of_left = evenly(&WheelSample::left_rad), of_right = evenly(&WheelSample::right_rad);
     const InnovationRun as_read = part_of_run(run, hold.from_s, hold.to_s, calibrated.truth.time_offset_s);
     const auto misfit = [&](double share) {
       InnovationRun part = as_read;
       for (WheelSample& w : part.wheels) {
-        if (hold.left) w.left_rad += share * gone_rad(&WheelSample::left_rad, w.time_s);
-        if (hold.right) w.right_rad += share * gone_rad(&WheelSample::right_rad, w.time_s);
+        const double since_s = std::clamp(w.time_s - hold.from_s, 0.0, lasts_s);
+        if (hold.left) w.left_rad += share * of_left.gone_rad(since_s);
+        if (hold.right) w.right_rad += share * of_right.gone_rad(since_s);
       }
       return misfit_of(part, calibrated);
     };
-    // A parabola through none of it, half and all: the likelihood is one of the share.
-    const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = 2.0 * (none - 2.0 * half + all),
-                 slope = all - none - bend;
-    if (bend <= 0.0 || slope >= 0.0) continue;
-    const double best = -0.5 * slope / bend, gain = 0.25 * slope * slope / bend;
-    if (gain < kBeyondDoubt || best < kLeastOf || best > kMostOf) continue;
+    const std::optional<ShownShare> shown = shown_share(misfit);
+    if (!shown || shown->gain < kBeyondDoubt || shown->best < kLeastOf || shown->best > kMostOf) continue;
     (hold.left && hold.right ? lost.both : hold.left ? lost.left : lost.right).emplace_back(hold.from_s, hold.to_s);
   }
   return lost;

@@ -27,4 +27,11 @@ double misfit_of(const InnovationRun& part, const InnovationModel& calibrated) {
   return sums.chi2 + sums.log_determinant;
 }
 
+std::optional<ShownShare> shown_share(const std::function<double(double share)>& misfit) {
+  const double none = misfit(0.0), half = misfit(0.5), all = misfit(1.0), bend = 2.0 * (none - 2.0 * half + all),
+               slope = all - none - bend;
+  if (bend <= 0.0) return std::nullopt;
+  return ShownShare{-0.5 * slope / bend, 0.25 * slope * slope / bend, none - all};
+}
+
 }  // namespace odolab

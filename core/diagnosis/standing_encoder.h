@@ -29,6 +29,15 @@ TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, 
 // wheel takes longer.
 TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel);
 
+// What a wheel turns meanwhile if it goes evenly from the pace before to that behind.
+struct EvenlyBetween {
+  double before_radps = 0.0, behind_radps = 0.0, lasts_s = 0.0;
+  double gone_rad(double since_s) const {
+    return since_s * (before_radps + 0.5 * since_s / lasts_s * (behind_radps - before_radps));
+  }
+};
+inline constexpr std::size_t kReadingsOfPace = 5;
+
 // The smallest step that was read of a wheel.
 double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel);
 

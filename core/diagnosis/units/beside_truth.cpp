@@ -6,7 +6,6 @@
 
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
-#include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"
 #include "core/diagnosis/units/joined_clocks.h"
@@ -16,7 +15,9 @@
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
 #include "core/diagnosis/units/merged_findings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/together/told_together.h"
+#include "core/diagnosis/units/told_geometry.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
@@ -143,10 +144,9 @@ class BesideTruth {
         progress_(progress),
         units_(units_of(nominal)),
         is_towed_(std::holds_alternative<EncoderTrailer>(nominal.kind)),
+        is_followed_(outside_truth(train, held_out) == OutsideTruth::poses),
         train_(set_of(train, nominal)),
         held_out_(set_of(held_out, nominal)) {
-    is_followed_ = std::all_of(train_.runs.begin(), train_.runs.end(),
-                               [](const JoinedRun& run) { return comes_often(run.tracked); });
     for (const Set* set : {&train_, &held_out_})
       for (const Recording& r : set->recordings) names_.push_back(r.name);
   }
@@ -284,7 +284,7 @@ class BesideTruth {
   const DiagnosisOptions& options_;
   const Progress& progress_;
   std::vector<VehicleUnit> units_;
-  bool is_towed_ = false, is_followed_ = true;  // by the truth, and not by poses at both ends alone
+  bool is_towed_, is_followed_;  // by the truth, and not by poses at both ends alone
   Set train_, held_out_;
   std::vector<std::string> names_;  // of both sets, and what all units read in them, mended
   Read samples_;

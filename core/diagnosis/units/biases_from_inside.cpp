@@ -29,9 +29,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
   Vehicle calibrated = nominal;
   for (std::size_t u = 0; u < units.size(); ++u)
     calibrated = with_drive(calibrated, u, std::get<DifferentialDrive>(of_units[u].calibration.vehicle.kind));
-  std::vector<Understood> all = understood_without(of_units, train, nominal);
-  for (Understood& u : all) u.samples = with_mended_counts(std::move(u.samples), nominal).samples;
-
+  const std::vector<Understood> all = with_mended_counts(understood_without(of_units, train, nominal), nominal);
   const Result<GeometryFit> inside = geometry_from_inside(all, calibrated, progress);
   std::vector<GeometryFit> without;  // each run in turn
   for (std::size_t r = 0; r < all.size() && inside; ++r) {

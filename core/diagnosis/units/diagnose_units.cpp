@@ -4,9 +4,8 @@
 
 #include "core/calibration/evened_recording.h"
 #include "core/diagnosis/units/beside_truth.h"
-#include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/inside.h"
-#include "core/diagnosis/units/unit_recordings.h"
+#include "core/diagnosis/units/outside_truth.h"
 
 namespace odolab {
 
@@ -40,15 +39,13 @@ std::vector<Recording> all_evened(const std::vector<Recording>& given, const Veh
 // By the truth, where it comes often and has headings; else by each other, if there is another.
 Result<Diagnosis> diagnose_even(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                 const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
-  const bool is_followed =
-      std::all_of(train.begin(), train.end(), [](const Recording& r) { return comes_often(tracked_poses(r)); });
-  if (is_followed) return diagnose_beside_truth(train, held_out, nominal, options, progress);
-  const std::vector<VehicleUnit> units = units_of(nominal);
-  const bool is_alone = units.size() == 1 && !units[0].carries_truth;
-  const bool has_positions = have_positions(train) && have_positions(held_out);
-  if (units.size() > 1 || (is_alone && has_positions))
-    return diagnose_inside(train, held_out, nominal, options, progress);
-  if (is_alone && !(have_ends(train) && have_ends(held_out)))
+  const OutsideTruth truth = outside_truth(train, held_out);
+  if (truth == OutsideTruth::poses) return diagnose_beside_truth(train, held_out, nominal, options, progress);
+  const bool is_alone = units_of(nominal).size() == 1;
+  const bool is_trailer = is_alone && !units_of(nominal)[0].carries_truth;
+  if (!is_alone || (is_trailer && truth == OutsideTruth::positions))
+    return diagnose_inside(train, held_out, nominal, truth, options, progress);
+  if (is_trailer && truth == OutsideTruth::nothing)
     return Error{train.front().name, "no truth",
                  "one, of both ends of each run at least: the towing vehicle's own wheels are no measure of its way"};
   return diagnose_beside_truth(train, held_out, nominal, options, progress);

@@ -5,7 +5,6 @@
 
 #include "core/base/fixed_point.h"
 #include "core/calibration/linked.h"
-#include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
 

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/diagnosis/units/by_positions.h"
 #include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/together/told_together.h"
+#include "core/diagnosis/units/told_geometry.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/diagnosis/units/unit_recordings.h"
@@ -30,12 +31,14 @@ struct Judged {
   std::vector<Diagnosis> units;
 };
 
-// `begun`: where the vehicle's reference point is in the room at the start of each recording, if that is known.
+// `begun`: where the vehicle's reference point is in the room at the start of each recording, if that is known. What
+// the others say is mended, the unit's own counts are not: their faults are to be found.
 Result<std::vector<Recording>> recordings_of(const Known& known, const std::vector<Understood>& set,
-                                             const std::vector<Pose>& begun, std::size_t unit) {
+                                             const std::vector<Understood>& mended, const std::vector<Pose>& begun,
+                                             std::size_t unit) {
   std::vector<Recording> own;
   for (std::size_t k = 0; k < set.size(); ++k) {
-    Result<Track> track = way_by_others(known, with_mended_counts(set[k].samples, known.vehicle).samples, unit);
+    Result<Track> track = way_by_others(known, mended[k].samples, unit);
     if (!track) return track.error();
     if (!begun.empty()) {
       const Pose room_T_way = begun[k] * inverse(track->front().pose);
@@ -45,11 +48,6 @@ Result<std::vector<Recording>> recordings_of(const Known& known, const std::vect
     own.push_back(recording_of_unit(*set[k].recording, set[k].samples, *track, known.vehicle, unit, 0.0, true));
   }
   return own;
-}
-
-std::vector<Understood> mended(std::vector<Understood> all, const Vehicle& nominal) {
-  for (Understood& u : all) u.samples = with_mended_counts(std::move(u.samples), nominal).samples;
-  return all;
 }
 
 Result<std::vector<Recording>> as_recorded(const std::vector<Understood>& set, const Vehicle& nominal,
@@ -93,35 +91,32 @@ Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, 
   return judged;
 }
 
-// What is looked at of an outside truth.
-enum class Outside { nothing, ends, positions };
-
-std::vector<JoinedRun> runs_of(const std::vector<Recording>& set, Outside outside, const Vehicle& nominal) {
+std::vector<JoinedRun> runs_of(const std::vector<Recording>& set, OutsideTruth truth, const Vehicle& nominal) {
   std::vector<JoinedRun> runs;
   for (const Recording& r : set) {
     MendedCounts mended = with_mended_counts(unit_samples(r, nominal), nominal);
-    JoinedRun run{std::move(mended.samples), {}, outside == Outside::ends, std::move(mended.guessed)};
-    if (outside == Outside::positions) run.tracked = tracked_positions(r);
-    if (outside == Outside::ends) run.tracked = few_poses(tracked_poses(r), run.samples, nominal.truth.time_offset_s);
+    JoinedRun run{std::move(mended.samples), {}, truth == OutsideTruth::ends, std::move(mended.guessed)};
+    if (truth == OutsideTruth::positions) run.tracked = tracked_positions(r);
+    if (truth == OutsideTruth::ends)
+      run.tracked = few_poses(tracked_poses(r), run.samples, nominal.truth.time_offset_s);
     runs.push_back(std::move(run));
   }
   return runs;
 }
 
 // Ends where the vehicle comes back to where it set off do not tell how large it is.
-Outside outside_of(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                   const std::vector<std::string>& names, const Vehicle& nominal) {
+bool tell_the_scale(const std::vector<Recording>& train, const std::vector<std::string>& names,
+                    const Vehicle& nominal) {
   constexpr double kTellTheScale = 0.01;
-  if (have_positions(train) && have_positions(held_out)) return Outside::positions;
-  if (!have_ends(train) || !have_ends(held_out) || units_of(nominal).size() < 2) return Outside::nothing;
-  const JoinedModel by_ends(runs_of(train, Outside::ends, nominal), nominal, {}, names);
-  return by_ends.stderr_of_scale() < kTellTheScale ? Outside::ends : Outside::nothing;
+  const JoinedModel by_ends(runs_of(train, OutsideTruth::ends, nominal), nominal, {}, names);
+  return by_ends.stderr_of_scale() < kTellTheScale;
 }
 
 }  // namespace
 
 Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                  const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+                                  const Vehicle& nominal, OutsideTruth truth, const DiagnosisOptions& options,
+                                  const Progress& progress) {
   const std::vector<VehicleUnit> units = units_of(nominal);
   if (const auto* platform = std::get_if<MultiCastor>(&nominal.kind); platform && platform->castors.size() < 3)
     return Error{nominal.name, "no outside truth with headings, a sample a second or more, and two castors",
@@ -132,10 +127,9 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
                  "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
   std::vector<std::string> names;
   for (const Recording& r : train) names.push_back(r.name);
-  const Outside outside = outside_of(train, held_out, names, nominal);
-  const bool by_positions = outside == Outside::positions, is_measured = outside != Outside::nothing;
-  const std::vector<JoinedRun> runs = runs_of(train, outside, nominal),
-                               runs_held_out = runs_of(held_out, outside, nominal);
+  if (truth == OutsideTruth::ends && !tell_the_scale(train, names, nominal)) truth = OutsideTruth::nothing;
+  const bool by_positions = truth == OutsideTruth::positions, is_measured = truth != OutsideTruth::nothing;
+  const std::vector<JoinedRun> runs = runs_of(train, truth, nominal), runs_held_out = runs_of(held_out, truth, nominal);
   const ToldTogether told =
       *told_together(runs, is_measured ? nominal : without_mounting(nominal), {}, names, options.family_wise_error,
                      [&](double share) { return goes_on(progress, 0.3 * share); });
@@ -155,8 +149,9 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     }
   }
   const std::vector<Understood> train_without = understood_without(told, train, runs, clock_s, nominal);
-  Result<GeometryFit> geometry = is_measured ? geometry_by_positions(told.model, nominal)
-                                             : geometry_from_inside(mended(train_without, nominal), nominal, progress);
+  const std::vector<Understood> train_mended = with_mended_counts(train_without, nominal);
+  Result<GeometryFit> geometry =
+      is_measured ? told_geometry(told.model, nominal) : geometry_from_inside(train_mended, nominal, progress);
   if (!geometry) return geometry.error();
   if (!is_measured) {
     take_biases(told.model, *geometry, false);
@@ -165,10 +160,13 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   take_asides(told.model, *geometry);
   const std::vector<Understood> held_out_without =
       understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal);
+  const std::vector<Understood> held_out_mended = with_mended_counts(held_out_without, nominal);
   const auto recordings = [&](const Known& known, bool are_held_out, std::size_t u) -> Result<std::vector<Recording>> {
     const std::vector<Understood>& set = are_held_out ? held_out_without : train_without;
     if (by_positions && units[u].carries_truth) return as_recorded(set, nominal, u);
-    if (units.size() > 1) return recordings_of(known, set, are_held_out ? begun_held_out : begun, u);
+    if (units.size() > 1)
+      return are_held_out ? recordings_of(known, set, held_out_mended, begun_held_out, u)
+                          : recordings_of(known, set, train_mended, begun, u);
     std::vector<Recording> own;
     for (std::size_t r = 0; r < set.size(); ++r)
       own.push_back(recording_by_positions(*set[r].recording, set[r].samples, (are_held_out ? runs_held_out : runs)[r],

@@ -35,17 +35,15 @@ class Counts {
   }
   // From the pace before to that behind.
   void carry_on(std::size_t from, std::size_t to) {
-    constexpr std::size_t kPace = 5;
     const auto pace = [&](std::size_t begin, std::size_t end) {
       return end > begin ? (rad(end) - rad(begin)) / std::max(1e-6, time_s(end) - time_s(begin)) : 0.0;
     };
     const std::size_t before = from > 0 ? from - 1 : 0;  // the last interval may be in part of it
-    const double first_radps = pace(before > kPace ? before - kPace : 0, before),
-                 last_radps = pace(to, std::min(to + kPace, size() - 1)), lasts_s = time_s(to) - time_s(from);
-    const auto gone_rad = [&](double s) { return s * (first_radps + 0.5 * s / lasts_s * (last_radps - first_radps)); };
-    shift(to, rad(from) + gone_rad(lasts_s) - rad(to));
+    const EvenlyBetween way{pace(before > kReadingsOfPace ? before - kReadingsOfPace : 0, before),
+                            pace(to, std::min(to + kReadingsOfPace, size() - 1)), time_s(to) - time_s(from)};
+    shift(to, rad(from) + way.gone_rad(way.lasts_s) - rad(to));
     const double from_rad = rad(from), from_s = time_s(from);
-    for (std::size_t i = from + 1; i < to; ++i) of(samples_[i]) = from_rad + gone_rad(time_s(i) - from_s);
+    for (std::size_t i = from + 1; i < to; ++i) of(samples_[i]) = from_rad + way.gone_rad(time_s(i) - from_s);
   }
 
  private:
@@ -157,6 +155,11 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
     guessed = joined(std::move(guessed));
   }
   return mended;
+}
+
+std::vector<Understood> with_mended_counts(std::vector<Understood> recordings, const Vehicle& vehicle) {
+  for (Understood& one : recordings) one.samples = with_mended_counts(std::move(one.samples), vehicle).samples;
+  return recordings;
 }
 
 }  // namespace odolab

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/calibration/left_out.h"
-#include "core/diagnosis/units/vehicle_units.h"
+#include "core/diagnosis/units/others_way.h"
 
 namespace odolab {
 
@@ -17,5 +17,6 @@ struct MendedCounts {
   std::vector<TimeStretches> guessed;  // of each unit: where what one of its wheels turned is a guess
 };
 MendedCounts with_mended_counts(std::vector<UnitSample> samples, const Vehicle& vehicle);
+std::vector<Understood> with_mended_counts(std::vector<Understood> recordings, const Vehicle& vehicle);
 
 }  // namespace odolab

@@ -3,6 +3,7 @@
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joined_clocks.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/diagnosis/drawn_truth.h"
-
 namespace odolab {
 
 namespace {
@@ -50,44 +48,7 @@ bool is_in_gap(const std::vector<UnitSample>& samples, double time_s) {
 
 Row pose_row(double time_s, const Pose& pose) { return {time_s, kNone, kNone, pose.x_m, pose.y_m, pose.heading_rad}; }
 
-Track tracked(const Recording& recording, bool with_headings) {
-  Track track;
-  const std::vector<TruthSample> truth = truth_samples(recording);
-  const TimeStretches drawn = drawn_truth(truth);
-  for (const TruthSample& t : truth) {
-    if (with_headings && !t.heading_rad) continue;
-    if (std::any_of(drawn.begin(), drawn.end(),
-                    [&](const auto& gap) { return t.time_s > gap.first && t.time_s < gap.second; }))
-      continue;
-    const Pose pose{t.position.x_m, t.position.y_m, with_headings ? *t.heading_rad : 0.0};
-    const bool repeats = !track.empty() && pose.x_m == track.back().pose.x_m && pose.y_m == track.back().pose.y_m &&
-                         pose.heading_rad == track.back().pose.heading_rad;
-    const bool later = track.empty() || t.time_s > track.back().time_s;
-    if (later && !repeats) track.push_back({t.time_s, pose});
-  }
-  return track;
-}
-
 }  // namespace
-
-Track tracked_poses(const Recording& recording) { return tracked(recording, true); }
-
-Track tracked_positions(const Recording& recording) { return tracked(recording, false); }
-
-bool comes_often(const Track& t) {
-  constexpr double kLongest_s = 1.0;
-  return t.size() > 1 && t.back().time_s - t.front().time_s <= kLongest_s * static_cast<double>(t.size() - 1);
-}
-
-Track few_poses(Track tracked, const std::vector<UnitSample>& samples, double late_s) {
-  constexpr double kStanding_s = 0.5;
-  for (TimedPose& t : tracked) {
-    const double first_s = samples.front().time_s + late_s, last_s = samples.back().time_s + late_s;
-    if (t.time_s < first_s && t.time_s > first_s - kStanding_s) t.time_s = first_s;
-    if (t.time_s > last_s && t.time_s < last_s + kStanding_s) t.time_s = last_s;
-  }
-  return tracked;
-}
 
 Vehicle vehicle_of_unit(const VehicleUnit& unit, const Vehicle& vehicle) {
   Vehicle one;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/units/unit_recordings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/unit_models.h"
-#include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/units/unit_recordings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "test/support/known_lengths.h"
 #include "test/support/linked_runs.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/diagnosis/units/unit_recordings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "test/support/linked_runs.h"
 
 namespace odolab::test {

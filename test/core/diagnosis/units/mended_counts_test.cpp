@@ -7,7 +7,7 @@
 
 #include "core/calibration/evened_recording.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/units/unit_recordings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "test/support/linked_runs.h"
 
 namespace odolab::test {

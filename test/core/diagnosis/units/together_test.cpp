@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/together/joined_model.h"
-#include "core/diagnosis/units/unit_recordings.h"
 #include "test/support/linked_runs.h"
 
 namespace odolab::test {

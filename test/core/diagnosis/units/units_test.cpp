@@ -11,6 +11,7 @@
 #include "core/diagnosis/units/joint_residuals.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_findings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/traces.h"
 #include "core/diagnosis/units/unit_recordings.h"
 #include "core/odometry/prediction.h"

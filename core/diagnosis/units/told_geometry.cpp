@@ -1,4 +1,4 @@
-#include "core/diagnosis/units/by_positions.h"
+#include "core/diagnosis/units/told_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,6 @@
 #include "core/diagnosis/units/unit_recordings.h"
 
 namespace odolab {
-
-bool have_positions(const std::vector<Recording>& recordings) {
-  return std::all_of(recordings.begin(), recordings.end(),
-                     [](const Recording& r) { return comes_often(tracked_positions(r)); });
-}
-
-bool have_ends(const std::vector<Recording>& recordings) {
-  return std::all_of(recordings.begin(), recordings.end(),
-                     [](const Recording& r) { return tracked_poses(r).size() > 1; });
-}
 
 GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings) {
   GeometryFit fit;
@@ -32,7 +22,7 @@ GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings) {
   return fit;
 }
 
-GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal) {
+GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal) {
   constexpr double kDeterminedBelow = 0.5;  // of what was expected before
   GeometryFit fit = geometry_of_file(nominal, model.given().size());
   for (JointEstimate& estimate : fit.joints) {

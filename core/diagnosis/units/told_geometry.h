@@ -1,5 +1,5 @@
-// Linked and castor vehicles whose truth has places and no headings, or poses at both ends of a run alone: what all
-// units and these tell together. README.md, "Positions alone" and "Ends alone".
+// What all units of a vehicle, and the outside truth if there is one, tell together of its geometry: instead of what
+// its own fit has, or beside it. README.md, "Positions alone", "Ends alone" and "From the inside".
 #pragma once
 
 #include <vector>
@@ -10,13 +10,11 @@
 
 namespace odolab {
 
-// Places that are read once a second or more in every recording; true where there is none.
-bool have_positions(const std::vector<Recording>& recordings);
-// Poses, at both ends of every recording or more; true where there is none.
-bool have_ends(const std::vector<Recording>& recordings);
+// A vehicle that nothing is known of beside its file.
+GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings);
 
 // The joints, the wheels, where the truth sits, and its clocks.
-GeometryFit geometry_by_positions(const JoinedModel& model, const Vehicle& nominal);
+GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal);
 
 // The recording of a unit that no other judges, as the positions and what its joints read put its axle; without
 // headings. `run` and `clock_s` are of this recording.
@@ -29,9 +27,6 @@ void take_biases(const JoinedModel& model, GeometryFit& fit, bool and_lengths);
 
 // Where the lines through the pivots meet the axles, with or without a truth; other vehicles' fits stay as they are.
 void take_asides(const JoinedModel& model, GeometryFit& fit);
-
-// A vehicle that nothing is known of beside its file.
-GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings);
 
 // Where the vehicle's reference point is in the room when a recording starts.
 Pose start_of(const JoinedModel& model, std::size_t run);
