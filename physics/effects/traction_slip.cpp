@@ -10,32 +10,30 @@ constexpr double kRelaxation_s = 0.03;  // the slip of a tyre builds up over som
 class TractionSlip final : public Effect {
  public:
   TractionSlip(const ActiveEffect& a, double step_s)
-      : component_(a.component),
-        per_mps2_(a.parameter("per_mps2")),
-        step_s_(step_s),
-        share_(1.0 - std::exp(-step_s / kRelaxation_s)) {}
+      : component_(a.component), per_mps2_(a.parameter("per_mps2")), step_s_(step_s) {}
 
   void roll(const VehicleMotion&, RollingWheel& wheel) override {
     if (!acts_on(component_, wheel.side)) return;
     Tyre& tyre = tyres_[wheel.side == Side::left ? 0 : 1];
     const double rim_mps = wheel.radius_m * wheel.speed_radps;
-    if (!tyre.rolled) tyre.rim_mps = rim_mps;  // a replay may begin in motion
+    const double due_m = 0.5 * per_mps2_ * rim_mps * std::abs(rim_mps);  // k abs(u) du/dt, from rest
+    if (!tyre.rolled) tyre.slipped_m = due_m;                            // a replay may begin in motion
     tyre.rolled = true;
-    const double acceleration_mps2 = (rim_mps - tyre.rim_mps) / step_s_;
-    tyre.slip_mps += share_ * (per_mps2_ * acceleration_mps2 * 0.5 * std::abs(rim_mps + tyre.rim_mps) - tyre.slip_mps);
-    tyre.rim_mps = rim_mps;
-    wheel.slip_mps += tyre.slip_mps;
+    // Slower where it slips much: a wheel whose slip grew as fast as its speed would have let go.
+    const double builds_up_s = kRelaxation_s + std::max(0.0, per_mps2_) * std::abs(rim_mps);
+    const double now_m = (1.0 - std::exp(-step_s_ / builds_up_s)) * (due_m - tyre.slipped_m);
+    tyre.slipped_m += now_m;
+    wheel.slip_mps += now_m / step_s_;
   }
 
  private:
   struct Tyre {
     bool rolled = false;
-    double rim_mps = 0.0;
-    double slip_mps = 0.0;
+    double slipped_m = 0.0;
   };
 
   std::string component_;
-  double per_mps2_, step_s_, share_;
+  double per_mps2_, step_s_;
   Tyre tyres_[2];
 };
 

@@ -94,6 +94,22 @@ TEST(TractionSlip, LosesWayInReverseToo) {
   EXPECT_NEAR(simulation.state().true_pose.x_m - kRadius_m * simulation.state().left.rotation_rad, 0.5 * 0.05 * 0.4 * 0.4, 4e-5);
 }
 
+// With real motors at 0.9 m/s: by 0.074 per m/s2 the slip of a wheel that speeds up alone would grow as fast as its speed.
+TEST(TractionSlip, OfAFastAndSlipperyVehicleLetsNoWheelRunAway) {
+  const double per_mps2 = 0.074;
+  Scenario scenario = table_drive({phase(6.0, 0.9, 0.0)}, {{"traction_slip", "both_wheels", {{"per_mps2", per_mps2}}}});
+  scenario.motor = {.ideal = false, .wheel_inertia_kgm2 = 0.02, .torque_limit_nm = 8.0, .proportional_gain = 4.0, .integral_gain = 40.0};
+  Simulation simulation(scenario, 1);
+  double fastest_mps = 0.0;
+  while (simulation.state().time_s < 4.0) {
+    simulation.step();
+    fastest_mps = std::max(fastest_mps, kRadius_m * simulation.state().left.speed_radps);
+  }
+  const double slipped_m = kRadius_m * simulation.state().left.rotation_rad - simulation.state().true_pose.x_m;
+  EXPECT_NEAR(slipped_m, 0.5 * per_mps2 * 0.9 * 0.9, 0.02 * 0.5 * per_mps2 * 0.9 * 0.9);
+  EXPECT_LT(fastest_mps, 1.3 * 0.9);  // the motors' loop alone overshoots by a quarter at most
+}
+
 TEST(DrivetrainBacklash, WheelsLagByTheGapAfterAReversalWhileTheEncoderTurns) {
   const Simulation s = finished(table_drive({phase(5.0, 0.2, 0.0), phase(5.5, -0.2, 0.0)}, {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}}}}));
   // Forward 5 s and back 5.5 s with ramps: the motor is where it was, the wheel a gap ahead of it.
