@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/counted.h"
 
 namespace odolab {
 
@@ -81,6 +82,7 @@ std::vector<GenericTest> after_change_tests(const AskedModel& asked, double look
   parallel_for(kAfterChangeTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     t = asked_of(asked, kAfterChange[i].variable, kAfterChange[i].channel, kHats, kAfterChange[i].motions, looked_at);
+    leave_displaced_to_counting(t, asked.joint);
     t.at.assign(std::begin(kSince_s) + 1, std::end(kSince_s) - 1);
   });
   return tests;

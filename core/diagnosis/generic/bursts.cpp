@@ -8,6 +8,7 @@
 #include "core/base/chi_square.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/model/candidate_scan.h"
+#include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/shape_search.h"
 
@@ -63,7 +64,7 @@ double chance_of(const std::vector<Burst>& bursts) {
 }
 
 std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error) {
-  if (is_nothing(joint.gathered_error())) return std::nullopt;
+  if (is_nothing(joint.gathered_error()) || counts_are_coarse(joint)) return std::nullopt;
   const auto push =
       std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
   const SearchedShapes moments = best_shape(joint.views(), CandidateScan(joint, JointModel::kNone), *push);

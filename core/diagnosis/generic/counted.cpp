@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/model/coarse_counts.h"
 
 namespace odolab {
 
@@ -54,22 +55,41 @@ struct Moved {
   }
 };
 
+// A heading that is rounded goes aside, and back, with what is driven: coarse counts alone do so.
+bool is_aside_by_rounding(const JointModel& joint, const std::vector<Motions>& motions) {
+  const DifferentialDrive& drive = joint.model.drive;
+  double aside_m2 = 0.0, way_m2 = 0.0, count = 0.0;
+  for (std::size_t r = 0; r < joint.runs().size(); ++r) {
+    count = std::max(count, count_rad(joint.runs()[r], drive));
+    const std::vector<EffectStep>& steps = joint.views()[r].steps;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      aside_m2 += std::pow(motions[r].at(i).sideways_m, 2);
+      way_m2 += std::pow(steps[i].forward_m(), 2);
+    }
+  }
+  const double of_heading_rad = kHidden * count * drive.wheel_radius_left_m / drive.wheelbase_m;
+  return counts_are_coarse(joint) && aside_m2 < of_heading_rad * of_heading_rad * way_m2;
+}
+
 bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<double>& value, double times_a_turn) {
   const DifferentialDrive& drive = joint.model.drive;
+  std::vector<Motions> motions;
+  for (const DriveView& view : joint.views()) motions.push_back(motion_of(term, view, {}, value));
   Moved moved;
   double furthest = 0.0;  // counts
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
-    const Motions motion = motion_of(term, view, {}, value);
+    const Motions& motion = motions[r];
     const double count = count_rad(joint.runs()[r], drive);
     std::vector<double> left_by_m, right_by_m;
     Extent left_m, right_m;
     double left_way_m = 0.0, right_way_m = 0.0;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      if (motion[i].sideways_m != 0.0) return false;  // nothing that is counted goes sideways
-      const double across_m = 0.5 * drive.wheelbase_m * motion[i].turn_rad;
-      left_by_m.push_back(motion[i].forward_m - across_m);
-      right_by_m.push_back(motion[i].forward_m + across_m);
+      const BodyMotion m = motion.at(i);
+      if (m.sideways_m != 0.0) return is_aside_by_rounding(joint, motions);  // no wheel that is counted goes sideways
+      const double across_m = 0.5 * drive.wheelbase_m * m.turn_rad;
+      left_by_m.push_back(m.forward_m - across_m);
+      right_by_m.push_back(m.forward_m + across_m);
       left_m.take(left_way_m += left_by_m.back());
       right_m.take(right_way_m += right_by_m.back());
     }
@@ -94,6 +114,12 @@ void leave_to_counting(GenericTest& t, const JointModel& joint) {
   for (CandidateTest* of : {&t.test, &t.instead})
     if (!of->value.empty() && t.p_value_of(*of) < 1.0 && is_hidden(joint, *t.as_effect, of->value, t.times_a_turn))
       of->statistic = 0.0;
+  t.p_value = t.p_value_of(t.test);
+}
+
+void leave_displaced_to_counting(GenericTest& t, const JointModel& joint) {
+  for (CandidateTest* of : {&t.test, &t.instead})
+    if (!of->value.empty() && is_within_counts(joint, *t.as_effect, of->value, {})) of->statistic = 0.0;
   t.p_value = t.p_value_of(t.test);
 }
 

@@ -10,4 +10,8 @@ namespace odolab {
 // reading are read too far and too short in turns, metre after metre.
 void leave_to_counting(GenericTest& test, const JointModel& joint);
 
+// Lets a group say nothing that displaces a rim by no more than whole counts hide: what comes and goes with changes of
+// the vehicle's motion, since a driver's changes come when counts do, and all else where counts are coarse.
+void leave_displaced_to_counting(GenericTest& test, const JointModel& joint);
+
 }  // namespace odolab

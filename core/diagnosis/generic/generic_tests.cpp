@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/after_changes.h"
 #include "core/diagnosis/generic/bent_truth.h"
+#include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/generic/groups.h"
 #include "core/diagnosis/generic/lagging.h"
 #include "core/diagnosis/generic/late_truth.h"
@@ -20,6 +21,7 @@
 #include "core/diagnosis/generic/uneven_floor.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
+#include "core/diagnosis/model/coarse_counts.h"
 
 namespace odolab {
 
@@ -44,7 +46,8 @@ double GenericTest::p_value_of(const CandidateTest& of) const {
   return std::min(1.0, tests * scaled_chi_square_tail(of.judged(), of.freedom, of.batches));
 }
 
-AskedModel::AskedModel(const JointModel& model) : joint(model), with_and_without{model.asked()} {
+AskedModel::AskedModel(const JointModel& model)
+    : joint(model), with_and_without{model.asked()}, counts_are_coarse(odolab::counts_are_coarse(model)) {
   if (!model.accepted.empty()) with_and_without.push_back(model.asked(JointModel::kAll));
 }
 
@@ -57,6 +60,7 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   t.tests = looked_at;
   t.p_value = t.p_value_of(t.test);
   t.as_effect = std::move(term);
+  if (asked.counts_are_coarse) leave_displaced_to_counting(t, asked.joint);
 }
 
 GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,

@@ -71,6 +71,7 @@ struct AskedModel {
   explicit AskedModel(const JointModel& model);
   const JointModel& joint;
   std::vector<std::shared_ptr<const JointModel::Asked>> with_and_without;  // one where nothing was let in
+  bool counts_are_coarse;
 };
 
 // Tests a group's term against the model, as one of so many that were looked at.

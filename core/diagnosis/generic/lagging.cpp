@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/effects/effect_motions.h"
 
 namespace odolab {
@@ -55,19 +56,6 @@ void leave_to_readings(GenericTest& t, const JointModel& joint) {
   t.p_value = t.p_value_of(t.test);
 }
 
-// Whole counts do as much.
-void leave_to_counts(GenericTest& t, const JointModel& joint) {
-  double count = 0.0;
-  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
-  for (CandidateTest* of : {&t.test, &t.instead}) {
-    if (of->value.empty()) continue;
-    const double displaced_m =
-        displaces_m(joint.views(), [&](const DriveView& view) { return motion_of(*t.as_effect, view, {}, of->value); });
-    if (!is_more_than_counts(displaced_m, count, joint.views())) of->statistic = 0.0;
-  }
-  t.p_value = t.p_value_of(t.test);
-}
-
 struct Lagging {
   const char *variable, *channel;
   std::size_t amplitudes;
@@ -88,7 +76,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const Lagging& of = kLagging[i];
     t = asked_of(asked, of.variable, of.channel, of.amplitudes, of.motions, looked_at);
-    leave_to_counts(t, asked.joint);
+    leave_displaced_to_counting(t, asked.joint);
     if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
   });
   return tests;

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/counted.h"
 
 namespace odolab {
 
@@ -100,6 +101,7 @@ std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_a
     t = asked_of(
         asked, variable, "pace, yaw rate and pace sideways", kTermsOfAWay * ways,
         [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, ways, period_s); }, looked_at);
+    leave_displaced_to_counting(t, asked.joint);
     for (std::size_t w = 0; w < ways; ++w) t.curves.push_back(curve_of(w, ways, period_s));
   });
   return tests;

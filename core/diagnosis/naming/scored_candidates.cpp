@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/naming/shape_search.h"
 
@@ -62,6 +63,8 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
   constexpr double kCounts = 1.5, kCountsAtRest = 2.0;
   const DifferentialDrive& drive = joint.model.drive;
   const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+  if (!e.local && e.acts_on_motion() && counts_are_coarse(joint) && is_within_counts(joint, e, test.value, test.shape))
+    return false;
   double sum_m2 = 0.0, least_m = 0.0;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const double count = count_rad(joint.runs()[r], drive);

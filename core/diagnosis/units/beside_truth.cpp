@@ -194,7 +194,7 @@ class BesideTruth {
     told_ = told_together(train_.runs, nominal_, geometry_.clock_s, names, options_.family_wise_error,
                           [&](double share) { return goes_on(progress_, 0.1 * share); });
     if (!told_) return;
-    take_biases(told_->model, geometry_, true);
+    take_biases(told_->model, geometry_);
     set_most_pivots_right(geometry_);
   }
 
@@ -212,7 +212,9 @@ class BesideTruth {
                                  own_held_out = own_of(held_out_, read_held_out, held_out_.clock_s, unit);
     DiagnosisOptions of_one = options_;
     of_one.family_wise_error /= static_cast<double>(units_.size());
-    of_one.truth_errors = joint_errors(samples_, names_, geometry_.vehicle, unit);
+    Vehicle fitted = geometry_.vehicle;
+    for (std::size_t u = 0; u < units_.size(); ++u) fitted = with_drive(fitted, u, geometry_.drives[u]);
+    of_one.truth_errors = joint_errors(samples_, names_, fitted, unit);
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units_[unit], nominal_), of_one, part);
     if (!one) return Error{units_[unit].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, own, units_[unit].drive);

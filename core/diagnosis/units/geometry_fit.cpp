@@ -23,7 +23,7 @@ constexpr double kShortestStep_s = 0.03;                // truth samples closer 
 constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kHeld = 1e-7;
 constexpr double kDeterminedShare = 0.2;
 constexpr double kHuber = 3.0;
-constexpr int kIterations = 8, kFromNearBy = 2;
+constexpr int kIterations = 8;
 constexpr double kStep = 1e-5;
 
 // Truth samples of one run that a unit passes in one stretch.
@@ -36,7 +36,7 @@ struct Stretch {
 struct Unknowns {
   std::vector<JointParameter> joints;
   int units = 0, runs = 0;
-  bool clock_is_held = false, wheels_are_held = false;
+  bool wheels_are_held = false;
 
   int joint_count() const { return static_cast<int>(joints.size()); }
   int wheel(int unit, int k) const { return joint_count() + 4 * unit + k; }
@@ -46,7 +46,7 @@ struct Unknowns {
   double prior(int k) const {
     if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
     if (k < clock(0)) return wheels_are_held ? kHeld : (k - joint_count()) % 4 == 3 ? kAsidePrior_m : kWheelPrior;
-    return clock_is_held ? kHeld : kClockPrior_s;
+    return kClockPrior_s;
   }
 };
 
@@ -161,12 +161,7 @@ class Passage {
   }
 
   Track wheel_track(const DifferentialDrive& drive) const {
-    std::vector<WheelSample> wheels;
-    for (const UnitSample& s : run_->samples) {
-      const WheelRotation& w = s.wheels[static_cast<std::size_t>(unit_)];
-      wheels.push_back({s.time_s, w.left_rad, w.right_rad});
-    }
-    return dead_reckoned(wheels, drive, Pose{});
+    return way_of(run_->samples, static_cast<std::size_t>(unit_), drive);
   }
 
   void cut_into_stretches() {
@@ -363,11 +358,10 @@ MatrixXd moved_bodies(const MultiCastor& platform, const std::vector<std::string
 }
 
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
-                            const std::vector<std::string>& held, const std::vector<double>& from) {
+                            const std::vector<std::string>& held) {
   Unknowns unknowns;
   for (JointParameter& p : joint_parameters(nominal))
     if (std::find(held.begin(), held.end(), p.name) == held.end()) unknowns.joints.push_back(std::move(p));
-  unknowns.clock_is_held = std::find(held.begin(), held.end(), kClockHeld) != held.end();
   unknowns.wheels_are_held = std::find(held.begin(), held.end(), kWheelsHeld) != held.end();
   unknowns.units = static_cast<int>(units_of(nominal).size());
   unknowns.runs = static_cast<int>(runs.size());
@@ -378,12 +372,10 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
 
   const int n = unknowns.count();
   VectorXd x = VectorXd::Zero(n), prior(n);
-  const bool is_near = static_cast<int>(from.size()) == n;
-  if (is_near) x = Eigen::Map<const VectorXd>(from.data(), n);
   for (int k = 0; k < n; ++k) prior[k] = 1.0 / (unknowns.prior(k) * unknowns.prior(k));
   MatrixXd of_prior = prior.asDiagonal();
   hold_the_body(nominal, unknowns, of_prior);
-  for (int iteration = 0; iteration < (is_near ? kFromNearBy : kIterations); ++iteration) {
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Normal normal = sum_of(passages, x, false);
     const VectorXd step = (normal.information + of_prior).ldlt().solve(normal.gradient - of_prior * x);
     x += step;
@@ -395,7 +387,6 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
 
   GeometryFit fit;
   fit.vehicle = nominal;
-  fit.at.assign(x.data(), x.data() + n);
   for (int k = 0; k < unknowns.joint_count(); ++k) {
     JointEstimate e{unknowns.joints[static_cast<std::size_t>(k)]};
     Vehicle copy = nominal;
@@ -437,19 +428,16 @@ void set_most_pivots_right(GeometryFit& fit) {
     if (e.determined) e.value = e.parameter.of(fit.vehicle);
 }
 
-double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
-                      const std::vector<std::string>& held) {
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint) {
   if (runs.size() < 2) return 1.0;
-  const GeometryFit all = fitted_geometry(runs, nominal, held);
-  std::vector<std::string> held_too = held;
-  held_too.push_back(joint);
+  const GeometryFit all = fitted_geometry(runs, nominal);
   double with = 0.0, without = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     std::vector<JoinedRun> others = runs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
     std::vector<Vector3d> sigma;
-    with += squares_of(runs[r], fitted_geometry(others, nominal, held), all.clock_s[r], sigma);
-    without += squares_of(runs[r], fitted_geometry(others, nominal, held_too), all.clock_s[r], sigma);
+    with += squares_of(runs[r], fitted_geometry(others, nominal), all.clock_s[r], sigma);
+    without += squares_of(runs[r], fitted_geometry(others, nominal, {joint}), all.clock_s[r], sigma);
   }
   return without > 0.0 ? with / without : 1.0;
 }

@@ -37,17 +37,14 @@ struct GeometryFit {
   std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
   std::vector<double> clock_stderr_s;
   std::vector<double> aside_stderr_m;  // of where each castor's axle lies beside its pivot's line
-  std::vector<double> at;              // all that was fitted, for a fit that goes on from here
 };
 
-// In the list of what is held: the clocks of all runs, and all wheels.
-inline constexpr const char *kClockHeld = "clock", *kWheelsHeld = "wheels";
+inline constexpr const char* kWheelsHeld = "wheels";  // in the list of what is held: all of them
 
 // Runs with a truth. Least squares over stretches of half a metre or a radian, all units together with wheels of their
-// own, robust against what slips here and there. `held`: joints that keep their nominal value. `from`: where a fit of
-// the same runs and joints, to a truth that was nearly this, ended.
+// own, robust against what slips here and there. `held`: joints that keep their nominal value.
 GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& nominal,
-                            const std::vector<std::string>& held = {}, const std::vector<double>& from = {});
+                            const std::vector<std::string>& held = {});
 
 // By how much the places of all pivots move together, along x and y, in turn and apart, where each of these lengths
 // grows by one: 4 rows, a column for each of the vehicle file's keys. The body of a platform is where its pivots are.
@@ -60,7 +57,6 @@ void set_most_pivots_right(GeometryFit& fit);
 // How much a joint's offset takes off what the units contradict each other in runs that it was not fitted on: the sum
 // of squares with it over that without, each run by a fit to the others. Below 1: the offset is there in all of them. 1
 // where there is one run alone.
-double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
-                      const std::vector<std::string>& held = {});
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint);
 
 }  // namespace odolab

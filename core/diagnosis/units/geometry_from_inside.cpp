@@ -1,21 +1,10 @@
 #include "core/diagnosis/units/geometry_from_inside.h"
 
-#include <Eigen/Core>
-#include <cmath>
-
-#include "core/base/fixed_point.h"
 #include "core/calibration/linked.h"
 
 namespace odolab {
 
 namespace {
-
-std::vector<std::string> held_joints(const Vehicle& vehicle) {
-  std::vector<std::string> held = {kClockHeld};
-  for (const JointParameter& p : joint_parameters(vehicle))
-    if (p.component == "truth") held.push_back(p.name);
-  return held;
-}
 
 // A smart trailer is a truck B that is rigid up to the link's end: link angle zero, length constant.
 Vehicle as_trucks(const Vehicle& vehicle) {
@@ -42,13 +31,6 @@ std::vector<LinkedSample> as_linked(const std::vector<UnitSample>& samples, cons
   return linked;
 }
 
-// What wheels that are all larger or smaller than in the file by one share make of the link's length at most: from the
-// inside lengths are shares of the wheels'.
-double length_by_scale_m(const Vehicle& nominal) {
-  constexpr double kScale = 0.03;  // as core/calibration/linked.cpp expects of a truck's wheels
-  return kScale / (1.0 - kScale) * length_of_joint_m(nominal);
-}
-
 // The trucks' estimates in the words of the vehicle.
 JointEstimate joint_from(const JointParameter& p, const InternalCalibration& calibration, const Vehicle& nominal) {
   const bool of_trailer = std::holds_alternative<SmartEncoderTrailer>(nominal.kind);
@@ -64,73 +46,15 @@ JointEstimate joint_from(const JointParameter& p, const InternalCalibration& cal
     estimate.stderr_value = e.stderr_value;
     estimate.determined = e.determined;
     if (e.determined) estimate.value += (p.name == "drawbar_length_m" ? -1.0 : 1.0) * (e.value - e.nominal);
-    if (e.name == "link_length_offset_m") estimate.feigned = length_by_scale_m(nominal);
   }
   return estimate;
 }
 
-// A pivot's bias comes out a twentieth small: of 15 mrad 0.7 were missing twice. And of twenty platforms of another
-// program, in nineteen of which no pivot had one, they differed by 1.1 mrad root mean square.
-void widen_what_turns_lose(GeometryFit& fit) {
-  constexpr double kLostInTurns = 0.05, kUnknown_rad = 0.0011;
-  for (JointEstimate& e : fit.joints)
-    if (e.parameter.effect == "pivot_angle_bias" && e.determined)
-      e.stderr_value = std::hypot(e.stderr_value, kLostInTurns * (e.value - e.nominal), kUnknown_rad);
-}
+}  // namespace
 
-// All that is fitted from the inside.
-std::vector<double*> parts_of(Known& known, const std::vector<JointParameter>& joints) {
-  std::vector<double*> parts;
-  for (const JointParameter& p : joints) parts.push_back(&p.of(known.vehicle));
-  for (DifferentialDrive& d : known.drives)
-    parts.insert(parts.end(), {&d.wheel_radius_left_m, &d.wheel_radius_right_m, &d.wheelbase_m});
-  return parts;
-}
-
-Eigen::VectorXd numbers_of(Known& known, const std::vector<JointParameter>& joints) {
-  const std::vector<double*> parts = parts_of(known, joints);
-  Eigen::VectorXd x(static_cast<Eigen::Index>(parts.size()));
-  for (Eigen::Index k = 0; k < x.size(); ++k) x(k) = *parts[static_cast<std::size_t>(k)];
-  return x;
-}
-
-void set_numbers(Known& known, const std::vector<JointParameter>& joints, const Eigen::VectorXd& x) {
-  const std::vector<double*> parts = parts_of(known, joints);
-  for (Eigen::Index k = 0; k < x.size(); ++k) *parts[static_cast<std::size_t>(k)] = x(k);
-  for (std::size_t u = 0; u < known.drives.size(); ++u) known.vehicle = with_drive(known.vehicle, u, known.drives[u]);
-}
-
-// The common way is that of wheels and pivots as they were believed to be: by turns, until both agree. What is nearly
-// common to all castors, as wheels that are all too small, moves by a tenth of its way in each.
-Result<GeometryFit> geometry_of_castors(const std::vector<Understood>& train, const Vehicle& vehicle) {
-  constexpr int kTurns = 30;
-  constexpr double kAgree = 1e-5;  // m and rad
-  Known known{vehicle, {}};
-  for (const VehicleUnit& unit : units_of(vehicle)) known.drives.push_back(unit.drive);
-  const std::vector<JointParameter> joints = joint_parameters(vehicle);
-  FixedPoint fixed;
-  GeometryFit fit;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    std::vector<JoinedRun> runs;
-    for (const Understood& u : train) {
-      const Result<Track> track = way_by_others(known, u.samples, known.drives.size());
-      if (!track) return track.error();
-      runs.push_back({u.samples, *track});
-    }
-    fit = fitted_geometry(runs, vehicle, held_joints(vehicle), fit.at);
-    Known then{fit.vehicle, fit.drives};
-    const Eigen::VectorXd at = numbers_of(known, joints), to = numbers_of(then, joints);
-    if ((to - at).cwiseAbs().maxCoeff() < kAgree) break;
-    if (turn + 1 < kTurns) set_numbers(known, joints, fixed.next(at, to));
-  }
-  set_most_pivots_right(fit);
-  fit.vehicle = without_mounting(fit.vehicle);
-  widen_what_turns_lose(fit);
-  return fit;
-}
-
-Result<GeometryFit> geometry_of_trucks(const std::vector<Understood>& train, const Vehicle& vehicle,
-                                       const Progress& progress) {
+Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, const Vehicle& nominal,
+                                         const Progress& progress) {
+  const Vehicle vehicle = without_mounting(nominal);
   std::vector<Recording> recordings;
   for (const Understood& u : train) recordings.push_back(recording_of(as_linked(u.samples, vehicle)));
   const Result<InternalCalibration> calibration = calibrate_linked(recordings, as_trucks(vehicle), progress);
@@ -145,15 +69,6 @@ Result<GeometryFit> geometry_of_trucks(const std::vector<Understood>& train, con
   fit.clock_s.assign(train.size(), 0.0);
   fit.clock_stderr_s.assign(train.size(), 0.0);
   return fit;
-}
-
-}  // namespace
-
-Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, const Vehicle& nominal,
-                                         const Progress& progress) {
-  const Vehicle vehicle = without_mounting(nominal);
-  return std::holds_alternative<MultiCastor>(vehicle.kind) ? geometry_of_castors(train, vehicle)
-                                                           : geometry_of_trucks(train, vehicle, progress);
 }
 
 }  // namespace odolab

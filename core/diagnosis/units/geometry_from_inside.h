@@ -1,4 +1,5 @@
-// Joints and wheels by what the units of a vehicle contradict each other. README.md, "From the inside".
+// Joints and wheels of two trucks by what they contradict each other. README.md, "Biases are known from the inside
+// too".
 #pragma once
 
 #include <vector>
@@ -9,6 +10,7 @@
 
 namespace odolab {
 
+// By calibrate_linked; a smart trailer is a truck B with a rigid link.
 Result<GeometryFit> geometry_from_inside(const std::vector<Understood>& train, const Vehicle& nominal,
                                          const Progress& progress);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/diagnosis/units/geometry_from_inside.h"
 #include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -150,14 +149,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
   }
   const std::vector<Understood> train_without = understood_without(told, train, runs, clock_s, nominal);
   const std::vector<Understood> train_mended = with_mended_counts(train_without, nominal);
-  Result<GeometryFit> geometry =
-      is_measured ? told_geometry(told.model, nominal) : geometry_from_inside(train_mended, nominal, progress);
-  if (!geometry) return geometry.error();
-  if (!is_measured) {
-    take_biases(told.model, *geometry, false);
-    set_most_pivots_right(*geometry);
-  }
-  take_asides(told.model, *geometry);
+  GeometryFit geometry = told_geometry(told.model, nominal);
   const std::vector<Understood> held_out_without =
       understood_without(told, held_out, runs_held_out, clock_held_out_s, nominal);
   const std::vector<Understood> held_out_mended = with_mended_counts(held_out_without, nominal);
@@ -173,7 +165,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
                                            (are_held_out ? clock_held_out_s : clock_s)[r], told.model));
     return own;
   };
-  Result<Judged> judged = judged_by(recordings, std::move(*geometry), by_positions, nominal, options,
+  Result<Judged> judged = judged_by(recordings, std::move(geometry), by_positions, nominal, options,
                                     [&](double share) { return goes_on(progress, 0.3 + 0.6 * share); });
   if (!judged) return judged.error();
   for (std::size_t u = 0; u < units.size(); ++u) {

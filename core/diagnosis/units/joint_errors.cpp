@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/quantile.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/joint_shapes.h"
 #include "core/vehicle/key_words.h"
@@ -32,6 +33,36 @@ std::vector<int> joints_of(const Vehicle& vehicle, std::size_t unit) {
   std::vector<int> all;
   for (std::size_t j = 0; j < joint_steps(vehicle).size(); ++j) all.push_back(static_cast<int>(j));
   return all;
+}
+
+// By how much a length is read otherwise, half a second on, than the wheels of both units at its ends make it: by what
+// they slip. Robust, root mean square.
+double moved_by_slip_m(const std::vector<std::vector<UnitSample>>& samples, const Vehicle& vehicle, std::size_t joint) {
+  constexpr double kOn_s = 0.5;
+  std::vector<double> off_m;
+  for (const std::vector<UnitSample>& of_run : samples) {
+    const Track a = way_of(of_run, 0, units_of(vehicle)[0].drive), b = way_of(of_run, 1, units_of(vehicle)[1].drive);
+    const auto apart_m = [&](std::size_t i) { return of_run[i].joints[joint]; };
+    for (std::size_t i = 0, k = 0; i < of_run.size(); i = k) {
+      for (k = i + 1; k < of_run.size() && of_run[k].time_s < of_run[i].time_s + kOn_s; ++k) continue;
+      if (k >= of_run.size()) break;
+      const double from_s = of_run[i].time_s, to_s = of_run[k].time_s;
+      const Pose a_T_b =
+          between(tracked_T_axle(vehicle, 0, of_run[i].joints), tracked_T_axle(vehicle, 1, of_run[i].joints));
+      const Pose then = inverse(between(*pose_at(a, from_s), *pose_at(a, to_s))) * a_T_b *
+                        between(*pose_at(b, from_s), *pose_at(b, to_s));
+      off_m.push_back(std::abs(length(then.position()) - length(a_T_b.position()) - (apart_m(k) - apart_m(i))));
+    }
+  }
+  return off_m.empty() ? 0.0 : 1.4826 * median(std::move(off_m));
+}
+
+// Of what a joint reads, about its mean.
+double scatter_of(const std::vector<std::vector<UnitSample>>& samples, std::size_t joint) {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (const std::vector<UnitSample>& of_run : samples)
+    for (const UnitSample& s : of_run) n += 1.0, sum += s.joints[joint], squares += s.joints[joint] * s.joints[joint];
+  return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
 }
 
 // Change for each second of a number of the samples, over a sixth of one to both sides.
@@ -159,6 +190,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
   // a step.
   constexpr double kSteps = 0.5;
   constexpr double kLeastRange = 4.0;  // steps
+  // A length that goes to and fro by what the wheels slip errs with it, where an error of its encoder is asked for.
+  constexpr double kBeyondSlip = 5.0;
   constexpr double kMoved = 1e-5;
   const std::vector<double> steps = joint_steps(vehicle);
   auto errors = std::make_shared<std::vector<TruthError>>();
@@ -169,6 +202,7 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     range.is_length = name.unit == "m";
     for (const auto& of_run : samples) range.take_in(of_run, j);
     if (range.high - range.low < std::max(kLeastRange * steps[j], 1e-4)) continue;
+    if (range.is_length && scatter_of(samples, j) < kBeyondSlip * moved_by_slip_m(samples, vehicle, j)) continue;
 
     OfRuns bare;
     for (std::size_t r = 0; r < samples.size(); ++r) {

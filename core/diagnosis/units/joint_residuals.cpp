@@ -37,9 +37,9 @@ class Laid {
   Laid(const JoinedRun& run, double clock_s, const Vehicle& vehicle, std::size_t unit)
       : run_(&run), vehicle_(&vehicle), unit_(unit) {
     const DifferentialDrive drive = units_of(vehicle)[unit].drive;
-    const Track track = dead_reckoned(wheels_of(run.samples, unit), drive, Pose{});
+    const Track track = way_of(run.samples, unit, drive);
     double travel_m = 0.0, turn_rad = 0.0;
-    std::size_t i = 0;
+    std::size_t i = 0, sample = 0;
     for (const TimedPose& t : run.tracked) {
       const double at_s = t.time_s - vehicle.truth.time_offset_s - clock_s;
       if (at_s < track.front().time_s || at_s > track.back().time_s) continue;
@@ -48,11 +48,12 @@ class Laid {
         travel_m += length(step.position());
         turn_rad += std::abs(step.heading_rad);
       }
+      while (sample + 1 < run.samples.size() && run.samples[sample + 1].time_s <= at_s) ++sample;
       if (stretches_.empty() || travel_m > kStretch_m || turn_rad > kStretch_rad) {
         stretches_.emplace_back();
         travel_m = turn_rad = 0.0;
       }
-      stretches_.back().push_back({t.pose, *pose_at(track, at_s), joints_at(run.samples, at_s), i});
+      stretches_.back().push_back({t.pose, *pose_at(track, at_s), joints_at(run.samples, at_s), sample});
     }
   }
 

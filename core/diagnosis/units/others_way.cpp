@@ -9,14 +9,6 @@
 
 namespace odolab {
 
-namespace {
-
-Track reckoned(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive) {
-  return dead_reckoned(wheels_of(samples, unit), drive, Pose{});
-}
-
-}  // namespace
-
 Vehicle without_mounting(Vehicle vehicle) {
   vehicle.truth = {};
   return vehicle;
@@ -37,9 +29,10 @@ Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& s
     return castor_track(readings, *platform, Pose{}, options);
   }
   const std::size_t by = without == 0 ? 1 : 0;
-  Track track = reckoned(samples, by, known.drives[by]);
-  for (std::size_t i = 0; i < track.size(); ++i)
-    track[i].pose = track[i].pose * inverse(tracked_T_axle(known.vehicle, by, samples[i].joints));
+  const Track way = way_of(samples, by, known.drives[by]);
+  Track track;
+  for (const UnitSample& s : samples)
+    track.push_back({s.time_s, *pose_at(way, s.time_s) * inverse(tracked_T_axle(known.vehicle, by, s.joints))});
   unwrap_headings(track);
   return track;
 }

@@ -8,6 +8,31 @@
 
 namespace odolab {
 
+namespace {
+
+// What wheels that are all larger or smaller than in the file by one share make of the link's length at most: without a
+// truth lengths are shares of the wheels'.
+double length_by_scale_m(const Vehicle& nominal) {
+  constexpr double kScale = 0.03;  // as core/calibration/linked.cpp expects of a truck's wheels
+  return kScale / (1.0 - kScale) * length_of_joint_m(nominal);
+}
+
+// Where the lines through the pivots meet the axles; other vehicles' fits stay as they are.
+void take_asides(const JoinedModel& model, GeometryFit& fit) {
+  const auto* from = std::get_if<MultiCastor>(&model.vehicle().kind);
+  auto* to = std::get_if<MultiCastor>(&fit.vehicle.kind);
+  for (std::size_t i = 0; from && to && i < to->castors.size(); ++i) {
+    Castor& castor = to->castors[i];
+    const double track_m = castor.track_m();
+    castor.wheel_offset_left_m = track_m * from->castors[i].wheel_offset_left_m / from->castors[i].track_m();
+    castor.wheel_offset_right_m = track_m - castor.wheel_offset_left_m;
+    fit.aside_stderr_m.resize(to->castors.size());
+    fit.aside_stderr_m[i] = model.stderr_of_aside_m(i);
+  }
+}
+
+}  // namespace
+
 GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings) {
   GeometryFit fit;
   fit.vehicle = nominal;
@@ -32,12 +57,14 @@ GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal) {
     estimate.stderr_value = known->stderr_value;
     estimate.determined = known->stderr_value < kDeterminedBelow * p.prior;
     estimate.is_from_inside = p.component != "truth";
+    if (p.effect == "link_length_bias" && !model.has_truth()) estimate.feigned = length_by_scale_m(nominal);
     if (estimate.determined) p.of(fit.vehicle) = estimate.value += known->value;
   }
   fit.drives.clear();
   for (const VehicleUnit& unit : units_of(model.vehicle())) fit.drives.push_back(unit.drive);
   for (std::size_t r = 0; r < model.given().size(); ++r) fit.clock_s[r] = model.clock_s(r);
   set_most_pivots_right(fit);
+  take_asides(model, fit);
   return fit;
 }
 
@@ -58,29 +85,15 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
   return own;
 }
 
-void take_biases(const JoinedModel& model, GeometryFit& fit, bool and_lengths) {
+void take_biases(const JoinedModel& model, GeometryFit& fit) {
   for (JointEstimate& e : fit.joints) {
     if (e.parameter.effect.empty() || e.parameter.component == "truth") continue;
-    if (e.parameter.unit == "m" && !and_lengths) continue;
     const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
     if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
     e.value = e.nominal + known->value;
     e.stderr_value = known->stderr_value;
     e.parameter.of(fit.vehicle) = e.value;
     e.determined = e.is_from_inside = true;
-  }
-}
-
-void take_asides(const JoinedModel& model, GeometryFit& fit) {
-  const auto* from = std::get_if<MultiCastor>(&model.vehicle().kind);
-  auto* to = std::get_if<MultiCastor>(&fit.vehicle.kind);
-  for (std::size_t i = 0; from && to && i < to->castors.size(); ++i) {
-    Castor& castor = to->castors[i];
-    const double track_m = castor.track_m();
-    castor.wheel_offset_left_m = track_m * from->castors[i].wheel_offset_left_m / from->castors[i].track_m();
-    castor.wheel_offset_right_m = track_m - castor.wheel_offset_left_m;
-    fit.aside_stderr_m.resize(to->castors.size());
-    fit.aside_stderr_m[i] = model.stderr_of_aside_m(i);
   }
 }
 

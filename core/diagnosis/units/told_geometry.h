@@ -13,7 +13,7 @@ namespace odolab {
 // A vehicle that nothing is known of beside its file.
 GeometryFit geometry_of_file(const Vehicle& nominal, std::size_t recordings);
 
-// The joints, the wheels, where the truth sits, and its clocks.
+// The joints, the wheels, where the truth sits, and its clocks. Without a truth the mean radius is the file's.
 GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal);
 
 // The recording of a unit that no other judges, as the positions and what its joints read put its axle; without
@@ -21,12 +21,8 @@ GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal);
 Recording recording_by_positions(const Recording& recording, const std::vector<UnitSample>& samples,
                                  const JoinedRun& run, double clock_s, const JoinedModel& model);
 
-// Biased encoders, where all units together tell them better than what the geometry has. `and_lengths`: of a link's
-// length, too, which without a truth is the wheels' size.
-void take_biases(const JoinedModel& model, GeometryFit& fit, bool and_lengths);
-
-// Where the lines through the pivots meet the axles, with or without a truth; other vehicles' fits stay as they are.
-void take_asides(const JoinedModel& model, GeometryFit& fit);
+// Biased encoders, where all units together tell them better than what the geometry has.
+void take_biases(const JoinedModel& model, GeometryFit& fit);
 
 // Where the vehicle's reference point is in the room when a recording starts.
 Pose start_of(const JoinedModel& model, std::size_t run);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/calibration/finer_readings.h"
+#include "core/odometry/differential_drive.h"
+
 namespace odolab {
 
 namespace {
@@ -175,6 +178,10 @@ std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::
   return wheels;
 }
 
+Track way_of(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive) {
+  return dead_reckoned(finer_readings(wheels_of(samples, unit)), drive, Pose{}, HeadingRule::arc);
+}
+
 std::vector<double> joint_steps(const Vehicle& v) {
   if (const auto* t = std::get_if<EncoderTrailer>(&v.kind)) return {t->hitch_angle_resolution_rad};
   if (const auto* t = std::get_if<SmartEncoderTrailer>(&v.kind)) return {t->hitch_angle_resolution_rad};
@@ -191,10 +198,21 @@ std::vector<double> joints_at(const std::vector<UnitSample>& samples, double tim
                                       [](const UnitSample& s, double t) { return s.time_s < t; });
   if (after == samples.begin()) return samples.front().joints;
   if (after == samples.end()) return samples.back().joints;
+  constexpr double kSlow_s = 0.03, kGap_s = 0.5;
   const UnitSample &a = *(after - 1), &b = *after;
-  const double u = b.time_s > a.time_s ? (time_s - a.time_s) / (b.time_s - a.time_s) : 0.0;
+  const double apart_s = b.time_s - a.time_s, u = apart_s > 0.0 ? (time_s - a.time_s) / apart_s : 0.0;
   std::vector<double> joints = a.joints;
   for (std::size_t k = 0; k < joints.size(); ++k) joints[k] += u * (b.joints[k] - a.joints[k]);
+  if (apart_s <= kSlow_s || apart_s >= kGap_s || after - 1 == samples.begin() || after + 1 == samples.end())
+    return joints;
+  // What the slopes at both ends, from their neighbours, are steeper than the line.
+  const UnitSample &before = *(after - 2), &behind = *(after + 1);
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const double by = b.joints[k] - a.joints[k];
+    const double at_a = apart_s / (b.time_s - before.time_s) * (b.joints[k] - before.joints[k]) - by;
+    const double at_b = apart_s / (behind.time_s - a.time_s) * (behind.joints[k] - a.joints[k]) - by;
+    joints[k] += u * (1.0 - u) * ((1.0 - u) * at_a - u * at_b);
+  }
   return joints;
 }
 

@@ -44,11 +44,13 @@ std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& 
 
 // Of one unit.
 std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::size_t unit);
+// Its way by its wheels alone, from the origin on; at the samples' times, and between those that come slowly.
+Track way_of(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive);
 
 // The step of each joint's encoder in the order of UnitSample::joints; 0: continuous.
 std::vector<double> joint_steps(const Vehicle& vehicle);
 
-// Linear between neighbours; the ends hold beyond them.
+// Linear between neighbours, or where these are further apart than 0.03 s a cubic; the ends hold beyond them.
 std::vector<double> joints_at(const std::vector<UnitSample>& samples, double time_s);
 
 // The middle of a unit's axle, looking along its rolling direction, as seen from the tracked point, where the joints

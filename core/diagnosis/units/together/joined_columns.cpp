@@ -65,7 +65,7 @@ JoinedColumn JoinedFilter::by_wheels(std::size_t unit, int which) const {
   constexpr double kStep = 1e-5;
   DifferentialDrive drive = drives_[unit];
   (which == 0 ? drive.wheel_radius_left_m : which == 1 ? drive.wheel_radius_right_m : drive.wheelbase_m) *= 1.0 + kStep;
-  const Track way = dead_reckoned(wheels_of(samples_, unit), drive, Pose{}, HeadingRule::arc);
+  const Track way = way_of(samples_, unit, drive);
   JoinedColumn column = nothing();
   Eigen::Matrix3Xd& moved = column.moved[unit];
   moved.resize(3, static_cast<Index>(readings() - 1));

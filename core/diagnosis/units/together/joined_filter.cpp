@@ -17,6 +17,27 @@ using Eigen::VectorXd;
 
 constexpr double kEpoch_s = 0.075;  // and more, from one reading of the joints to the next that is looked at
 
+bool read_alike(const UnitSample& a, const UnitSample& b) {
+  return a.joints == b.joints && std::equal(a.wheels.begin(), a.wheels.end(), b.wheels.begin(), [](auto l, auto r) {
+           return l.left_rad == r.left_rad && l.right_rad == r.right_rad;
+         });
+}
+
+// Which samples are looked at: one in each epoch. At rest what is read is rounded as it was before, again and again:
+// the first and the last of it.
+std::vector<char> say_more(const std::vector<UnitSample>& samples) {
+  std::vector<std::size_t> each;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (each.empty() || samples[i].time_s >= samples[each.back()].time_s + kEpoch_s) each.push_back(i);
+  std::vector<char> more(samples.size(), 0);
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    const bool as_before = k > 0 && read_alike(samples[each[k - 1]], samples[each[k]]),
+               as_behind = k + 1 < each.size() && read_alike(samples[each[k]], samples[each[k + 1]]);
+    more[each[k]] = !as_before || !as_behind;
+  }
+  return more;
+}
+
 Eigen::Matrix2d turned(double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);
   Eigen::Matrix2d r;
@@ -33,7 +54,7 @@ JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double 
       outliers_show_(comes_often(run.tracked)) {
   for (std::size_t u = 0; u < samples_.front().wheels.size(); ++u) {
     drives_.push_back(units_of(vehicle_)[u].drive);
-    way_.push_back(dead_reckoned(wheels_of(samples_, u), drives_.back(), Pose{}, HeadingRule::arc));
+    way_.push_back(way_of(samples_, u, drives_.back()));
   }
   joint_step_ = joint_steps(vehicle_);
   for (const DifferentialDrive& d : drives_)
@@ -41,15 +62,15 @@ JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double 
   const double late_s = vehicle_.truth.time_offset_s + clock_s;
   std::size_t t = 0;
   while (t < run.tracked.size() && run.tracked[t].time_s - late_s < samples_.front().time_s) ++t;
-  double last_s = -1e300;
-  for (const UnitSample& s : samples_) {
+  const std::vector<char> says_more = say_more(samples_);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const UnitSample& s = samples_[i];
     for (; t < run.tracked.size() && run.tracked[t].time_s - late_s <= s.time_s; ++t) {
       const double at_s = run.tracked[t].time_s - late_s;
       const bool is_believed = std::find(run.believed.begin(), run.believed.end(), t) != run.believed.end();
       readings_.push_back({at_s, joints_at(samples_, at_s), run.tracked[t].pose, false, t, is_believed, {}, {}});
     }
-    if (s.time_s < last_s + kEpoch_s) continue;
-    last_s = s.time_s;
+    if (!says_more[i]) continue;
     if (!readings_.empty() && readings_.back().time_s == s.time_s)
       readings_.back().joints_are_read = true;
     else

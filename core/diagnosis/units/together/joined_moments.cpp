@@ -9,7 +9,6 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kStrongest = 3;
 constexpr double kApart_s = 0.5;  // of the strongest
 constexpr double kNearTheEnd_s = 0.3;
 
@@ -61,7 +60,7 @@ double inflation_of(const std::vector<double>& statistics, int freedom) {
   return statistics.size() < kFewestToScatter ? 1.0 : std::max(1.0, scatter_of_statistics(statistics, freedom));
 }
 
-std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
+std::vector<JoinedMoments> joined_moments(const JoinedModel& model, std::size_t most) {
   std::vector<JoinedMoments> kinds;
   std::vector<std::size_t> all;
   for (std::size_t u = 0; u < model.units(); ++u) all.push_back(u);
@@ -92,7 +91,7 @@ std::vector<JoinedMoments> joined_moments(const JoinedModel& model) {
     kinds[k].count = static_cast<double>(found[k].size());
     kinds[k].inflation = inflation_of(statistics, kinds[k].wheel == Wheel::both ? 3 : 1);
     for (const JoinedMoment& m : found[k]) {
-      if (kinds[k].strongest.size() == kStrongest) break;
+      if (kinds[k].strongest.size() == most) break;
       if (std::none_of(kinds[k].strongest.begin(), kinds[k].strongest.end(), [&](const JoinedMoment& s) {
             return s.run == m.run && std::abs(s.time_s - m.time_s) < kApart_s;
           }))

@@ -29,7 +29,7 @@ struct JoinedMoments {
 // twenty say too little of it.
 double inflation_of(const std::vector<double>& statistics, int freedom);
 
-// Of what the model leaves with all that was let in.
-std::vector<JoinedMoments> joined_moments(const JoinedModel& model);
+// Of what the model leaves with all that was let in; so many of the strongest, half a second apart.
+std::vector<JoinedMoments> joined_moments(const JoinedModel& model, std::size_t most = 3);
 
 }  // namespace odolab

@@ -65,10 +65,11 @@ bool is_physical(const ScoredTogether& s) {
   return true;
 }
 
-// Where the moments are that say most.
+// Where the moments are that say most: a patch that is small on a wide floor is met at some of them.
 std::vector<Vec2> places_of_moments(const JoinedModel& model) {
+  constexpr std::size_t kMost = 8;
   std::vector<Vec2> places;
-  for (const JoinedMoments& kind : joined_moments(model))
+  for (const JoinedMoments& kind : joined_moments(model, kMost))
     for (const JoinedMoment& m : kind.strongest) {
       const DriveView& view = model.views(kind.units.front())[static_cast<std::size_t>(m.run)];
       places.push_back(view.steps[std::min(view.step_at(m.time_s), view.steps.size() - 1)].position);

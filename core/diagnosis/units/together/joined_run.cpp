@@ -242,6 +242,9 @@ MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::v
     const Vec2 arm = rotated(unit_T_body[u].position(), poses[u].heading_rad);
     return Eigen::Vector2d(-arm.y_m, arm.x_m);
   };
+  // The tracked point stays as well known as it was, wherever the first turns about it.
+  const Eigen::Vector2d about = swing(before, 0) - swing(after, 0);
+  turn.block<2, 1>(0, 2) = about;
   const Eigen::Matrix2d by = turned(after[0].heading_rad - before[0].heading_rad);
   for (std::size_t u = 1; u < units(); ++u) {
     const auto k = 3 * static_cast<Index>(u);
@@ -253,7 +256,7 @@ MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::v
       const Vec2 to = (poses[u] * unit_T_body[u]).position() - (poses[0] * unit_T_body[0]).position();
       return Eigen::Vector2d(-to.y_m, to.x_m);
     };
-    turn.block<2, 1>(k, 2) = swing(after, 0) - by * swing(before, 0) + apart(after) - by * apart(before);
+    turn.block<2, 1>(k, 2) = about + swing(after, 0) - by * swing(before, 0) + apart(after) - by * apart(before);
   }
   return turn;
 }
@@ -267,7 +270,12 @@ void JoinedFilter::correct(const Reading& reading, const Seen& seen, const Vecto
   // Where units stand against the first is linear in what they are off by; where they stand in the room is not, once
   // the first turns.
   const VectorXd apart = seen.read.head(of_joints) + seen.by_states.topRows(of_joints) * off;
-  at[0] = {at[0].x_m + off[0], at[0].y_m + off[1], at[0].heading_rad + off[2]};
+  // The first turns about the tracked point, which is what is seen of it.
+  const Vec2 arm = reading.unit_T_body[0].position(), out = rotated(arm, at[0].heading_rad);
+  const Vec2 tracked = at[0].position() + out + Vec2{off[0] - out.y_m * off[2], off[1] + out.x_m * off[2]};
+  const double heading_rad = at[0].heading_rad + off[2];
+  const Vec2 axle = tracked - rotated(arm, heading_rad);
+  at[0] = {axle.x_m, axle.y_m, heading_rad};
   const Pose body = at[0] * reading.unit_T_body[0];
   for (std::size_t u = 1; u < units(); ++u) {
     const Index k = 3 * static_cast<Index>(u);

@@ -7,6 +7,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/units/heading_of_way.h"
+#include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/unit_recordings.h"
 #include "test/support/linked_runs.h"
@@ -233,6 +234,28 @@ TEST(AddFindings, KeepsWhatIsWrongWithEachRecordingApart) {
   add_findings_of(of_truck, units_of(vehicle_of(Clapper{}))[0], {}, all);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[1].where.recording, "run_2.csv");
+}
+
+// Whether anything is asked of the link's length as it is read.
+bool is_asked_of_the_length(double wheel_noise) {
+  const Clapper trucks = fine_clapper();
+  LinkedRunSettings settings;
+  settings.wheel_noise = wheel_noise;
+  std::vector<std::vector<UnitSample>> samples;
+  std::vector<std::string> names;
+  for (std::uint64_t k = 0; k < 2; ++k) {
+    samples.push_back(unit_samples(linked_run(trucks, settings, 870 + k), vehicle_of(trucks)));
+    names.push_back("run_" + std::to_string(k));
+  }
+  const auto errors = joint_errors(samples, names, vehicle_of(trucks), 1);
+  return std::any_of(errors->begin(), errors->end(), [](const TruthError& e) { return e.is_of_a_length; });
+}
+
+// Where what wheels slip alone moves a link in and out, its readings go with what the wheels err by: three CLAPPERs and
+// OmniMates of another program had an encoder that "errs with what it reads", with gains of 16 to 294.
+TEST(JointErrors, AreNotAskedOfALengthThatSlipAloneMoves) {
+  EXPECT_TRUE(is_asked_of_the_length(1e-4));
+  EXPECT_FALSE(is_asked_of_the_length(0.02));
 }
 
 }  // namespace

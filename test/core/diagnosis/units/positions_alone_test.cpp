@@ -46,6 +46,41 @@ TEST(JoinedFilter, FindsItsHeadingByPositionsAlone) {
   EXPECT_NEAR(wrapped(by_filter.back().pose.heading_rad - actual_rad), 0.0, 0.012);
 }
 
+// Standing still, however long: a trailer's axle is half a metre behind the point that is seen, and whichever way it
+// looks that point is where it is. By the axle's own place each sample seemed to tell a little of the heading, which
+// was believed when the drive began: a push of 16 and 31 mm where nothing was.
+TEST(JoinedFilter, IsToldNoHeadingByPlacesAtRest) {
+  const EncoderTrailer train;
+  const Vehicle vehicle = vehicle_of(train);
+  LinkedRunSettings s;
+  s.truth_m = 0.001;
+  const Recording read = trailer_run(train, s, 420);
+  constexpr int kStood = 100;
+  JoinedRun run{unit_samples(read, vehicle), tracked_positions(read), false};
+  Random random(420);
+  const double period_s = run.samples[1].time_s - run.samples[0].time_s;
+  const UnitSample first = run.samples.front();
+  const Pose stood = run.tracked.front().pose;
+  for (int i = 1; i <= kStood; ++i) {
+    UnitSample sample = first;
+    sample.time_s = first.time_s - period_s * i;
+    run.samples.insert(run.samples.begin(), sample);
+    run.tracked.insert(
+        run.tracked.begin(),
+        {sample.time_s, {stood.x_m + 0.001 * random.normal(), stood.y_m + 0.001 * random.normal(), 0.0}});
+  }
+  JoinedFilter filter(run, vehicle, 0.0);
+  JoinedNoise noise;
+  noise.truth_position_m = 0.001;
+  filter.run(noise);
+  const Track track = filter.track(0);
+  const auto rests_to =
+      std::find_if(track.begin(), track.end(), [&](const TimedPose& t) { return t.time_s > first.time_s; });
+  ASSERT_GT(rests_to - track.begin(), kStood - 1);
+  for (auto t = track.begin(); t != rests_to; ++t)
+    EXPECT_NEAR(t->pose.heading_rad, track.front().pose.heading_rad, 1e-3) << t->time_s;
+}
+
 // One sample in twenty is a metre off, the first among them.
 TEST(JoinedFilter, FindsItsHeadingThoughARadioIsAMetreOffNowAndThen) {
   const Clapper trucks = fine_clapper();

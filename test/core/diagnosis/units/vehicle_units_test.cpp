@@ -1,0 +1,46 @@
+#include "core/diagnosis/units/vehicle_units.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace odolab::test {
+namespace {
+
+double angle_rad(double t) { return 0.1 + 0.3 * t + 0.8 * t * t; }
+
+std::vector<UnitSample> read_every(double period_s) {
+  std::vector<UnitSample> samples;
+  for (int i = 0; i <= 20; ++i)
+    samples.push_back(
+        {period_s * i, {{2.0 * angle_rad(period_s * i), 3.0 * angle_rad(period_s * i)}}, {angle_rad(period_s * i)}});
+  return samples;
+}
+
+TEST(JointsAt, LieOnTheParabolaOfAnAngleThatIsReadSlowly) {
+  for (const double at_s : {0.13, 0.75, 1.42})  // half way a straight line is off by 2 mrad
+    EXPECT_NEAR(joints_at(read_every(0.1), at_s)[0], angle_rad(at_s), 1e-12) << at_s;
+}
+
+TEST(JointsAt, AreReadAsTheyAreAtTheEndsAndBeyond) {
+  const std::vector<UnitSample> samples = read_every(0.1);
+  EXPECT_EQ(joints_at(samples, -1.0)[0], angle_rad(0.0));
+  EXPECT_EQ(joints_at(samples, 9.0)[0], samples.back().joints[0]);
+}
+
+// Wheels that both turn as t and t^2 go along one arc, whose length and turn the wheels say, however seldom they are
+// read: both are the same function of time.
+TEST(WayOf, IsTheArcOfWheelsThatSpeedUpTogether) {
+  const DifferentialDrive drive;
+  const std::vector<UnitSample> samples = read_every(0.1);
+  const Pose end = way_of(samples, 0, drive).back().pose;
+  const double rad = angle_rad(2.0) - angle_rad(0.0), left_m = drive.wheel_radius_left_m * 2.0 * rad,
+               right_m = drive.wheel_radius_right_m * 3.0 * rad, turn_rad = (right_m - left_m) / drive.wheelbase_m,
+               radius_m = 0.5 * (left_m + right_m) / turn_rad;
+  EXPECT_NEAR(end.x_m, radius_m * std::sin(turn_rad), 1e-9);
+  EXPECT_NEAR(end.y_m, radius_m * (1.0 - std::cos(turn_rad)), 1e-9);
+  EXPECT_NEAR(end.heading_rad, turn_rad, 1e-12);
+}
+
+}  // namespace
+}  // namespace odolab::test
