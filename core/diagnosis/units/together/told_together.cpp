@@ -26,6 +26,13 @@ double size_of_truths_error_m(const JoinedNoise& noise) {
   return std::max(noise.truth_position_m, noise.wander_m_per_sqrt_s * std::sqrt(lasts_s));
 }
 
+// Each unit by itself has the way of a second and more to tell joints and wheels by, with a handful of samples.
+bool comes_seldom(const JoinedRun& run) {
+  constexpr double kSeldom_hz = 3.0;
+  const Track& t = run.tracked;
+  return t.size() < 2 || static_cast<double>(t.size() - 1) < kSeldom_hz * (t.back().time_s - t.front().time_s);
+}
+
 // What each unit is not asked any more, since all together know it better.
 bool is_told_together(const Finding& f) {
   static const std::set<std::string> others = {"clock_rate",      "wheel_toe",        "unknown",
@@ -63,7 +70,9 @@ std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Veh
   }
   ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
   told.model.fit_all();
-  if (told.model.follows_truth() && told.model.has_headings() && size_of_truths_error_m(told.model.noise()) < kCoarse_m)
+  const std::vector<JoinedRun>& given = told.model.given();
+  if (told.model.follows_truth() && told.model.has_headings() &&
+      size_of_truths_error_m(told.model.noise()) < kCoarse_m && std::none_of(given.begin(), given.end(), comes_seldom))
     return std::nullopt;
   told.said = joined_names(told.model, family_wise_error, progress);
   return told;

@@ -18,7 +18,7 @@ struct ToldTogether {
 };
 
 // `runs`: with no truth in them where it is to be left out. Unset where there is one with headings that is no coarse
-// one: each unit by itself knows its own way better then.
+// one and comes three times a second: each unit by itself knows its own way better then.
 std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Vehicle& nominal,
                                           std::vector<double> clock_s, std::vector<std::string> names,
                                           double family_wise_error, const Progress& progress);
