@@ -128,7 +128,8 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   const FirstGuess guess = first_guess(on_one_clock, *drive);
   const std::vector<std::string> jumps = counter_jumps_in(runs);
 
-  std::vector<int> active = {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase};
+  std::vector<int> active;
+  if (options.fit_drive) active = {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase};
   if (options.fit_truth_mounting) {
     active.push_back(column::mounting_x);
     active.push_back(column::mounting_y);
@@ -142,9 +143,9 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   if (options.fit_truth_clock && options.clocks.empty() && !clock_hides_in_place)
     for (int c = column::shared; c < start.size(); ++c) active.push_back(c);
   LikelihoodFit fit(std::move(runs), start);
-  if (guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
+  if (options.fit_drive && guess.trusted && far_apart(guess.drive, *drive)) fit.start_from(guess.drive);
   if (const auto shape = shape_guess(fit.runs(), *drive, nominal.truth)) {
-    fit.start_from(shape->drive);
+    if (options.fit_drive) fit.start_from(shape->drive);
     if (options.fit_truth_mounting) fit.start_from(shape->tracked_m);
   }
 
@@ -188,7 +189,7 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   };
   determine();
   bool scale_is_open = false;  // while ratios show: a radius that stayed as it is would put its error on the others
-  if (!determined[column::wheel_radius_left] || !determined[column::wheel_radius_right]) {
+  if (options.fit_drive && !(determined[column::wheel_radius_left] && determined[column::wheel_radius_right])) {
     fit.hold_mean_radius();
     determine();
     scale_is_open = some_of_drive();
@@ -261,7 +262,9 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
           reported(column::truth_clock, k) * (LikelihoodFit::value(fit.now(), active[k]) - nominal.truth.time_offset_s);
   std::vector<int> shown;
   for (int c = 0; c < kColumns; ++c) {
-    if (c == column::truth_clock ? !options.fit_truth_clock : c > column::wheelbase && !options.fit_truth_mounting)
+    if (!(c == column::truth_clock ? options.fit_truth_clock
+          : c > column::wheelbase  ? options.fit_truth_mounting
+                                   : options.fit_drive))
       continue;
     const auto at = std::find(active.begin(), active.end(), c);
     ParameterEstimate p;

@@ -18,6 +18,7 @@
 namespace odolab {
 
 struct LeastSquaresOptions {
+  bool fit_drive = true;  // radii and wheelbase; without it they are known
   // Estimated beside radii and wheelbase, because a wrong one would bend them.
   bool fit_truth_mounting = true;
   bool fit_truth_clock = true;

@@ -135,6 +135,12 @@ std::vector<std::size_t> suspects(const std::vector<Recording>& recordings, cons
   return out;
 }
 
+// On a circle what sits further along it looks turned, and what sits further out is a larger wheel.
+bool tells_all(const LeastSquaresCalibration& calibration) {
+  return !calibration.scale_is_open && std::all_of(calibration.parameters.begin(), calibration.parameters.end(),
+                                                   [](const ParameterEstimate& p) { return p.determined; });
+}
+
 // As a calibration has it.
 Seen measured(const LeastSquaresCalibration& calibration) {
   Seen seen{calibration.vehicle.truth.axle_T_tracked, {}};
@@ -168,6 +174,30 @@ void carry_truth(Recording& recording, const Pose& tracked_T_usual) {
   }
 }
 
+// By a calibration of that run with the others' wheels, from their mounting; where a truth that points elsewhere is
+// refused as another robot's, from what its own fit says. (From there always it would stay there on a circle, along
+// which nothing is told but by the noise of the headings with which it is told.)
+std::optional<Seen> measured_alone(const Recording& recording, const Vehicle& nominal,
+                                   const LeastSquaresCalibration& of_others, const Progress& progress) {
+  LeastSquaresOptions with_their_wheels;
+  with_their_wheels.fit_drive = false;
+  Pose carried_by;
+  auto alone = calibrate_least_squares({recording}, of_others.vehicle, with_their_wheels, progress);
+  if (!alone) {
+    const std::optional<Seen> rough = seen_in(recording, nominal);
+    if (!rough) return std::nullopt;
+    const Pose& usual = of_others.vehicle.truth.axle_T_tracked;
+    std::vector<Recording> near{recording};
+    carry_truth(near.front(), inverse(rough->mounting) * usual);
+    carried_by = inverse(usual) * rough->mounting;
+    alone = calibrate_least_squares(near, of_others.vehicle, with_their_wheels, progress);
+  }
+  if (!alone || !tells_all(*alone)) return std::nullopt;
+  Seen seen = measured(*alone);
+  seen.mounting = seen.mounting * carried_by;
+  return seen;
+}
+
 double square(double value) { return value * value; }
 
 }  // namespace
@@ -194,23 +224,16 @@ PutRight mountings_put_right(const std::vector<Recording>& recordings, const Veh
   for (std::size_t i = 0; i < recordings.size(); ++i)
     if (std::find(moved.begin(), moved.end(), i) == moved.end()) others.push_back(recordings[i]);
   const auto of_others = calibrate_least_squares(others, nominal, {}, progress);
-  if (!of_others) return result;
+  if (!of_others || !tells_all(*of_others)) return result;
   const Seen usual = measured(*of_others);
   for (std::size_t i : moved) {
-    const std::optional<Seen> rough = seen_in(recordings[i], nominal);
-    if (!rough) continue;
-    // From near the others' mounting: a truth that points elsewhere would be refused as another robot's.
-    std::vector<Recording> near{recordings[i]};
-    carry_truth(near.front(), inverse(rough->mounting) * usual.mounting);
-    const auto alone = calibrate_least_squares(near, of_others->vehicle, {}, progress);
-    if (!alone) continue;
-    Seen here = measured(*alone);
-    here.mounting = here.mounting * inverse(usual.mounting) * rough->mounting;
-    const Departure d = departure(here, usual);
+    const std::optional<Seen> here = measured_alone(recordings[i], nominal, *of_others, progress);
+    if (!here) continue;
+    const Departure d = departure(*here, usual);
     if (!d.stands_out()) continue;
-    result.moved.push_back({i, recordings[i].name, here.mounting, here.stderrs, usual.mounting,
+    result.moved.push_back({i, recordings[i].name, here->mounting, here->stderrs, usual.mounting,
                             0.5 * square(d.of_place() ? d.place_sigmas : d.heading_sigmas)});
-    carry_truth(result.recordings[i], inverse(here.mounting) * usual.mounting);
+    carry_truth(result.recordings[i], inverse(here->mounting) * usual.mounting);
   }
   return result;
 }

@@ -27,8 +27,8 @@ struct PutRight {
 
 // First by each run's own fit (`run_fit`), over the whole of it and over both halves; what stands out by more than
 // 15 mm or 1.5 degrees and six sigma from the middle of all is then measured by calibrations of that run and of the
-// others. Nothing is said where half or more of the runs stand out, nor of truth without headings. Of two runs that
-// differ, the one further from the vehicle file is the one that moved.
+// others. Nothing is said where half or more of the runs stand out, of a run that cannot tell its mounting and its scale
+// (a circle), nor of truth without headings. Of two runs that differ, the one further from the vehicle file is the one that moved.
 PutRight mountings_put_right(const std::vector<Recording>& recordings, const Vehicle& nominal,
                              const Progress& progress = {});
 
