@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
+#include "core/diagnosis/units/errors_of_lengths.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"
 #include "core/diagnosis/units/joined_clocks.h"
@@ -217,6 +218,13 @@ class BesideTruth {
     of_one.truth_errors = joint_errors(samples_, names_, fitted, unit);
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units_[unit], nominal_), of_one, part);
     if (!one) return Error{units_[unit].name + ": " + one.error().where, one.error().found, one.error().expected};
+    if (!units_[unit].carries_truth) {
+      const bool is_carried = carries_truth(units_) && !diagnoses_.empty();
+      const UncertainLengths lengths =
+          uncertain_lengths(geometry_, is_carried ? &diagnoses_.front().calibration : nullptr);
+      for (LeastSquaresCalibration Diagnosis::*which : {&Diagnosis::calibration, &Diagnosis::calibration_alone})
+        add_errors_of_lengths(own, read, fitted, unit, lengths, (*one).*which);
+    }
     leave_out_standing(*one, own, units_[unit].drive);
     if (!units_[unit].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal_.kind));
     return one;

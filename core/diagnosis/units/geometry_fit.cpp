@@ -387,6 +387,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
 
   GeometryFit fit;
   fit.vehicle = nominal;
+  fit.covariance = covariance.topLeftCorner(unknowns.joint_count(), unknowns.joint_count());
   for (int k = 0; k < unknowns.joint_count(); ++k) {
     JointEstimate e{unknowns.joints[static_cast<std::size_t>(k)]};
     Vehicle copy = nominal;

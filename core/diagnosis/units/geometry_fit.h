@@ -36,6 +36,7 @@ struct GeometryFit {
   std::vector<JointEstimate> joints;
   std::vector<double> clock_s;  // the truth's offset in each run, on top of the vehicle's
   std::vector<double> clock_stderr_s;
+  Eigen::MatrixXd covariance;          // of the joints, in their order, from these runs and truth; may be empty
   std::vector<double> aside_stderr_m;  // of where each castor's axle lies beside its pivot's line
 };
 

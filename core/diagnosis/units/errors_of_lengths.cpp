@@ -1,0 +1,150 @@
+#include "core/diagnosis/units/errors_of_lengths.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/calibration/innovations.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Length = std::function<double&(Vehicle&)>;
+
+constexpr double kStep = 1e-5;
+
+// What a length that is one more puts the unit's axle off by, in its own frame, at each reading.
+std::vector<Pose> off_by(const std::vector<UnitSample>& samples, const Vehicle& vehicle, std::size_t unit,
+                         const Length& length) {
+  Vehicle more = vehicle;
+  length(more) += kStep;
+  std::vector<Pose> off;
+  for (const UnitSample& s : samples) {
+    const Pose by = between(tracked_T_axle(vehicle, unit, s.joints), tracked_T_axle(more, unit, s.joints));
+    off.push_back({by.x_m / kStep, by.y_m / kStep, by.heading_rad / kStep});
+  }
+  return off;
+}
+
+// From step to step: what stands after it, seen from what stood before.
+ExtraColumn moved_by(const std::vector<Pose>& off, const std::vector<UnitSample>& samples, const InnovationRun& run,
+                     const DifferentialDrive& drive) {
+  std::size_t k = 0;
+  const auto off_at = [&](double time_s) {
+    while (k + 2 < samples.size() && samples[k + 1].time_s <= time_s) ++k;
+    while (k > 0 && samples[k].time_s > time_s) --k;
+    const double u = std::clamp((time_s - samples[k].time_s) / (samples[k + 1].time_s - samples[k].time_s), 0.0, 1.0);
+    const Pose &p = off[k], &q = off[k + 1];
+    return Pose{p.x_m + u * (q.x_m - p.x_m), p.y_m + u * (q.y_m - p.y_m),
+                p.heading_rad + u * (q.heading_rad - p.heading_rad)};
+  };
+  ExtraColumn column;
+  for (const DriveStep& s : drive_steps(run, drive)) {
+    const Pose before = off_at(s.time_s - 0.5 * s.duration_s), after = off_at(s.time_s + 0.5 * s.duration_s);
+    const double forward_m = 0.5 * (s.left_m + s.right_m);
+    column.per_step.push_back({after.x_m - s.turn_rad * after.y_m - before.x_m,
+                               after.y_m + s.turn_rad * after.x_m - before.y_m - before.heading_rad * forward_m,
+                               after.heading_rad - before.heading_rad});
+  }
+  return column;
+}
+
+// Of all recordings, with the clock of each fitted beside the rest.
+MatrixXd information_of(const std::vector<Recording>& own, const std::vector<std::vector<UnitSample>>& samples,
+                        const Vehicle& vehicle, std::size_t unit, const UncertainLengths& lengths,
+                        const LeastSquaresCalibration& calibration) {
+  const auto& drive = std::get<DifferentialDrive>(calibration.vehicle.kind);
+  const int n = column::first_extra + static_cast<int>(lengths.of.size());
+  std::vector<MatrixXd> parts(own.size(), MatrixXd::Zero(n, n));
+  parallel_for(static_cast<int>(own.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    Vehicle as_timed = calibration.vehicle;
+    as_timed.truth.time_offset_s = calibration.time_offset_s[r];
+    Result<InnovationRun> run = innovation_run(own[r], as_timed);
+    if (!run || samples[r].size() < 3) return;
+    for (const auto& length : lengths.of)
+      run->extra.push_back(moved_by(off_by(samples[r], vehicle, unit, length), samples[r], *run, drive));
+    const InnovationModel model{drive, as_timed.truth, as_large_as_any_real(calibration.noise)};
+    const InnovationSums sums = filtered(*run, summed_up(*run, model), model);
+    MatrixXd all = Eigen::Map<const MatrixXd>(sums.information.data(), n, n);
+    const Eigen::VectorXd by_clock = all.col(column::truth_clock);
+    const double of_clock = by_clock[column::truth_clock];
+    if (of_clock > 0.0) all -= by_clock * by_clock.transpose() / of_clock;
+    parts[r] = all;
+  });
+  MatrixXd sum = MatrixXd::Zero(n, n);
+  for (const MatrixXd& part : parts) sum += part;
+  return sum;
+}
+
+// By the calibration's name for it; empty where it is no such.
+Length place_of_truth(const std::string& name) {
+  if (name == "truth_mounting.x_m") return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.x_m; };
+  if (name == "truth_mounting.y_m") return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.y_m; };
+  if (name == "truth_mounting.heading_rad")
+    return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.heading_rad; };
+  return {};
+}
+
+}  // namespace
+
+UncertainLengths uncertain_lengths(const GeometryFit& geometry, const LeastSquaresCalibration* carrying) {
+  UncertainLengths lengths;
+  std::vector<Eigen::Index> rows;
+  std::vector<double> widened;  // what the units themselves told better or worse than stretches beside the truth
+  for (Eigen::Index k = 0; k < geometry.covariance.rows(); ++k) {
+    const JointEstimate& e = geometry.joints[static_cast<std::size_t>(k)];
+    if (!e.determined) continue;
+    rows.push_back(k);
+    widened.push_back(e.is_from_inside ? e.stderr_value / std::sqrt(geometry.covariance(k, k)) : 1.0);
+    lengths.of.push_back(e.parameter.of);
+  }
+  std::vector<double> variances;
+  if (carrying)
+    for (const ParameterEstimate& p : carrying->parameters)
+      if (const Length place = place_of_truth(p.name); place && p.determined) {
+        lengths.of.push_back(place);
+        variances.push_back(p.stderr_value * p.stderr_value);
+      }
+  const auto n = static_cast<Eigen::Index>(rows.size()), of_truth = static_cast<Eigen::Index>(variances.size());
+  const auto wider = Eigen::Map<const Eigen::VectorXd>(widened.data(), n).asDiagonal();
+  lengths.covariance = MatrixXd::Zero(n + of_truth, n + of_truth);
+  lengths.covariance.topLeftCorner(n, n) = wider * MatrixXd(geometry.covariance(rows, rows)) * wider;
+  lengths.covariance.bottomRightCorner(of_truth, of_truth).diagonal() =
+      Eigen::Map<const Eigen::VectorXd>(variances.data(), of_truth);
+  return lengths;
+}
+
+void add_errors_of_lengths(const std::vector<Recording>& own, const std::vector<std::vector<UnitSample>>& samples,
+                           const Vehicle& vehicle, std::size_t unit, const UncertainLengths& lengths,
+                           LeastSquaresCalibration& calibration) {
+  constexpr double kNothing = 1e-300, kStiffness = 1e-9;
+  std::vector<int> fitted;
+  std::vector<ParameterEstimate*> estimates;
+  for (ParameterEstimate& p : calibration.parameters) {
+    constexpr const char* kNames[] = {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m",
+                                      "truth_mounting.x_m",  "truth_mounting.y_m",   "truth_mounting.heading_rad"};
+    const auto at = std::find(std::begin(kNames), std::end(kNames), p.name);
+    if (!p.determined || at == std::end(kNames)) continue;
+    fitted.push_back(static_cast<int>(at - std::begin(kNames)));
+    estimates.push_back(&p);
+  }
+  if (fitted.empty() || lengths.of.empty() || calibration.time_offset_s.size() != own.size()) return;
+  const MatrixXd information = information_of(own, samples, vehicle, unit, lengths, calibration);
+  std::vector<int> of_lengths;
+  for (int k = column::first_extra; k < information.cols(); ++k) of_lengths.push_back(k);
+  const MatrixXd of_fitted = information(fitted, fitted);
+  const Eigen::VectorXd size = of_fitted.diagonal().cwiseMax(kNothing).cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = size.asDiagonal() * of_fitted * size.asDiagonal();
+  scaled.diagonal().array() += kStiffness;
+  const MatrixXd moved = size.asDiagonal() * scaled.ldlt().solve(size.asDiagonal() * information(fitted, of_lengths));
+  const Eigen::VectorXd added = (moved * lengths.covariance * moved.transpose()).diagonal();
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    estimates[i]->stderr_value =
+        std::hypot(estimates[i]->stderr_value, std::sqrt(std::max(0.0, added[static_cast<Eigen::Index>(i)])));
+}
+
+}  // namespace odolab
