@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/diagnosis/model/joint_model.h"
 #include "core/geometry/small_turn.h"
 
@@ -98,6 +99,27 @@ void add_noise(JointModel::GatheredError& sum, const FittedNoise& noise, double 
   }
 }
 
+// By how much a truth's headings scatter from sample to sample: third differences, robust, in which little of the
+// motion is left where samples come quickly. None of others.
+double scatter_of_headings(const Track& truth) {
+  constexpr double kApart_s = 0.05, kOfNoise = 20.0;  // 1 + 9 + 9 + 1 times its variance
+  std::vector<double> third_rad;
+  for (std::size_t i = 3; i < truth.size(); ++i) {
+    if (truth[i].time_s - truth[i - 3].time_s > 3.0 * kApart_s) continue;
+    const auto heading = [&](std::size_t back) { return truth[i - back].pose.heading_rad; };
+    third_rad.push_back(std::abs(wrapped(heading(0) - 3.0 * heading(1) + 3.0 * heading(2) - heading(3))));
+  }
+  return third_rad.empty() ? 0.0 : 1.4826 * median(std::move(third_rad)) / std::sqrt(kOfNoise);
+}
+
+// A likelihood that takes headings and places for independent, or the rounding of coarse counts at samples within one
+// reading, makes less of a truth's noise than it is.
+FittedNoise no_less_than_seen(FittedNoise noise, const Track& truth) {
+  if (noise.truth_heading_rad > 0.0)
+    noise.truth_heading_rad = std::max(noise.truth_heading_rad, scatter_of_headings(truth));
+  return noise;
+}
+
 // Where it stands at an end it stood there longer than it was read: a pose that is taken there belongs to it, however
 // the clock is put.
 void stand_longer(Track& track) {
@@ -166,9 +188,10 @@ JointModel::GatheredError JointModel::gathered(
       of[r].of_window = e->window_error;
       const double count_m =
           0.5 * (model.drive.wheel_radius_left_m + model.drive.wheel_radius_right_m) * count_rad(run, model.drive);
+      const FittedNoise seen = no_less_than_seen(noise, truth);
       for (const auto& [from_s, to_s] : e->window_s) {
         of[r].window_at_s.push_back(from_s);
-        add_noise(of[r], noise, model.drive.wheelbase_m, count_m, guess, from_s, to_s);
+        add_noise(of[r], seen, model.drive.wheelbase_m, count_m, guess, from_s, to_s);
       }
       of[r].noise_position_m2 /= e->windows;
       of[r].noise_heading_rad2 /= e->windows;

@@ -104,13 +104,20 @@ void leave_out_traces(Diagnosis& d, bool castor) {
                  heading = with->heading_rms_rad / without.heading_rms_rad;
     return 0.5 * (position * position + heading * heading) < (castor ? kMaterialOfCastors : kMaterial);
   };
-  const bool rest_predicts = predicts(d.held_out.spline);
+  // What leaves more than twice the noise is no trace, whether a spline draws it or not.
+  const auto is_small = [&] {
+    constexpr double kSmall = 2.0;
+    const std::optional<FitFigures>& floor = d.held_out.noise_floor;
+    return !floor || (d.held_out.calibrated->position_rms_m < kSmall * floor->position_rms_m &&
+                      d.held_out.calibrated->heading_rms_rad < kSmall * floor->heading_rms_rad);
+  };
+  const bool rest_counts = predicts(d.held_out.spline) || !is_small();
   const std::size_t before = d.findings.size();
   d.findings.erase(std::remove_if(d.findings.begin(), d.findings.end(),
                                   [&](const Finding& f) {
                                     // An encoder that errs by more than it rounds is no trace of rounding.
                                     if (is_of_a_joint(f) && !castor) return f.log_likelihood_gain < least_gain;
-                                    if (f.effect == "unknown" && !rest_predicts) return true;
+                                    if (f.effect == "unknown" && !rest_counts) return true;
                                     return f.log_likelihood_gain > 0.0 && f.log_likelihood_gain < least_of(f);
                                   }),
                    d.findings.end());

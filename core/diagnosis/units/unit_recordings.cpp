@@ -9,7 +9,8 @@ namespace odolab {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSameRate = 0.8;  // truth samples for each encoder sample: fewer, and the truth's times are taken
+// Truth samples for each encoder sample: fewer, and two readings would share one, so the truth's times are taken.
+constexpr double kSharedNone = 2.0;
 
 struct Row {
   double time_s = 0.0;
@@ -68,7 +69,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
     return recording_by(std::move(rows), recording);
   }
   const double offset_s = vehicle.truth.time_offset_s + clock_s;
-  const bool at_truth = static_cast<double>(tracked.size()) < kSameRate * static_cast<double>(samples.size());
+  const bool at_truth = static_cast<double>(tracked.size()) < kSharedNone * static_cast<double>(samples.size());
   if (at_truth) {
     for (const TimedPose& t : tracked) {
       const double at_s = t.time_s - offset_s;

@@ -64,6 +64,30 @@ TEST(JointModel, KnowsWhatCountsHideAsNoise) {
   EXPECT_NEAR(e.position_m2 / e.noise_position_m2, 1.0, 0.4);
 }
 
+// A likelihood that gives too much of what headings scatter by to something else, as to coarse counts that are rounded
+// alike for some samples, does not make a run that was held out look foreign.
+TEST(JointModel, KnowsNoLessNoiseThanHeadingsShow) {
+  Random random(49);
+  Vehicle nominal;
+  GeneratorSettings g;
+  g.drive = {0.075, 0.075, 0.34};
+  g.counts = false;
+  nominal.kind = g.drive;
+  g.truth_period_s = 0.02;
+  g.truth_position_noise_m = 0.001;
+  g.truth_heading_noise_rad = 0.008;
+  g.duration_s = 60.0;
+  std::vector<Recording> recordings;
+  for (int run = 0; run < 3; ++run) recordings.push_back(generated(g, varied_driving(random, g.duration_s), random));
+  JointModel joint = joint_model(recordings, nominal);
+  joint.fit(3);
+  joint.fit_noise_and_all();
+  joint.model.noise.truth_heading_rad /= 3.0;
+  const JointModel::GatheredError e = joint.gathered_error();
+  ASSERT_GT(e.windows, 30);
+  EXPECT_NEAR(e.heading_rad2 / e.noise_heading_rad2, 1.0, 0.4);  // as above
+}
+
 // With one size for both, what moves the body forward alone looked too large to be noise: of thirty recordings of
 // another program with nothing missing four were given a load or a drift of both radii.
 TEST(JointModel, FindsTheNoiseOfTheWayAndOfTheTurnEachByItself) {

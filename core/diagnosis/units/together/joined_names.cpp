@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/intervals.h"
@@ -40,8 +41,8 @@ bool is_sought(const Effect& e) {
          std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
 }
 
-// Whether it moves a wheel by more than counts and the joints' rounding make of nothing.
-bool is_more_than_rounding(const ScoredTogether& s, const Vehicle& vehicle) {
+// What counts and the joints' rounding make of nothing.
+double rounding_m(const ScoredTogether& s, const Vehicle& vehicle) {
   constexpr double kCounts = 1.5;
   double least_m = 0.0;
   const std::vector<VehicleUnit> units = units_of(vehicle);
@@ -50,9 +51,32 @@ bool is_more_than_rounding(const ScoredTogether& s, const Vehicle& vehicle) {
     least_m = std::max({least_m, kCounts * 2.0 * kPi * d.wheel_radius_left_m / d.counts_per_wheel_turn(),
                         rounding_of_joints(vehicle, u).position_m});
   }
+  return least_m;
+}
+
+// Of what happens at a moment.
+bool is_more_than_rounding(const ScoredTogether& s, const Vehicle& vehicle) {
+  const double least_m = rounding_m(s, vehicle);
   if (s.test.value.size() < 3) return std::abs(s.test.value[0]) > least_m;
-  const double base_m = units[s.candidate.units.front()].drive.wheelbase_m;
+  const double base_m = units_of(vehicle)[s.candidate.units.front()].drive.wheelbase_m;
   return std::max(std::hypot(s.test.value[0], s.test.value[1]), 0.5 * base_m * std::abs(s.test.value[2])) > least_m;
+}
+
+// Of what lasts from a time on: by the end of some run.
+bool goes_beyond_rounding(const ScoredTogether& s, const JoinedModel& model) {
+  const double least_m = rounding_m(s, model.vehicle());
+  const std::vector<double> value(s.test.value.begin(), s.test.value.end());
+  for (std::size_t u : s.candidate.units)
+    for (const DriveView& view : model.views(u)) {
+      const Motions moved = motion_of(*s.candidate.effect, view, s.shape, value);
+      double forward_m = 0.0, turn_rad = 0.0;
+      for (std::size_t i = 0; i < view.steps.size(); ++i) {
+        forward_m += moved.at(i).forward_m;
+        turn_rad += moved.at(i).turn_rad;
+        if (std::max(std::abs(forward_m), 0.5 * view.drive.wheelbase_m * std::abs(turn_rad)) > least_m) return true;
+      }
+    }
+  return false;
 }
 
 // Whether values lie within what any vehicle has.
@@ -140,7 +164,9 @@ class Naming {
     const double least = std::max(least_of(*s.candidate.effect), is_push_of_one       ? kLeastOfOneUnit
                                                                  : s.of_moments > 0.0 ? kLeastSought
                                                                                       : 0.0);
-    return s.p_value < p_ && s.test.judged() > least && (s.of_moments > 0.0 || s.test.lasts_throughout());
+    const bool is_from_a_time = is_sought(*s.candidate.effect) && !s.candidate.effect->local;
+    return s.p_value < p_ && s.test.judged() > least && (s.of_moments > 0.0 || s.test.lasts_throughout()) &&
+           (!is_from_a_time || goes_beyond_rounding(s, model_));
   }
 
   std::vector<JoinedModel::Acting> acting() const {

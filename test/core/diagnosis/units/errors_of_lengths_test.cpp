@@ -47,12 +47,12 @@ TEST(ErrorsOfLengths, AreInWhatIsSaidOfTheRadiiOfATrailer) {
     add_errors_of_lengths(own, samples, geometry.vehicle, 0, uncertain_lengths(geometry), *calibrated);
     squares += off_in_errors() * off_in_errors() / kFits;
   }
-  // The mean of 30 squares of normal numbers is 1 +- 0.26: within three of that.
-  EXPECT_GT(squares_without, 1.8);
-  EXPECT_LT(squares, 1.8);
+  // Stretches of half a metre know their own covariance to a quarter, so the mean of 30 squares is up to 1.6 and
+  // scatters by a quarter of that: within three.
+  constexpr double kMost = 2.8;
+  EXPECT_GT(squares_without, kMost);
+  EXPECT_LT(squares, kMost);
   EXPECT_GT(squares, 0.2);
-  RecordProperty("without", std::to_string(squares_without));
-  std::printf("%g %g\n", squares_without, squares);
 }
 
 }  // namespace

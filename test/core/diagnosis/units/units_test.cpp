@@ -100,6 +100,31 @@ TEST(UnitRecordings, FollowTheUnitWithTheTruthsNoiseAndTheRoundingOfTheJoints) {
   EXPECT_LT(error->position_rms_m, 3e-4);  // wheels of 2000 counts: 0.24 mm each, and no more
 }
 
+// The truth comes as often as the readings and between them: what is made of two of its samples would share each of
+// them with the next, and errors that are shared look like less noise than there is.
+TEST(UnitRecordings, HaveTheTruthsNoiseFreshInEachSample) {
+  LinkedRunSettings s;
+  s.truth_m = s.wheel_noise = 0.0;
+  s.truth_rad = 0.005;
+  Clapper actual;
+  actual.link_angle_resolution_rad = actual.link_length_resolution_m = 0.0;
+  const Recording run = linked_run(actual, s, 1);
+  const Vehicle vehicle = vehicle_of(actual);
+  constexpr double kHalfAReading_s = 0.02;
+  const Recording of_b =
+      recording_of_unit(run, unit_samples(run, vehicle), tracked_poses(run), vehicle, 1, kHalfAReading_s, true);
+  const Track truth = truth_track(of_b);
+  double squares = 0.0;
+  for (std::size_t i = 3; i < truth.size(); ++i) {
+    const auto heading = [&](std::size_t back) { return truth[i - back].pose.heading_rad; };
+    squares += std::pow(wrapped(heading(0) - 3.0 * heading(1) + 3.0 * heading(2) - heading(3)), 2);
+  }
+  // Third differences of white noise have 1 + 9 + 9 + 1 times its variance, and the motion next to none; 5 % is three
+  // standard errors of 750 of them.
+  const double scatter_rad = std::sqrt(squares / 20.0 / static_cast<double>(truth.size() - 3));
+  EXPECT_NEAR(scatter_rad, s.truth_rad, 0.15 * s.truth_rad);
+}
+
 TEST(GeometryFit, FindsTheOffsetsOfTheLinkAndTheClockOfTheTruth) {
   Clapper actual = crooked_clapper();
   actual.link_angle_a_offset_rad = 0.008;
@@ -158,6 +183,27 @@ TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
 }
 
 // An effect is asked for in every unit, a bias in every joint; each is said once, of where it is likeliest.
+// What has no name and predicts nothing is a trace of joints that are rounded, where it is small; but dead reckoning
+// that is off by three times its noise is off, and "nothing is missing" is no answer.
+TEST(LeaveOutTraces, TakesOnlyForATraceWhatLeavesLittle) {
+  for (const double off : {1.3, 3.0}) {
+    Diagnosis d;
+    d.verdict = Verdict::unknown_effect;
+    Finding f;
+    f.effect = "unknown";
+    f.component = "vehicle";
+    f.log_likelihood_gain = 800.0;
+    d.findings = {f};
+    FitFigures floor, calibrated;
+    floor.position_rms_m = 0.01, floor.heading_rms_rad = 0.01;
+    calibrated.position_rms_m = off * floor.position_rms_m, calibrated.heading_rms_rad = off * floor.heading_rms_rad;
+    d.held_out.calibrated = d.held_out.with_findings = d.held_out.spline = calibrated;
+    d.held_out.noise_floor = floor;
+    leave_out_traces(d, false);
+    EXPECT_EQ(d.verdict == Verdict::unknown_effect, off > 2.0) << off;
+  }
+}
+
 TEST(DiagnoseUnits, SayOfEveryEffectThatWasAskedForWhatBecameOfIt) {
   LinkedRunSettings s;
   s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
