@@ -101,6 +101,19 @@ VectorXd between_forms(const JointModel& joint, std::size_t accepted, double inf
   return all > 0.0 ? VectorXd(sum / all) : sum;
 }
 
+// What an amplitude may be off beyond what the recordings say, calibration is off with it, as both go together:
+// d theta = C_ta C_aa^-1 d a.
+void add_to_calibration(const MatrixXd& together, int first, const VectorXd& of_amplitudes, MatrixXd& columns) {
+  const Eigen::Index n = of_amplitudes.size(), calibrated = std::min<Eigen::Index>(column::truth_clock, columns.rows());
+  const MatrixXd of_own = together.block(first, first, n, n);
+  const VectorXd size = of_own.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = size.asDiagonal() * of_own * size.asDiagonal();
+  const MatrixXd moves = (size.asDiagonal() * scaled.completeOrthogonalDecomposition().solve(
+                                                  size.asDiagonal() * together.block(first, 0, n, calibrated)))
+                             .transpose();
+  columns.topLeftCorner(calibrated, calibrated) += moves * of_amplitudes.asDiagonal() * moves.transpose();
+}
+
 }  // namespace
 
 double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.0, columns(c, c))); }
@@ -173,7 +186,8 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     double square = 0.0;
     for (double v : joint.accepted[a].value) square += v * v / n;
     const double form = joint.accepted[a].effect->forms.size() > 1 ? kErrorOfForms : kFormError;
-    for (int k = 0; k < n; ++k) block(k, k) += form * form * square;
+    VectorXd of_form = VectorXd::Constant(n, form * form * square);
+    block.topLeftCorner(n, n) += of_form.asDiagonal();
     if (m > 0) {
       block.bottomRightCorner(m, m) = of_shape[a];
       if (moves[a].cols() == m && !is_patch) {
@@ -189,6 +203,7 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     const VectorXd of_forms = between_forms(joint, a, inflation[a]);
     for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2) + of_forms(k);
     out.of_effect.push_back(block);
+    add_to_calibration(at_these_shapes, first, of_form + of_forms, out.columns);
   }
   return out;
 }
