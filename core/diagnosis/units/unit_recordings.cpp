@@ -47,6 +47,14 @@ bool is_in_gap(const std::vector<UnitSample>& samples, double time_s) {
   return after->time_s - (after - 1)->time_s > std::max(kLeast_s, kPeriods * usual_s);
 }
 
+std::size_t nearest(const std::vector<UnitSample>& samples, double time_s) {
+  const auto after = std::lower_bound(samples.begin(), samples.end(), time_s,
+                                      [](const UnitSample& s, double t) { return s.time_s < t; });
+  const auto k = static_cast<std::size_t>(after - samples.begin());
+  if (k == 0 || k == samples.size()) return k == 0 ? 0 : k - 1;
+  return samples[k].time_s - time_s < time_s - samples[k - 1].time_s ? k : k - 1;
+}
+
 Row pose_row(double time_s, const Pose& pose) { return {time_s, kNone, kNone, pose.x_m, pose.y_m, pose.heading_rad}; }
 
 }  // namespace
@@ -69,12 +77,17 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
     return recording_by(std::move(rows), recording);
   }
   const double offset_s = vehicle.truth.time_offset_s + clock_s;
+  const bool is_faster = tracked.size() > samples.size();  // then two of its samples would share a joint's reading
   const bool at_truth = static_cast<double>(tracked.size()) < kSharedNone * static_cast<double>(samples.size());
   if (at_truth) {
+    std::size_t last_near = samples.size();
     for (const TimedPose& t : tracked) {
       const double at_s = t.time_s - offset_s;
       if (samples.empty() || at_s < samples.front().time_s || at_s > samples.back().time_s) continue;
       if (is_in_gap(samples, at_s)) continue;
+      const std::size_t near = nearest(samples, at_s);
+      if (is_faster && near == last_near) continue;
+      last_near = near;
       rows.push_back(pose_row(at_s, t.pose * tracked_T_axle(vehicle, unit, joints_at(samples, at_s))));
     }
   } else {
