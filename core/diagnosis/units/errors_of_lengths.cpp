@@ -6,6 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/innovations.h"
+#include "core/diagnosis/units/axle_put_off.h"
 
 namespace odolab {
 
@@ -14,41 +15,10 @@ namespace {
 using Eigen::MatrixXd;
 using Length = std::function<double&(Vehicle&)>;
 
-constexpr double kStep = 1e-5;
-
-// What a length that is one more puts the unit's axle off by, in its own frame, at each reading.
-std::vector<Pose> off_by(const std::vector<UnitSample>& samples, const Vehicle& vehicle, std::size_t unit,
-                         const Length& length) {
-  Vehicle more = vehicle;
-  length(more) += kStep;
-  std::vector<Pose> off;
-  for (const UnitSample& s : samples) {
-    const Pose by = between(tracked_T_axle(vehicle, unit, s.joints), tracked_T_axle(more, unit, s.joints));
-    off.push_back({by.x_m / kStep, by.y_m / kStep, by.heading_rad / kStep});
-  }
-  return off;
-}
-
-// From step to step: what stands after it, seen from what stood before.
-ExtraColumn moved_by(const std::vector<Pose>& off, const std::vector<UnitSample>& samples, const InnovationRun& run,
-                     const DifferentialDrive& drive) {
-  std::size_t k = 0;
-  const auto off_at = [&](double time_s) {
-    while (k + 2 < samples.size() && samples[k + 1].time_s <= time_s) ++k;
-    while (k > 0 && samples[k].time_s > time_s) --k;
-    const double u = std::clamp((time_s - samples[k].time_s) / (samples[k + 1].time_s - samples[k].time_s), 0.0, 1.0);
-    const Pose &p = off[k], &q = off[k + 1];
-    return Pose{p.x_m + u * (q.x_m - p.x_m), p.y_m + u * (q.y_m - p.y_m),
-                p.heading_rad + u * (q.heading_rad - p.heading_rad)};
-  };
+ExtraColumn moved_by(const AxlePutOff& off, const std::vector<DriveStep>& steps) {
   ExtraColumn column;
-  for (const DriveStep& s : drive_steps(run, drive)) {
-    const Pose before = off_at(s.time_s - 0.5 * s.duration_s), after = off_at(s.time_s + 0.5 * s.duration_s);
-    const double forward_m = 0.5 * (s.left_m + s.right_m);
-    column.per_step.push_back({after.x_m - s.turn_rad * after.y_m - before.x_m,
-                               after.y_m + s.turn_rad * after.x_m - before.y_m - before.heading_rad * forward_m,
-                               after.heading_rad - before.heading_rad});
-  }
+  for (const DriveStep& s : steps)
+    column.per_step.push_back(off.moved(s.time_s, s.duration_s, 0.5 * (s.left_m + s.right_m), s.turn_rad));
   return column;
 }
 
@@ -65,8 +35,11 @@ MatrixXd information_of(const std::vector<Recording>& own, const std::vector<std
     as_timed.truth.time_offset_s = calibration.time_offset_s[r];
     Result<InnovationRun> run = innovation_run(own[r], as_timed);
     if (!run || samples[r].size() < 3) return;
-    for (const auto& length : lengths.of)
-      run->extra.push_back(moved_by(off_by(samples[r], vehicle, unit, length), samples[r], *run, drive));
+    const std::vector<DriveStep> steps = drive_steps(*run, drive);
+    for (const Length& length : lengths.of)
+      run->extra.push_back(moved_by(axle_put_off(samples[r], vehicle, unit,
+                                                 [&](Vehicle& v, std::vector<double>&, double by) { length(v) += by; }),
+                                    steps));
     const InnovationModel model{drive, as_timed.truth, as_large_as_any_real(calibration.noise)};
     const InnovationSums sums = filtered(*run, summed_up(*run, model), model);
     MatrixXd all = Eigen::Map<const MatrixXd>(sums.information.data(), n, n);

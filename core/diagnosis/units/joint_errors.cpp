@@ -7,6 +7,7 @@
 
 #include "core/base/quantile.h"
 #include "core/diagnosis/measurement_findings.h"
+#include "core/diagnosis/units/axle_put_off.h"
 #include "core/diagnosis/units/joint_shapes.h"
 #include "core/vehicle/key_words.h"
 
@@ -14,17 +15,19 @@ namespace odolab {
 
 namespace {
 
-// A truth that is off by this much at one time, in the frame of the axle.
-struct Off {
-  double x_m = 0.0, y_m = 0.0, heading_rad = 0.0;
-};
-
-// Of one recording: at each time, what a joint that reads too much by one puts the axle off by, and functions of what
-// happens there.
+// Of one recording: what a joint that reads too much by one puts the axle off by, and functions of what happens there.
 struct OfRun {
-  std::vector<double> time_s;
-  std::vector<Off> off;
+  AxlePutOff off;
   std::vector<std::vector<double>> values;  // [function][sample]
+
+  AxlePutOff times(std::size_t function) const {
+    AxlePutOff all = off;
+    for (std::size_t i = 0; i < all.by.size(); ++i) {
+      const double v = values[function][i];
+      all.by[i] = {v * off.by[i].x_m, v * off.by[i].y_m, v * off.by[i].heading_rad};
+    }
+    return all;
+  }
 };
 using OfRuns = std::map<std::string, OfRun>;
 
@@ -93,29 +96,14 @@ std::vector<double> pulled_aside(const std::vector<UnitSample>& samples, std::si
   return pulled;
 }
 
-// From step to step: what stands after it, seen from what stood before.
 std::vector<Motions> motions_in(const DriveView& view, const OfRuns& runs, std::size_t functions) {
-  const auto found = runs.find(view.recording);
-  if (found == runs.end()) return std::vector<Motions>(functions);
-  const OfRun& run = found->second;
-  std::vector<Motions> out(functions, Motions(view.steps.size()));
-  std::size_t k = 0;
-  const auto off_at = [&](std::size_t f, double t) {
-    while (k + 2 < run.time_s.size() && run.time_s[k + 1] <= t) ++k;
-    while (k > 0 && run.time_s[k] > t) --k;
-    const double u = std::clamp((t - run.time_s[k]) / (run.time_s[k + 1] - run.time_s[k]), 0.0, 1.0);
-    const double a = (1.0 - u) * run.values[f][k], b = u * run.values[f][k + 1];
-    const Off &p = run.off[k], &q = run.off[k + 1];
-    return Off{a * p.x_m + b * q.x_m, a * p.y_m + b * q.y_m, a * p.heading_rad + b * q.heading_rad};
-  };
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const EffectStep& s = view.steps[i];
-    for (std::size_t f = 0; f < functions; ++f) {
-      const Off before = off_at(f, s.time_s - 0.5 * s.duration_s), after = off_at(f, s.time_s + 0.5 * s.duration_s);
-      out[f][i] = {after.x_m - s.turn_rad * after.y_m - before.x_m,
-                   after.y_m + s.turn_rad * after.x_m - before.y_m - before.heading_rad * s.forward_m(),
-                   after.heading_rad - before.heading_rad};
-    }
+  std::vector<Motions> out(functions);
+  const auto run = runs.find(view.recording);
+  if (run == runs.end()) return out;
+  for (std::size_t f = 0; f < functions; ++f) {
+    const AxlePutOff off = run->second.times(f);
+    for (const EffectStep& s : view.steps)
+      out[f].push_back(off.moved(s.time_s, s.duration_s, s.forward_m(), s.turn_rad));
   }
   return out;
 }
@@ -124,7 +112,7 @@ std::vector<Motions> motions_in(const DriveView& view, const OfRuns& runs, std::
 double size_of(const OfRuns& runs, const std::vector<double>& value) {
   double n = 0.0, sum = 0.0, squares = 0.0;
   for (const auto& [name, run] : runs)
-    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+    for (std::size_t i = 0; i < run.off.time_s.size(); ++i) {
       double error = 0.0;
       for (std::size_t f = 0; f < value.size(); ++f) error += value[f] * run.values[f][i];
       n += 1.0, sum += error, squares += error * error;
@@ -192,7 +180,6 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
   constexpr double kLeastRange = 4.0;  // steps
   // A length that goes to and fro by what the wheels slip errs with it, where an error of its encoder is asked for.
   constexpr double kBeyondSlip = 5.0;
-  constexpr double kMoved = 1e-5;
   const std::vector<double> steps = joint_steps(vehicle);
   auto errors = std::make_shared<std::vector<TruthError>>();
   for (const int joint : joints_of(vehicle, unit)) {
@@ -205,16 +192,9 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     if (range.is_length && scatter_of(samples, j) < kBeyondSlip * moved_by_slip_m(samples, vehicle, j)) continue;
 
     OfRuns bare;
-    for (std::size_t r = 0; r < samples.size(); ++r) {
-      OfRun& run = bare[names[r]];
-      for (const UnitSample& s : samples[r]) {
-        std::vector<double> moved = s.joints;
-        moved[j] += kMoved;
-        const Pose by = between(tracked_T_axle(vehicle, unit, s.joints), tracked_T_axle(vehicle, unit, moved));
-        run.time_s.push_back(s.time_s);
-        run.off.push_back({by.x_m / kMoved, by.y_m / kMoved, by.heading_rad / kMoved});
-      }
-    }
+    for (std::size_t r = 0; r < samples.size(); ++r)
+      bare[names[r]].off = axle_put_off(samples[r], vehicle, unit,
+                                        [j](Vehicle&, std::vector<double>& joints, double by) { joints[j] += by; });
     const auto with = [&](const std::function<std::vector<std::vector<double>>(const std::vector<UnitSample>&)>& of) {
       OfRuns runs = bare;
       for (std::size_t r = 0; r < samples.size(); ++r) runs[names[r]].values = of(samples[r]);
