@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/calibration/likelihood_fit.h"
 
 namespace odolab {
@@ -13,12 +13,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-std::string text(const char* format, double a = 0.0, double b = 0.0) {
-  char buffer[240];
-  std::snprintf(buffer, sizeof buffer, format, a, b);
-  return buffer;
-}
 
 // What the robot did, for the sentences on what it did not do.
 struct Driven {
@@ -48,7 +42,8 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   for (int c : active) some_clock_is_open = some_clock_is_open || (c >= column::shared && !determined[c]);
   const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right),
              base = open(column::wheelbase);
-  const std::string so_far = text(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
+  const std::string so_far =
+      formatted(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
   if (scale_is_open)
     sentences.push_back("wheel radii and wheelbase: only their ratios show here, not the scale" + so_far +
                         ": the mean radius is as it was given; drive a straight of a few metres");

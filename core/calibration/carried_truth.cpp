@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/geometry/small_turn.h"
 #include "core/recording/truth_left_out.h"
@@ -130,13 +130,12 @@ std::optional<MeasuredRecording> without_carried_truth(const Recording& recordin
   std::vector<char> carried;
   for (const double t : recording.time_s) carried.push_back(std::binary_search(carried_s.begin(), carried_s.end(), t));
   leave_truth_out(out.recording, carried);
-  char text[320];
-  std::snprintf(text, sizeof text,
-                ": %.0f %% of the truth's samples go on from the one before along a circle, to a hundredth of what the "
-                "others are off: it is no measurement but odometry that is put right now and then, as by a map or a "
-                "filter; only the %zu corrections are used",
-                100.0 * static_cast<double>(carried_s.size()) / static_cast<double>(truth.size()),
-                truth.size() - carried_s.size());
+  const std::string text = formatted(
+      ": %.0f %% of the truth's samples go on from the one before along a circle, to a hundredth of what the "
+      "others are off: it is no measurement but odometry that is put right now and then, as by a map or a "
+      "filter; only the %zu corrections are used",
+      100.0 * static_cast<double>(carried_s.size()) / static_cast<double>(truth.size()),
+      truth.size() - carried_s.size());
   out.said += text;
   return out;
 }

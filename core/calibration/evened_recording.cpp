@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <numeric>
 
+#include "core/base/formatted.h"
 #include "core/calibration/even_stamps.h"
 #include "core/recording/truth_left_out.h"
 
@@ -25,9 +25,8 @@ bool is_worth_a_word(const EvenStamps& even) {
 }
 
 std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
-  char text[160];
-  std::snprintf(text, sizeof text, ": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
-                1e3 * even.trembling_s, 1.0 / even.period_s);
+  const std::string text = formatted(": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
+                                     1e3 * even.trembling_s, 1.0 / even.period_s);
   return (name.empty() ? "the recording" : name) + text;
 }
 

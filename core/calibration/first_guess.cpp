@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/calibration/late_truth.h"
 #include "core/calibration/wheels_at.h"
@@ -171,12 +171,10 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
       const double jump_rad = steps[largest];
       std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 9 / 10), steps.end());
       if (jump_rad < 10.0 || jump_rad < 100.0 * steps[steps.size() * 9 / 10]) continue;
-      char text[240];
-      std::snprintf(text, sizeof text,
-                    "%s: the %s wheel's reading jumps by %.4g rad at %.2f s: an encoder fault, or a counter that wraps "
-                    "(counter_bits)",
-                    run.name.c_str(), wheel == &WheelSample::left_rad ? "left" : "right", jump_rad,
-                    run.wheels[largest].time_s);
+      const std::string text = formatted(
+          "%s: the %s wheel's reading jumps by %.4g rad at %.2f s: an encoder fault, or a counter that wraps "
+          "(counter_bits)",
+          run.name.c_str(), wheel == &WheelSample::left_rad ? "left" : "right", jump_rad, run.wheels[largest].time_s);
       sentences.push_back(text);
     }
   }
@@ -184,15 +182,12 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
 }
 
 std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
-  char text[240];
   // A degree taken for a radian makes 57 of one.
   const Planes p = planes_of(stretches_of(runs));
   const double turning = turning_ratio(runs, nominal);
-  if (turning > 20.0) {
-    std::snprintf(text, sizeof text,
-                  "headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?", turning);
-    return text;
-  }
+  if (turning > 20.0)
+    return formatted("headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?",
+                     turning);
   if (!p.enough) return "";
   const double way_sum = p.way.left + p.way.right, turn_difference = p.turn.right - p.turn.left;
   if (p.way.explained > kExplained && p.way.left > 0.0 && p.way.right > 0.0 && p.turn.explained > kExplained &&
@@ -208,23 +203,17 @@ std::string contradiction_in(const std::vector<InnovationRun>& runs, const Diffe
     return "one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's rotation "
            "is wrong";
   const double radius_ratio = way_sum / (nominal.wheel_radius_left_m + nominal.wheel_radius_right_m) * 2.0;
-  if (p.way.explained > kExplained && (radius_ratio > 5.0 || radius_ratio < 0.2)) {
-    std::snprintf(text, sizeof text,
-                  "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per "
-                  "turn, or counts that "
-                  "are not cumulative",
-                  radius_ratio);
-    return text;
-  }
+  if (p.way.explained > kExplained && (radius_ratio > 5.0 || radius_ratio < 0.2))
+    return formatted(
+        "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per "
+        "turn, or counts that are not cumulative",
+        radius_ratio);
   if (p.turn.explained < 0.3 || p.way.explained < 0.3)
-    if (const std::optional<double> late_s = late_truth_s(runs)) {
-      std::snprintf(
-          text, sizeof text,
+    if (const std::optional<double> late_s = late_truth_s(runs))
+      return formatted(
           "a truth whose stamps are %.1f s %s than the wheels' by what both do; truth_mounting.time_offset_s = %.1f in "
           "the vehicle's file says so",
           std::abs(*late_s), *late_s > 0.0 ? "later" : "earlier", *late_s);
-      return text;
-    }
   if (p.turn.explained < 0.3 && p.way.explained < 0.3)
     return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are "
            "not cumulative, or "

@@ -4,6 +4,7 @@
 // and plain least squares on them claims far too small a covariance. See README.md in this folder for the equations.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,11 @@ struct LeastSquaresOptions {
   // Of each recording, where they are known: held as they are, and stamps put right by the rates.
   std::vector<AlignedClock> clocks;
   bool by_commands = false;  // the wheels are those that would have obeyed commands; a base follows them in its own way
+
+  std::optional<std::vector<std::pair<double, double>>> left_out_of(std::size_t recording) const {
+    if (recording >= left_out.size()) return std::nullopt;
+    return left_out[recording];
+  }
 };
 
 // One estimated parameter.

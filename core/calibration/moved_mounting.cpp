@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
 #include "core/calibration/least_squares.h"
@@ -203,15 +203,12 @@ double square(double value) { return value * value; }
 }  // namespace
 
 std::string MovedMounting::sentence() const {
-  char text[300];
   const Vec2 by = axle_T_tracked.position() - usual.position();
-  std::snprintf(
-      text, sizeof text,
+  return formatted(
       "in this recording the tracked point sits %.0f mm further %s and %.0f mm further %s on the vehicle than "
       "in the others, turned by %.1f degrees; put right",
       1e3 * std::abs(by.x_m), by.x_m < 0.0 ? "back" : "forward", 1e3 * std::abs(by.y_m),
       by.y_m < 0.0 ? "right" : "left", degrees(wrapped(axle_T_tracked.heading_rad - usual.heading_rad)));
-  return text;
 }
 
 PutRight mountings_put_right(const std::vector<Recording>& recordings, const Vehicle& nominal,

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
 
 namespace odolab {
@@ -57,8 +57,7 @@ std::optional<Error> stamps_in_no_seconds(const Recording& recording) {
   const char* unit = usual < kTooFarApart_s * kThousand               ? "milliseconds"
                      : usual < kTooFarApart_s * kThousand * kThousand ? "microseconds"
                                                                       : "nanoseconds";
-  char found[80];
-  std::snprintf(found, sizeof found, "rows %.3g apart, which look like %s", usual, unit);
+  const std::string found = formatted("rows %.3g apart, which look like %s", usual, unit);
   return Error{"time_s", found, "seconds"};
 }
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/asked_effects.h"
 #include "core/diagnosis/diagnosis.h"
@@ -27,17 +27,11 @@ namespace {
 
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
 
-std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0) {
-  char buffer[300];
-  std::snprintf(buffer, sizeof buffer, format, a, b, c);
-  return buffer;
-}
-
 std::string in_words(const Finding& f) {
   std::string s = f.sentence;
   for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
     const FoundParameter& p = f.parameters[k];
-    s += (k == 0 ? " (" : ", ") + p.name + text(" %.4g +- %.2g", p.value, p.stderr_value) +
+    s += (k == 0 ? " (" : ", ") + p.name + formatted(" %.4g +- %.2g", p.value, p.stderr_value) +
          (p.unit == "1" ? "" : " " + p.unit);
   }
   if (!f.parameters.empty()) s += ")";
@@ -45,8 +39,9 @@ std::string in_words(const Finding& f) {
 }
 
 std::string in_words(const Undone& u, const std::string& recording) {
-  return recording + text(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) +
-         text(" by %.2g mm and %.2g degrees, and then back", 1e3 * u.away_m, std::abs(u.turned_rad) * 180.0 / kPi) +
+  return recording + formatted(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) +
+         formatted(" by %.2g mm and %.2g degrees, and then back", 1e3 * u.away_m,
+                   std::abs(u.turned_rad) * 180.0 / kPi) +
          ", as where a tracker loses a marker or the vehicle gives way; left out";
 }
 
@@ -306,30 +301,30 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
   for (const Adequacy::Ripple& r : adequacy.ripples)
     d.warnings.push_back("the " + r.channel.substr(0, r.channel.find(" per metre")) +
-                         text(" comes and goes %.3g times a turn, by ", r.times_a_turn) +
-                         text("%.2g %% of it, as a gear before it makes it do; it adds up to nothing over any way",
-                              100.0 * r.amplitude));
+                         formatted(" comes and goes %.3g times a turn, by ", r.times_a_turn) +
+                         formatted("%.2g %% of it, as a gear before it makes it do; it adds up to nothing over any way",
+                                   100.0 * r.amplitude));
   constexpr double kUneven_s = 0.02;
   if (const double timing_s = joint.model.noise.command_timing_s; timing_s > kUneven_s)
     d.warnings.push_back(
-        text("the base acts on each change of its command %.2g s sooner or later than on another, as "
-             "where it asks for commands every so often: that is taken for noise",
-             timing_s));
+        formatted("the base acts on each change of its command %.2g s sooner or later than on another, as "
+                  "where it asks for commands every so often: that is taken for noise",
+                  timing_s));
   if (const FittedNoise noise = joint.noise_as_recorded(); noise.wander_lasts_s > 0.0) {
     const double spread = std::sqrt(0.5 * noise.wander_lasts_s);
     const double off_rad = spread * noise.heading_wander_rad_per_sqrt_s;
-    d.warnings.push_back(text("the truth's error lasts for about %.2g s: ", noise.wander_lasts_s) +
-                         text("%.2g mm", 1e3 * spread * noise.wander_m_per_sqrt_s) +
-                         (off_rad > 0.0 ? text(" and %.2g degrees", off_rad * 180.0 / kPi) : "") +
-                         text(" of it, beside %.2g mm from one sample to the next; this is reckoned with",
-                              1e3 * noise.truth_position_m));
+    d.warnings.push_back(formatted("the truth's error lasts for about %.2g s: ", noise.wander_lasts_s) +
+                         formatted("%.2g mm", 1e3 * spread * noise.wander_m_per_sqrt_s) +
+                         (off_rad > 0.0 ? formatted(" and %.2g degrees", off_rad * 180.0 / kPi) : "") +
+                         formatted(" of it, beside %.2g mm from one sample to the next; this is reckoned with",
+                                   1e3 * noise.truth_position_m));
     // Which was what calibration found correlated, where nothing of that is left.
     if (joint.distrust() == 0.0) d.calibration_alone.innovations_are_correlated = false;
   }
   if (adequacy.sway)
     d.warnings.push_back(
         "the vehicle, or the truth by itself, comes and goes by " +
-        text("%.2g mm to either side with ", 1e3 * adequacy.sway->to_either_side_m) + adequacy.sway->wave +
+        formatted("%.2g mm to either side with ", 1e3 * adequacy.sway->to_either_side_m) + adequacy.sway->wave +
         ": no more than one sample of the truth errs, so which of both it is cannot be told; a stop of "
         "two such waves would");
   d.responses = responses_of(adequacy.generic, !joint.accepted.empty());

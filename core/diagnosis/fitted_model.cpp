@@ -1,7 +1,8 @@
 #include "core/diagnosis/fitted_model.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "core/base/formatted.h"
 
 namespace odolab {
 
@@ -121,12 +122,10 @@ Result<Done> fits(const FittedModel& model, const Vehicle& nominal) {
   if (!fitted || !drive) return Done{};
   if (fitted->counts_per_wheel_turn() != drive->counts_per_wheel_turn() ||
       fitted->counter_bits != drive->counter_bits) {
-    char found[96], expected[96];
-    std::snprintf(found, sizeof found, "%g counts per wheel turn, %d bits", fitted->counts_per_wheel_turn(),
-                  fitted->counter_bits);
-    std::snprintf(expected, sizeof expected, "the vehicle's %g counts, %d bits", drive->counts_per_wheel_turn(),
-                  drive->counter_bits);
-    return Error{"vehicle.differential_drive", found, expected};
+    constexpr const char* kCounts = "%g counts per wheel turn, %d bits";
+    return Error{"vehicle.differential_drive",
+                 formatted(kCounts, fitted->counts_per_wheel_turn(), fitted->counter_bits),
+                 "the vehicle's " + formatted(kCounts, drive->counts_per_wheel_turn(), drive->counter_bits)};
   }
   return Done{};
 }

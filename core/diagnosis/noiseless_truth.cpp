@@ -1,7 +1,6 @@
 #include "core/diagnosis/noiseless_truth.h"
 
-#include <cstdio>
-
+#include "core/base/formatted.h"
 #include "core/base/random.h"
 #include "core/calibration/carried_truth.h"
 #include "core/geometry/angles.h"
@@ -22,10 +21,8 @@ std::optional<AsIfMeasured> as_if_measured(const Recording& recording, const Veh
     if (!is_position && channel.name != "truth_heading_rad") continue;
     for (double& value : channel.values) value += (is_position ? position_m : kHeading_rad) * random.normal();
   }
-  char text[160];
-  std::snprintf(text, sizeof text, "; it is judged as if it had been measured to %.2g mm and %.2g degrees",
-                1e3 * position_m, degrees(kHeading_rad));
-  measured.said += text;
+  measured.said += formatted("; it is judged as if it had been measured to %.2g mm and %.2g degrees", 1e3 * position_m,
+                             degrees(kHeading_rad));
   return measured;
 }
 

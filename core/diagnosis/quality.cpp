@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "core/base/formatted.h"
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
@@ -22,9 +22,7 @@ namespace {
 
 // "15.0 to 15.5 s", and how many more.
 std::string times_text(const TimeStretches& times) {
-  char text[120];
-  std::snprintf(text, sizeof text, "from %.1f to %.1f s", times.front().first, times.front().second);
-  std::string all = text;
+  std::string all = formatted("from %.1f to %.1f s", times.front().first, times.front().second);
   if (times.size() > 1) all += " and " + std::to_string(times.size() - 1) + " time(s) more";
   return all;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/left_out.h"
@@ -71,11 +71,10 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
       std::vector<char> elsewhere;
       for (const double t : recording.time_s) elsewhere.push_back(t >= from_s && t <= to_s);
       leave_truth_out(recording, elsewhere);
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    ": from %.2f to %.2f s the truth is elsewhere, and then back where the wheels went; left out",
-                    from_s, to_s);
-      each[r]->warnings.push_back(recording.name + text);
+      each[r]->warnings.push_back(
+          recording.name +
+          formatted(": from %.2f to %.2f s the truth is elsewhere, and then back where the wheels went; left out",
+                    from_s, to_s));
     }
   return true;
 }
@@ -129,12 +128,10 @@ bool leave_out_what_encoders_lose(const ReadyRecordings& ready, const std::vecto
 std::string in_words(const std::vector<TruthJump>& jumps) {
   double squares_m2 = 0.0;
   for (const TruthJump& j : jumps) squares_m2 += dot(j.by, j.by);
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "the truth jumps at %d moments, by %.1f mm root mean square, sideways as much as ahead: they are left "
-                "out, and no push or bump at one moment can be told from them",
-                static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
-  return text;
+  return formatted(
+      "the truth jumps at %d moments, by %.1f mm root mean square, sideways as much as ahead: they are left "
+      "out, and no push or bump at one moment can be told from them",
+      static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
 }
 
 }  // namespace

@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "core/base/formatted.h"
 
 namespace odolab {
 
 namespace {
 
 constexpr double kStandardErrors = 3.0;  // of the rule, section 6.3
-
-template <typename... Numbers>
-std::string text_of(const char* form, Numbers... numbers) {
-  char text[240];
-  std::snprintf(text, sizeof text, form, numbers...);
-  return text;
-}
 
 }  // namespace
 
@@ -28,18 +22,19 @@ RestOfCalibration rest_of(const UmbmarkMeasure& measure, const UmbmarkRuns& runs
   const double rest_m = measure.largest_systematic_error_m;
   const double times = rest_m / (std::max(measure.spread_m, kTapeRounding_m) / std::sqrt(n));
   if (times > kStandardErrors)
-    return {true, text_of("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation is "
-                          "likely to help.",
-                          1e3 * rest_m, times)};
+    return {true, formatted("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation is "
+                            "likely to help.",
+                            1e3 * rest_m, times)};
   if (rest_m < kTapeRounding_m)
-    return {false, text_of("Nothing is left to correct: %.1f mm is less than a tape tells apart.", 1e3 * rest_m)};
+    return {false, formatted("Nothing is left to correct: %.1f mm is less than a tape tells apart.", 1e3 * rest_m)};
   if (rest_m <= measure.spread_m)
-    return {false, text_of("Nothing is left to correct: %.1f mm is within the spread of the returns, %.1f standard "
-                           "errors of its own centre.",
-                           1e3 * rest_m, times)};
-  return {false, text_of("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation would "
-                         "fit chance.",
-                         1e3 * rest_m, times)};
+    return {false, formatted("Nothing is left to correct: %.1f mm is within the spread of the returns, %.1f standard "
+                             "errors of its own centre.",
+                             1e3 * rest_m, times)};
+  return {false,
+          formatted("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation would "
+                    "fit chance.",
+                    1e3 * rest_m, times)};
 }
 
 }  // namespace odolab

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/base/formatted.h"
 #include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/refuted.h"
@@ -23,11 +24,7 @@ std::string more_of(std::size_t count, const char* one, const char* several) {
 
 constexpr const char* kPlusMinus = " \xC2\xB1 ";
 
-std::string decimals_of(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", std::clamp(decimals, 0, 9), value);
-  return text;
-}
+std::string decimals_of(double value, int decimals) { return formatted("%.*f", std::clamp(decimals, 0, 9), value); }
 
 int exponent_of(double value) {
   return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6));

@@ -2,8 +2,8 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -56,9 +56,7 @@ struct JsonWriter {
       } else if (c == '\n') {
         text += "\\n";
       } else if (static_cast<unsigned char>(c) < 0x20) {
-        char code[8];
-        std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-        text += code;
+        text += formatted("\\u%04x", static_cast<unsigned>(c));
       } else {
         text += c;
       }

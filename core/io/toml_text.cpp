@@ -1,7 +1,6 @@
 #include "core/io/toml_text.h"
 
-#include <cstdio>
-
+#include "core/base/formatted.h"
 #include "core/io/number_text.h"
 
 namespace odolab {
@@ -24,9 +23,7 @@ std::string quoted_text(const std::string& value) {
     } else if (c == '\n') {
       text += "\\n";
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04X", static_cast<unsigned>(c));
-      text += code;
+      text += formatted("\\u%04X", static_cast<unsigned>(c));
     } else {
       text += c;
     }

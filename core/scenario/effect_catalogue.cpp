@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "core/base/formatted.h"
 
 namespace odolab {
 
@@ -58,9 +59,8 @@ void check_parameters(const ActiveEffect& active, const EffectEntry& entry, cons
       problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " +
                          joined(names));
     } else if (!(value >= known->at_least && value <= known->at_most)) {
-      char text[96];
-      std::snprintf(text, sizeof text, ": found %g, expected %g to %g", value, known->at_least, known->at_most);
-      problems.push_back(key + "." + name + text);
+      problems.push_back(key + "." + name +
+                         formatted(": found %g, expected %g to %g", value, known->at_least, known->at_most));
     }
   }
   for (const EffectParameter& p : entry.parameters) {

@@ -1,6 +1,6 @@
 #include "core/scenario/floor.h"
 
-#include <cstdio>
+#include "core/base/formatted.h"
 
 namespace odolab {
 
@@ -30,9 +30,7 @@ struct Contains {
 };
 
 std::string sentence(const std::string& key, double found, const char* expected) {
-  char number[32];
-  std::snprintf(number, sizeof number, "%g", found);
-  return key + ": found " + number + ", expected " + expected;
+  return key + formatted(": found %g, expected ", found) + expected;
 }
 
 struct ShapeProblem {

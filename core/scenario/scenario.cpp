@@ -1,8 +1,8 @@
 #include "core/scenario/scenario.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/scenario/effect_catalogue.h"
 
 namespace odolab {
@@ -32,14 +32,10 @@ std::vector<std::string> problems_in(const Scenario& s) {
   std::vector<std::string> problems;
   const auto demand = [&](bool holds, const char* key, double found, const char* expected) {
     if (holds) return;
-    char text[200];
-    std::snprintf(text, sizeof text, "%s: found %g, expected %s", key, found, expected);
-    problems.emplace_back(text);
+    problems.push_back(formatted("%s: found %g, expected %s", key, found, expected));
   };
   const auto demand_positive = [&](const char* key, double value, const char* unit) {
-    char expected[64];
-    std::snprintf(expected, sizeof expected, "a value above 0 %s", unit);
-    demand(std::isfinite(value) && value > 0.0, key, value, expected);
+    demand(std::isfinite(value) && value > 0.0, key, value, formatted("a value above 0 %s", unit).c_str());
   };
   for (const std::string& p : problems_in(s.vehicle.kind)) problems.push_back("vehicle." + p);
   const bool one_drive = std::holds_alternative<DifferentialDrive>(s.vehicle.kind);

@@ -1,19 +1,15 @@
 #include "core/vehicle/demands.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/vehicle/differential_drive.h"
 
 namespace odolab {
 
 namespace {
 
-std::string text_of(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string text_of(double value) { return formatted("%g", value); }
 
 }  // namespace
 

@@ -1,7 +1,8 @@
 #include "ui/look/units.h"
 
 #include <cmath>
-#include <cstdio>
+
+#include "core/base/formatted.h"
 
 namespace odolab::ui {
 
@@ -9,12 +10,11 @@ namespace {
 
 std::string number(double value, int decimals) {
   if (!std::isfinite(value)) return "–";
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value));
+  const std::string text = formatted("%.*f", decimals, std::abs(value));
   // No minus before a number that is written as zero.
   bool zero = true;
-  for (const char* c = text; *c; ++c) zero = zero && (*c == '0' || *c == '.');
-  return value < 0.0 && !zero ? std::string("−") + text : std::string(text);
+  for (const char c : text) zero = zero && (c == '0' || c == '.');
+  return value < 0.0 && !zero ? "−" + text : text;
 }
 
 // A degree sign stands at its number, other units after a space.
@@ -47,23 +47,11 @@ std::string shown_length(double metres) {
 std::string clock(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) seconds = 0.0;
   const long hundredths = std::lround(seconds * 100.0);
-  char text[48];
-  if (hundredths >= 360000) {
-    const long whole = hundredths / 100;
-    std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
-    return text;
-  }
-  std::snprintf(text, sizeof text, "%02ld:%02ld.%02ld", hundredths / 6000, hundredths / 100 % 60, hundredths % 100);
-  return text;
+  const long whole = hundredths / 100;
+  if (hundredths >= 360000) return formatted("%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return formatted("%02ld:%02ld.%02ld", whole / 60, whole % 60, hundredths % 100);
 }
 
-std::string times(double factor) {
-  char text[32];
-  if (factor >= 9.95)
-    std::snprintf(text, sizeof text, "×%.0f", factor);
-  else
-    std::snprintf(text, sizeof text, "×%.2g", factor);
-  return text;
-}
+std::string times(double factor) { return formatted(factor >= 9.95 ? "×%.0f" : "×%.2g", factor); }
 
 }  // namespace odolab::ui

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/formatted.h"
+
 namespace odolab::ui {
 
 namespace {
@@ -124,11 +126,10 @@ bool text_button(const char* label, const Theme& theme, const ButtonLook& look, 
 }
 
 bool job_progress(double share_done, const Theme& theme, float bar_width, float button_width) {
-  char share[32];
-  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * share_done);
+  const std::string share = formatted("%.0f %%", 100.0 * share_done);
   if (bar_width <= 0.0f) bar_width = ImGui::GetContentRegionAvail().x - theme.px(84);
   ImGui::PushStyleColor(ImGuiCol_Text, share_done > 0.5 ? theme.on_ink : theme.ink);
-  ImGui::ProgressBar(float(share_done), {bar_width, 0.0f}, share);
+  ImGui::ProgressBar(float(share_done), {bar_width, 0.0f}, share.c_str());
   ImGui::PopStyleColor();
   ImGui::SameLine();
   return text_button("Cancel", theme, {}, button_width);

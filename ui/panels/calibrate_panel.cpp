@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/guide/rest.h"
 #include "ui/look/widgets.h"
 
@@ -102,9 +102,8 @@ Actions calibrate_panel(const Bench& bench, CalibrateState& state, const Theme& 
 
   step_heading(1, "Drive squares both ways", measured, !measured, theme);
   if (!measured || n == 1) {
-    char words[160];
-    std::snprintf(words, sizeof words,
-                  "%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
+    const std::string words =
+        formatted("%g m square, stop and turn on the spot at each corner; the return error is measured.", bench.side_m);
     if (!measured) note(words, theme);
     if (!bench.running && !measured && !lost)
       count_row("Runs each way", "##runs", state.runs_each_way, 1, 50,

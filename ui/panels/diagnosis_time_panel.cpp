@@ -1,8 +1,8 @@
 #include "ui/panels/diagnosis_time_panel.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/vehicle/key_words.h"
 #include "ui/look/widgets.h"
 
@@ -20,18 +20,12 @@ std::string brush_words(const DiagnosedRun& run, const DiagnosisState& state) {
     after = std::max(after, run.mismatch->largest_after(s.first, s.second));
     length_s += s.second - s.first;
   }
-  char text[160];
+  std::string all;
   if (state.brush.size() == 1)
-    std::snprintf(text, sizeof text, "%.2f to %.2f s: up to %.1f× the noise", state.brush[0].first,
-                  state.brush[0].second, before);
+    all = formatted("%.2f to %.2f s: up to %.1f× the noise", state.brush[0].first, state.brush[0].second, before);
   else
-    std::snprintf(text, sizeof text, "%zu stretches, %.1f s: up to %.1f× the noise", state.brush.size(), length_s,
-                  before);
-  std::string all = text;
-  if (!run.mismatch->after.empty()) {
-    std::snprintf(text, sizeof text, ", with what was found %.1f×", after);
-    all += text;
-  }
+    all = formatted("%zu stretches, %.1f s: up to %.1f× the noise", state.brush.size(), length_s, before);
+  if (!run.mismatch->after.empty()) all += formatted(", with what was found %.1f×", after);
   return all;
 }
 

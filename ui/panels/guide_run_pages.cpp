@@ -1,7 +1,7 @@
 // The pages of the drive: runs that are typed, dropped or simulated, and recordings.
 #include <algorithm>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "ui/panels/guide_entry_parts.h"
 
 namespace odolab::ui {
@@ -16,10 +16,9 @@ Actions entry_form(const GuideView& view, PageTask task, GuidePageState& state, 
   if (round.runs.empty() && s.draft.source.empty()) s.draft.clockwise = true;
   const bool needs_heading = s.kind == GuideKind::extended_umbmark;
   if (needs_heading) s.draft.has_heading = true;
-  char title[64];
-  std::snprintf(title, sizeof title, "Next run: %s %d", s.draft.clockwise ? "cw" : "ccw",
-                counted(round, s.draft.clockwise) + 1);
-  heading(title, theme);
+  const std::string title =
+      formatted("Next run: %s %d", s.draft.clockwise ? "cw" : "ccw", counted(round, s.draft.clockwise) + 1);
+  heading(title.c_str(), theme);
   const float width = ImGui::GetContentRegionAvail().x;
   if (width > theme.px(600)) ImGui::SameLine(theme.px(190));
   if (const auto way = segmented("way", {"clockwise", "counter-clockwise"}, s.draft.clockwise ? 0 : 1, theme)) {

@@ -1,8 +1,8 @@
 #include "ui/panels/lesson_panel.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -91,9 +91,8 @@ Actions mystery(const LessonView& view, const LessonStep& step, const Theme& the
     ask.primary = true;
     ask.enabled = answered && !view.busy;
     ask.why_disabled = view.busy ? "Busy " + view.job + "." : "Guess first.";
-    char tip[128];
-    std::snprintf(tip, sizeof tip, "%zu drives are simulated and diagnosed as recordings would be.",
-                  step.mystery->drives.size());
+    const std::string tip =
+        formatted("%zu drives are simulated and diagnosed as recordings would be.", step.mystery->drives.size());
     ask.tip = tip;
     if (text_button("Ask the tool", theme, ask, width)) actions.push_back(AskMystery{});
     return actions;
@@ -141,8 +140,7 @@ Actions lesson_panel(const LessonView& view, LessonPanelState& state, const Them
     WithFont strong(theme.strong);
     words(lesson.title, theme.ink);
   }
-  char where[64];
-  std::snprintf(where, sizeof where, "step %d of %zu", at + 1, lesson.steps.size());
+  const std::string where = formatted("step %d of %zu", at + 1, lesson.steps.size());
   bool bets = false;
   for (const LessonStep& s : lesson.steps) bets = bets || (s.question && s.question->bet);
   note(bets ? std::string(where) + ", " + std::to_string(view.progress->points) + " points" : where, theme);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/calibration/smoothed_readings.h"
 
 namespace odolab {
@@ -11,12 +11,6 @@ namespace odolab {
 namespace {
 
 constexpr double kWheelPeriod_s = 0.02;
-
-std::string text(const char* format, double a = 0.0, double b = 0.0, double c = 0.0, double d = 0.0) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, a, b, c, d);
-  return buffer;
-}
 
 void rest(AdvisedDrive& m, double duration_s = 0.5) { m.legs.push_back({duration_s, 0.0, 0.0}); }
 
@@ -55,28 +49,29 @@ std::vector<AdvisedDrive> advised_drives(const DrivingRange& range) {
     return all.back();
   };
   {
-    AdvisedDrive& m = add(text("%.1f m straight forwards and back in reverse, at %.2g and %.2g m/s", side, slow, fast));
+    AdvisedDrive& m =
+        add(formatted("%.1f m straight forwards and back in reverse, at %.2g and %.2g m/s", side, slow, fast));
     for (double v : {slow, fast}) straight(m, side, v), straight(m, side, -v);
   }
   {
-    AdvisedDrive& m = add(text("a square of %.1f m both ways at %.2g m/s, turning on the spot", 0.6 * side, fast));
+    AdvisedDrive& m = add(formatted("a square of %.1f m both ways at %.2g m/s, turning on the spot", 0.6 * side, fast));
     for (double sense : {1.0, -1.0})
       for (int k = 0; k < 4; ++k) straight(m, 0.6 * side, fast), spin(m, sense * 0.5 * kPi, spin_slow);
   }
   {
-    AdvisedDrive& m = add(text("turns of %.2g m radius, both ways, at %.2g and %.2g m/s", radius, slow, fast));
+    AdvisedDrive& m = add(formatted("turns of %.2g m radius, both ways, at %.2g and %.2g m/s", radius, slow, fast));
     for (double v : {slow, fast}) arc(m, radius, 1.5 * kPi, v), arc(m, radius, -1.5 * kPi, v);
   }
   {
-    AdvisedDrive& m = add(text("turns of %.2g and of %.2g m radius, both ways, at %.2g m/s", radius, wide, fast));
+    AdvisedDrive& m = add(formatted("turns of %.2g and of %.2g m radius, both ways, at %.2g m/s", radius, wide, fast));
     for (double r : {radius, wide}) arc(m, r, 1.5 * kPi, fast), arc(m, r, -1.5 * kPi, fast);
   }
   {
-    AdvisedDrive& m = add(text("turns on the spot, both ways, at %.2g and %.2g rad/s", spin_slow, spin_fast));
+    AdvisedDrive& m = add(formatted("turns on the spot, both ways, at %.2g and %.2g rad/s", spin_slow, spin_fast));
     for (double w : {spin_slow, spin_fast}) spin(m, 2.0 * kPi, w), spin(m, -2.0 * kPi, w);
   }
   for (double v : {fast, slow}) {
-    AdvisedDrive& m = add(text("figures of eight with turns of %.2g m radius at %.2g m/s", radius, v));
+    AdvisedDrive& m = add(formatted("figures of eight with turns of %.2g m radius at %.2g m/s", radius, v));
     for (int k = 0; k < 2; ++k) {
       arc(m, radius, 2.0 * kPi, v), m.legs.pop_back();
       arc(m, radius, -2.0 * kPi, v), m.legs.pop_back();
@@ -85,26 +80,26 @@ std::vector<AdvisedDrive> advised_drives(const DrivingRange& range) {
   }
   {
     AdvisedDrive& m =
-        add(text("a straight of stops and goes, hard on and hard off, up to %.2g m/s, and back in reverse", fast));
+        add(formatted("a straight of stops and goes, hard on and hard off, up to %.2g m/s, and back in reverse", fast));
     for (double v : {fast, -fast})
       for (int k = 0; k < 6; ++k) m.legs.push_back({1.2, v, 0.0}), rest(m, 1.2);
   }
   {
     AdvisedDrive& m =
-        add(text("forth and back ten times, 0.3 m each, at %.2g m/s, in turns of %.2g m radius", slow, radius));
+        add(formatted("forth and back ten times, 0.3 m each, at %.2g m/s, in turns of %.2g m radius", slow, radius));
     for (int k = 0; k < 10; ++k) {
       const double sense = k % 2 == 0 ? 1.0 : -1.0;
       arc(m, radius, sense * 0.3 / radius, slow), arc(m, radius, -sense * 0.3 / radius, -slow);
     }
   }
   {
-    AdvisedDrive& m =
-        add(text("five times a turn on the spot at %.2g rad/s and then straight off at %.2g m/s", spin_slow, fast));
+    AdvisedDrive& m = add(
+        formatted("five times a turn on the spot at %.2g rad/s and then straight off at %.2g m/s", spin_slow, fast));
     for (int k = 0; k < 5; ++k) spin(m, (k % 2 == 0 ? 1.0 : -1.0) * kPi, spin_slow), straight(m, 0.5 * side, fast);
   }
   {
-    AdvisedDrive& m = add(
-        text("%.1f m straight at %.2g, %.2g and %.2g m/s, turning about at each end", side, slow, 0.65 * fast, fast));
+    AdvisedDrive& m = add(formatted("%.1f m straight at %.2g, %.2g and %.2g m/s, turning about at each end", side, slow,
+                                    0.65 * fast, fast));
     for (double v : {slow, 0.65 * fast, fast})
       for (int k = 0; k < 2; ++k) straight(m, side, v), spin(m, kPi, spin_slow);
   }

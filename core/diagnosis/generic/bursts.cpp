@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/model/coarse_counts.h"
@@ -33,9 +33,8 @@ std::string in_words(const std::vector<Burst>& bursts, const JointModel& joint) 
   constexpr std::size_t kMostSaid = 3;
   std::string words;
   for (std::size_t k = 0; k < std::min(bursts.size(), kMostSaid); ++k) {
-    char text[40];
-    std::snprintf(text, sizeof text, " at %.1f s", bursts[k].at_s);
-    words += (k == 0 ? "" : ", ") + joint.runs()[static_cast<std::size_t>(bursts[k].run)].name + text;
+    words += (k == 0 ? "" : ", ") + joint.runs()[static_cast<std::size_t>(bursts[k].run)].name +
+             formatted(" at %.1f s", bursts[k].at_s);
   }
   return words;
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/diagnosis/naming/material.h"
 
 namespace odolab {
@@ -128,16 +128,13 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
         (!heading_is_off || error.heading_rad2 < kHalf * before.heading_rad2))
       return std::nullopt;
   }
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
+  Unnamed u;
+  u.where.recording = named.runs()[static_cast<std::size_t>(first_run)].name;
+  u.where.regime = formatted(
       "what was held out is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f "
       "mm and %.3f",
       1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
       1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
-  Unnamed u;
-  u.where.recording = named.runs()[static_cast<std::size_t>(first_run)].name;
-  u.where.regime = text;
   return u;
 }
 
@@ -148,9 +145,8 @@ std::string in_words(std::vector<Moment> moments, const JointModel& joint) {
   });
   std::string words;
   for (const Moment& m : moments) {
-    char text[40];
-    std::snprintf(text, sizeof text, " at %.1f s", m.at_s);
-    words += (words.empty() ? "" : ", ") + joint.runs()[static_cast<std::size_t>(m.run)].name + text;
+    words += (words.empty() ? "" : ", ") + joint.runs()[static_cast<std::size_t>(m.run)].name +
+             formatted(" at %.1f s", m.at_s);
   }
   return words;
 }
@@ -187,12 +183,9 @@ std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   for (const DriveView& view : joint.views())
     for (const EffectStep& s : view.steps) rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
   if (rolled_m < kFewest_m) return std::nullopt;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls",
-                1e3 * scatter);
   Unnamed u;
-  u.where.regime = text;
+  u.where.regime = formatted(
+      "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls", 1e3 * scatter);
   return u;
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <functional>
 #include <iterator>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/counted.h"
 
@@ -95,8 +95,7 @@ std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_a
   std::vector<GenericTest> tests(kSwingingTests);
   parallel_for(kSwingingTests, [&](int i) {
     const double period_s = kPeriods_s[i];
-    char variable[100];
-    std::snprintf(variable, sizeof variable, "changes of its motion, as if something swung on in %.2g s", period_s);
+    const std::string variable = formatted("changes of its motion, as if something swung on in %.2g s", period_s);
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     t = asked_of(
         asked, variable, "pace, yaw rate and pace sideways", kTermsOfAWay * ways,

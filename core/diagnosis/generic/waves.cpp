@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/generic/swaying_truth.h"
@@ -50,16 +50,15 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
 }
 
 std::string name_of(const Wave& wave) {
-  char text[120];
   if (wave.on_the_floor())
-    std::snprintf(text, sizeof text, "place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
-                  std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
+    return formatted("place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
+                     std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
   for (const Axis& axis : kAxes)
     if (is_of_a_wheel(wave.along))
-      std::snprintf(text, sizeof text, "its angle, %.3g times a turn", wave.per_unit);
+      return formatted("its angle, %.3g times a turn", wave.per_unit);
     else if (axis.along == wave.along)
-      std::snprintf(text, sizeof text, "%s, in waves of %.2g %s", axis.name, 1.0 / wave.per_unit, axis.unit);
-  return text;
+      return formatted("%s, in waves of %.2g %s", axis.name, 1.0 / wave.per_unit, axis.unit);
+  return "";
 }
 
 }  // namespace

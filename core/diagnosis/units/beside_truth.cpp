@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/diagnosis/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
 #include "core/diagnosis/units/errors_of_lengths.h"
@@ -38,8 +39,8 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
     if (f == d.findings.end() || runs.size() < 2 || e.is_from_inside) continue;
     const double ratio = left_out_ratio(runs, nominal, e.parameter.name);
     if (ratio < 1.0) {
-      char text[120];
-      std::snprintf(text, sizeof text, "; what the parts contradict in runs left out falls to %.0f %%", 100.0 * ratio);
+      const std::string text =
+          formatted("; what the parts contradict in runs left out falls to %.0f %%", 100.0 * ratio);
       f->sentence += text;
     } else {
       d.findings.erase(f);

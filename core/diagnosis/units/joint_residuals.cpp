@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_shapes.h"
@@ -258,13 +258,12 @@ void add_erring_joint(const ErringJoint& erring, const Vehicle& vehicle, Diagnos
   const std::string& name = own.words;
   const double thousands = 1e3;
   const bool by_way = erring.play > erring.size;
-  char text[300];
-  std::snprintf(text, sizeof text,
-                "something that no entry of the catalogue describes: the encoder of %s errs %s against wheels and "
-                "truth, by %.3g m%s where its steps are %.2g; what they contradict in runs left out falls to %.0f %%",
-                name.c_str(), by_way ? "by which way it went last, as play does," : "by what it reads",
-                thousands * (by_way ? erring.play : erring.size), own.unit.c_str(), thousands * erring.step,
-                100.0 * erring.left_out_ratio);
+  const std::string text = formatted(
+      "something that no entry of the catalogue describes: the encoder of %s errs %s against wheels and "
+      "truth, by %.3g m%s where its steps are %.2g; what they contradict in runs left out falls to %.0f %%",
+      name.c_str(), by_way ? "by which way it went last, as play does," : "by what it reads",
+      thousands * (by_way ? erring.play : erring.size), own.unit.c_str(), thousands * erring.step,
+      100.0 * erring.left_out_ratio);
   Finding f;
   f.effect = "unknown";
   f.component = own.component;

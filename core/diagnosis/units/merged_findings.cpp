@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/traces.h"
@@ -81,13 +82,10 @@ std::optional<Bias> bias_of(const VehicleUnit& unit) {
 // Encoders that only contradict each other from the inside tell lengths as shares of the wheels'.
 std::string or_scale_in_words(const JointEstimate& e) {
   const double off = e.value - e.nominal;
-  char text[300];
-  std::snprintf(text, sizeof text,
-                "the link's encoder reads %.1f +- %.1f mm %s than the link is long, or all wheels are %s than in the "
-                "vehicle file by as large a share: a straight measured with a tape, or an outside truth, would tell",
-                1e3 * std::abs(off), 1e3 * e.stderr_value, off > 0.0 ? "more" : "less",
-                off > 0.0 ? "larger" : "smaller");
-  return text;
+  return formatted(
+      "the link's encoder reads %.1f +- %.1f mm %s than the link is long, or all wheels are %s than in the "
+      "vehicle file by as large a share: a straight measured with a tape, or an outside truth, would tell",
+      1e3 * std::abs(off), 1e3 * e.stderr_value, off > 0.0 ? "more" : "less", off > 0.0 ? "larger" : "smaller");
 }
 
 bool takes_place_in(const Finding& event, const WhereFound::Zone& zone) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "core/base/formatted.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -26,11 +27,9 @@ using Statement = std::unique_ptr<sqlite3_stmt, Close>;
 std::string uri_of(const std::string& path, bool with_log) {
   std::string uri = "file:";
   for (char c : std::filesystem::absolute(path).string()) {
-    char code[4];
-    std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned char>(c));
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' ||
                        c == '.' || c == '_' || c == '-';
-    uri += plain ? std::string(1, c) : std::string(code);
+    uri += plain ? std::string(1, c) : formatted("%%%02X", static_cast<unsigned char>(c));
   }
   return uri + (with_log ? "?mode=ro" : "?mode=ro&immutable=1");
 }

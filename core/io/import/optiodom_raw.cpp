@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/base/formatted.h"
 #include "core/io/import/clock_alignment.h"
 #include "core/io/import/format.h"
 #include "core/io/import/number_rows.h"
@@ -161,11 +162,7 @@ void keep_between(SampledChannels& sampled, double from_s, double to_s) {
   for (Channel& c : sampled.channels) c.values = {c.values.begin() + begin, c.values.begin() + end};
 }
 
-std::string rounded_text(double value, int decimals) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+std::string rounded_text(double value, int decimals) { return formatted("%.*f", decimals, value); }
 
 Result<ImportedRecording> read(const std::vector<std::string>& sources) {
   if (sources.size() > 2) return Error{sources[2], "a third file", "an _odo.csv and an _opti.csv"};

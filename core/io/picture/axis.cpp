@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "core/base/formatted.h"
 
 namespace odolab {
 
@@ -32,14 +33,13 @@ Axis axis_over(double low, double high, double low_px, double high_px) {
 
 std::string tick_text(double value, double step) {
   if (std::abs(value) < 1e-9 * step) value = 0.0;
-  char text[32];
+  std::string result;
   if (step >= 1e6 || step < 1e-5) {
-    std::snprintf(text, sizeof text, "%.3g", value);
+    result = formatted("%.3g", value);
   } else {
     const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    result = formatted("%.*f", decimals, value);
   }
-  std::string result = text;
   if (result[0] == '-') result.replace(0, 1, "\xE2\x88\x92");
   return result;
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/base/formatted.h"
 #include "core/io/picture/axis.h"
 #include "core/io/picture/svg.h"
 
@@ -99,8 +99,7 @@ std::string scatter_picture(const ScatterPicture& picture) {
     svg.line(at(0.0, 0.0), at(centre.x, centre.y), {cloud.colour(), 1.4, "5 3"});
   }
   for (const Cloud& cloud : clouds)
-    for (const ReturnError& e : *cloud.errors)
-      draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud);
+    for (const ReturnError& e : *cloud.errors) draw_mark(svg, at(kMm * e.x_m, kMm * e.y_m), cloud);
   for (const Cloud& cloud : clouds) {
     const Point centre = mean_mm(*cloud.errors);
     draw_centre(svg, at(centre.x, centre.y));
@@ -110,9 +109,7 @@ std::string scatter_picture(const ScatterPicture& picture) {
   double legend_x = left;
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Point centre = mean_mm(*clouds[i].errors);
-    char text[120];
-    std::snprintf(text, sizeof text, "%s: %.0f mm", clouds[i].label.c_str(),
-                  std::hypot(centre.x, centre.y));
+    const std::string text = formatted("%s: %.0f mm", clouds[i].label.c_str(), std::hypot(centre.x, centre.y));
     draw_mark(svg, {legend_x + 6.0, legend_y - 4.0}, clouds[i]);
     svg.text({legend_x + 20.0, legend_y}, text);
     legend_x += 0.5 * (right - left);

@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "core/diagnosis/units/outside_truth.h"
-#include "test/support/linked_runs.h"
+#include "test/support/crooked_vehicles.h"
 
 namespace odolab::test {
 namespace {
@@ -36,6 +35,59 @@ TEST(GeometryFit, KnowsADrawbarThoughHeadingsErr) {
   }
   EXPECT_LT(std::abs(off_in_errors), 3.0) << 1e3 * off_m << " mm";
   EXPECT_LT(std::abs(off_m), 0.006 * actual.drawbar_length_m);
+}
+
+TEST(GeometryFit, FindsTheOffsetsOfTheLinkAndTheClockOfTheTruth) {
+  Clapper actual = crooked_clapper();
+  actual.link_angle_a_offset_rad = 0.008;
+  actual.link_angle_b_offset_rad = -0.012;
+  actual.link_length_offset_m = 0.006;
+  std::vector<JoinedRun> runs;
+  for (const Recording& r : clapper_runs(actual, {}, 11)) {
+    runs.push_back({unit_samples(r, vehicle_of(Clapper{})), tracked_poses(r)});
+    for (TimedPose& p : runs.back().tracked) p.time_s += 0.03;
+  }
+  const GeometryFit fit = fitted_geometry(runs, vehicle_of(Clapper{}));
+  for (const JointEstimate& e : fit.joints) {
+    Vehicle truth = vehicle_of(actual);
+    EXPECT_TRUE(e.determined) << e.parameter.name;
+    EXPECT_NEAR(e.value, e.parameter.of(truth), 4.0 * e.stderr_value) << e.parameter.name;
+    EXPECT_LT(e.stderr_value, 0.002) << e.parameter.name;
+  }
+  for (std::size_t r = 0; r < runs.size(); ++r) EXPECT_NEAR(fit.clock_s[r], 0.03, 4.0 * fit.clock_stderr_s[r]);
+}
+
+TEST(GeometryFit, FindsHowFarPivotsAreApart) {
+  const MultiCastor actual = castors_with_pivots_elsewhere();
+  std::vector<JoinedRun> runs;
+  const Vehicle nominal = vehicle_of(three_castor_vehicle());
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const Recording r = castor_run(actual, {}, 271 + k);
+    runs.push_back({unit_samples(r, nominal), tracked_poses(r)});
+  }
+  GeometryFit fit = fitted_geometry(runs, nominal);
+  set_most_pivots_right(fit);
+  const auto& found = std::get<MultiCastor>(fit.vehicle.kind).castors;
+  double variance = 0.0, offset_error_rad = 0.0;  // of a pivot's place along one direction, at most
+  for (const JointEstimate& e : fit.joints) {
+    const bool radius = e.parameter.name.find("pivot_radius") != std::string::npos,
+               angle = e.parameter.name.find("pivot_angle") != std::string::npos;
+    const double error_m = radius ? e.stderr_value : angle ? 0.25 * e.stderr_value : 0.0;
+    variance = std::max(variance, error_m * error_m);
+    if (e.parameter.effect == "pivot_angle_bias") offset_error_rad = std::max(offset_error_rad, e.stderr_value);
+  }
+  const double error_m = std::sqrt(2.0 * variance);
+  const auto apart_m = [](const std::vector<Castor>& castors, std::size_t k) {
+    return length(castors[k].pivot() - castors[(k + 1) % castors.size()].pivot());
+  };
+  double off_in_file_m = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double actual_m = apart_m(actual.castors, k);
+    off_in_file_m = std::max(off_in_file_m, std::abs(apart_m(three_castor_vehicle().castors, k) - actual_m));
+    EXPECT_NEAR(apart_m(found, k), actual_m, 4.0 * error_m);
+    EXPECT_NEAR(found[k].pivot_encoder_offset_rad, 0.0, 4.0 * offset_error_rad);
+  }
+  EXPECT_LT(4.0 * error_m, off_in_file_m);
 }
 
 }  // namespace

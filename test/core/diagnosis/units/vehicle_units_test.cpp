@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "test/support/crooked_vehicles.h"
+
 namespace odolab::test {
 namespace {
 
@@ -40,6 +42,31 @@ TEST(WayOf, IsTheArcOfWheelsThatSpeedUpTogether) {
   EXPECT_NEAR(end.x_m, radius_m * std::sin(turn_rad), 1e-9);
   EXPECT_NEAR(end.y_m, radius_m * (1.0 - std::cos(turn_rad)), 1e-9);
   EXPECT_NEAR(end.heading_rad, turn_rad, 1e-12);
+}
+
+TEST(VehicleUnits, StandWhereTheKinematicsPutThem) {
+  const Clapper trucks = crooked_clapper();
+  LinkedKinematics linked(trucks, {1.0, 2.0, 0.3}, 0.4, -0.2, 1.02);
+  linked.move({0.3, 0.5}, {0.25, -0.2}, 2.0);
+  const LinkedSample read = linked.reading();
+  const Pose b = linked.a() * tracked_T_axle(vehicle_of(trucks), 1,
+                                             {read.link_angle_a_rad, read.link_angle_b_rad, read.link_length_m});
+  EXPECT_NEAR(length(b.position() - linked.b().position()), 0.0, 1e-12);
+  EXPECT_NEAR(wrapped(b.heading_rad - linked.b().heading_rad), 0.0, 1e-12);
+
+  // A castor's axle: its pivot goes with the body, and the axle rolls along itself.
+  const MultiCastor platform = crooked_castors();
+  CastorKinematics body(platform, {}, {0.1, 0.2, 0.3});
+  const auto axle = [&] {
+    std::vector<double> pivots;
+    for (const CastorReading& c : body.reading().castors) pivots.push_back(c.pivot_rad);
+    return body.body() * tracked_T_axle(vehicle_of(platform), 2, pivots);
+  };
+  const Pose before = axle();
+  body.move({0.2, 0.1, 0.3, 0.001});
+  const Pose moved = between(before, axle());
+  EXPECT_GT(moved.x_m, 1e-5);
+  EXPECT_NEAR(moved.y_m, 0.5 * moved.x_m * moved.heading_rad, 1e-9);  // the chord of an arc, and nothing sideways
 }
 
 }  // namespace

@@ -1,0 +1,407 @@
+#include "core/calibration/calibrated_by_all.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/formatted.h"
+#include "core/base/parallel.h"
+#include "core/calibration/cannot_be_told.h"
+#include "core/calibration/first_guess.h"
+#include "core/calibration/left_out.h"
+#include "core/calibration/likelihood_fit.h"
+#include "core/calibration/recording_fault.h"
+#include "core/calibration/restamped.h"
+#include "core/calibration/shape_guess.h"
+
+namespace odolab {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kColumns = column::first_extra;
+
+struct ColumnName {
+  const char* key;
+  const char* unit;
+};
+constexpr std::array<ColumnName, kColumns> kNames = {{{"wheel_radius_left_m", "m"},
+                                                      {"wheel_radius_right_m", "m"},
+                                                      {"wheelbase_m", "m"},
+                                                      {"truth_mounting.x_m", "m"},
+                                                      {"truth_mounting.y_m", "m"},
+                                                      {"truth_mounting.heading_rad", "rad"},
+                                                      {"truth_mounting.time_offset_s", "s"}}};
+// What wheels and body err along the way together, per root metre: how much of it is whose is often hard to tell.
+double along_in_all(const FittedNoise& noise) {
+  return std::hypot(noise.wheel_m_per_sqrt_m / std::sqrt(2.0), noise.along_m_per_sqrt_m);
+}
+
+// Whether the robots hardly ever changed their speed while they drove. Without headings, a clock that is late by dt
+// then looks like a tracked point that is v dt behind.
+bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  for (const InnovationRun& run : runs)
+    for (const DriveStep& step : drive_steps(run, drive)) {
+      const double speed = 0.5 * (step.left_m + step.right_m) / step.duration_s;
+      if (std::abs(speed) < 0.01) continue;
+      n += 1.0;
+      sum += speed;
+      squares += speed * speed;
+    }
+  constexpr double kSteady = 0.3;
+  return n < 2.0 || squares / n - sum * sum / (n * n) < kSteady * kSteady * sum * sum / (n * n);
+}
+
+// So far from each other that the likelihood may have another minimum in between.
+bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
+  constexpr double kNear = 0.1;
+  return std::abs(std::log(a.wheelbase_m / b.wheelbase_m)) > kNear ||
+         std::abs(std::log((a.wheel_radius_left_m + a.wheel_radius_right_m) /
+                           (b.wheel_radius_left_m + b.wheel_radius_right_m))) > kNear;
+}
+
+// No vehicle's file is wrong by a factor of five.
+bool is_beyond_belief(double ratio) {
+  constexpr double kMost = 5.0;
+  return !(ratio > 1.0 / kMost && ratio < kMost);
+}
+
+// For those who know nothing of clocks: the truth's stamps as they are by the vehicle's file.
+std::vector<InnovationRun> by_the_wheels_clock(std::vector<InnovationRun> runs, double truth_late_s) {
+  for (InnovationRun& run : runs)
+    for (TruthSample& t : run.truth) t.time_s -= truth_late_s;
+  return runs;
+}
+
+struct ReadRuns {
+  std::vector<InnovationRun> runs;
+  std::vector<std::string> put_right;  // what was, in words
+  bool any_heading = false;
+};
+
+Result<ReadRuns> read_runs(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                           const LeastSquaresOptions& options) {
+  ReadRuns all;
+  std::vector<std::optional<Result<InnovationRun>>> read(recordings.size());
+  parallel_for(static_cast<int>(recordings.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    read[r] = innovation_run(recordings[r], nominal, options.left_out_of(r));
+  });
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    Result<InnovationRun>& run = *read[r];
+    if (!run) return run.error();
+    all.any_heading = all.any_heading || run->truth_has_heading;
+    all.put_right.insert(all.put_right.end(), run->warnings.begin(), run->warnings.end());
+    if (r < options.clocks.size()) put_clock_right(*run, options.clocks[r].rate, options.clocks[r].offset_s);
+    all.runs.push_back(std::move(*run));
+  }
+  for (const std::optional<Error>& fault : faults_in(recordings, nominal))
+    if (fault) return *fault;
+  return all;
+}
+
+// One fit, from where it begins to what is reported of it.
+class FitOfAll {
+ public:
+  FitOfAll(ReadRuns read, const Vehicle& nominal, const LeastSquaresOptions& options)
+      : nominal_(nominal),
+        options_(options),
+        drive_(std::get<DifferentialDrive>(nominal.kind)),
+        any_heading_(read.any_heading),
+        clock_hides_in_place_(!any_heading_ && at_steady_speed(read.runs, drive_)),
+        said_(std::move(read.put_right)),
+        start_{{drive_, nominal.truth, {0.005, 0.005, 0.02}},
+               std::vector<double>(options.one_truth_clock ? 1 : read.runs.size(), nominal.truth.time_offset_s)} {
+    const std::vector<std::string> jumps = counter_jumps_in(read.runs);
+    said_.insert(said_.end(), jumps.begin(), jumps.end());
+    for (std::size_t r = 0; r < options.clocks.size(); ++r) start_.clock_s[r] = options.clocks[r].offset_s;
+    for (int c = 0; c < start_.size(); ++c)
+      if (is_asked_for(c) && may_show(c)) active_.push_back(c);
+    determined_.assign(static_cast<std::size_t>(start_.size()), 0);
+    fit_.emplace(std::move(read.runs), start_);
+  }
+
+  void begin_at(const FirstGuess& guess) {
+    if (options_.fit_drive && guess.trusted && far_apart(guess.drive, drive_)) fit_->start_from(guess.drive);
+    if (const auto shape = shape_guess(fit_->runs(), drive_, nominal_.truth)) {
+      if (options_.fit_drive) fit_->start_from(shape->drive);
+      if (options_.fit_truth_mounting) fit_->start_from(shape->tracked_m);
+    }
+  }
+
+  // Parameters, noise and outliers in turns, each linearised where the last ended: three rounds suffice where nothing
+  // is odd, since each depends little on the others. False where `progress` stops it.
+  bool fit_in_rounds(const Progress& progress) {
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds; ++round) {
+      const FittedNoise before = fit_->now().shared.noise;
+      fit_->fit_parameters(active_, 1.0, options_.most_iterations);
+      if (!goes_on(progress, (round + 0.5) / (kRounds + 1))) return false;
+      fit_->fit_noise(active_);
+      if (!goes_on(progress, (round + 1.0) / (kRounds + 1))) return false;
+      const bool changed = fit_->gate();
+      const FittedNoise& now = fit_->now().shared.noise;
+      const double moved = std::max({std::abs(std::log(along_in_all(now) / along_in_all(before))),
+                                     std::abs(std::log(now.truth_position_m / before.truth_position_m)),
+                                     std::abs(std::log(now.truth_heading_rad / before.truth_heading_rad))});
+      if (round > 0 && !changed && moved < 0.02) break;
+    }
+    return true;
+  }
+
+  // What these recordings determine, Eq. 11; the rest goes back to its nominal value and the fit is repeated without
+  // priors.
+  void keep_what_shows() {
+    determine();
+    if (options_.fit_drive && !(determined_[column::wheel_radius_left] && determined_[column::wheel_radius_right])) {
+      // A radius that stayed as it is, while ratios show, would put its error on the others.
+      fit_->hold_mean_radius();
+      determine();
+      scale_is_open_ = determined_[column::wheel_radius_left] || determined_[column::wheel_radius_right] ||
+                       determined_[column::wheelbase];
+    }
+    std::vector<int> kept;
+    for (int c : active_)
+      if (determined_[c])
+        kept.push_back(c);
+      else
+        fit_->hold_at_nominal(c);
+    fit_->fit_parameters(kept, 0.0, options_.most_iterations);
+  }
+
+  // An error where a radius or the wheelbase is beyond belief; `named`: the recordings, in words.
+  Result<LeastSquaresCalibration> reported(const std::string& named) const {
+    LeastSquaresCalibration result;
+    result.warnings = said_;
+    fit_->correlations(result.correlation);
+    const LikelihoodFit::Lasting lasting = fit_->lasting_correlation();
+    result.lasting_correlation = lasting.a_reading;
+    result.correlation_after_1_s = lasting.a_second;
+    const LikelihoodFit::Sums sums = fit_->sums(fit_->now(), true, kBatches);
+    result.innovations = sums.scalars;
+    const MatrixXd covariance = covariance_by(sums, result);
+    const Clock clock = clock_by(covariance);
+    if (const std::optional<Error> unbelievable = put_parameters(covariance, clock, named, result))
+      return *unbelievable;
+
+    const InnovationModel& model = fit_->now().shared;
+    result.vehicle = nominal_;
+    result.vehicle.kind = model.drive;
+    result.vehicle.truth = model.truth;
+    result.vehicle.truth.time_offset_s = clock.offset_s;
+    result.noise = model.noise;
+    if (!any_heading_) result.noise.truth_heading_rad = 0.0;
+    result.scale_is_open = scale_is_open_;
+    result.cannot_tell =
+        what_cannot_be_told(determined_, scale_is_open_, active_, fit_->runs(), model.drive, any_heading_);
+    if (clock_hides_in_place_)
+      result.cannot_tell.push_back(
+          "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a "
+          "tracked point further behind; both stay as given. Change the speed on the way, or stop now and then");
+    result.normalised_chi2 = sums.chi2 / std::max(1, sums.scalars);
+    FitParameters as_nominal = start_;
+    as_nominal.shared.noise = model.noise;
+    const LikelihoodFit::Sums nominal_sums = fit_->sums(as_nominal, false);
+    result.normalised_chi2_nominal = nominal_sums.chi2 / std::max(1, nominal_sums.scalars);
+    warn_of_truth(result);
+    warn_of_values(clock, result);
+    return result;
+  }
+
+ private:
+  static constexpr int kBatches = 60;
+
+  // The mean of the clocks of all recordings, weighted by their precision.
+  struct Clock {
+    double offset_s = 0.0;
+    double scatter = 0.0;  // the largest of a recording's, in standard errors
+    bool is_determined = false;
+    MatrixXd reported;  // each parameter as reported, by what is active
+  };
+
+  bool is_asked_for(int c) const {
+    if (c <= column::wheelbase) return options_.fit_drive;
+    if (c < column::shared) return options_.fit_truth_mounting;
+    return options_.fit_truth_clock;
+  }
+  bool may_show(int c) const {
+    if (c == column::mounting_heading) return any_heading_;
+    if (c == column::mounting_x) return !clock_hides_in_place_;
+    return c < column::shared || (options_.clocks.empty() && !clock_hides_in_place_);
+  }
+
+  int active_count() const { return static_cast<int>(active_.size()); }
+
+  MatrixXd of_active(const MatrixXd& all) const { return all(active_, active_); }
+
+  void determine() {
+    const int n = active_count();
+    fit_->fit_parameters(active_, 1.0, options_.most_iterations);
+    posterior_ = (of_active(fit_->sums_now().information) + fit_->information_held(active_) + MatrixXd::Identity(n, n))
+                     .inverse();
+    for (int k = 0; k < n; ++k) determined_[active_[k]] = std::sqrt(posterior_(k, k)) < kDetermined;
+  }
+
+  // Of what is active; what is held at its nominal value stays uncertain by its prior. Where the innovations are
+  // correlated, the scatter of the score says more than the model, Eq. 12, and `result` gets a warning. Under the null
+  // a correlation scatters by 1 / sqrt(n): four of them and a tenth are beyond chance and not negligible.
+  MatrixXd covariance_by(const LikelihoodFit::Sums& sums, LeastSquaresCalibration& result) const {
+    const int n = active_count();
+    MatrixXd precision = of_active(sums.information) + fit_->information_held(active_);
+    for (int k = 0; k < n; ++k) precision(k, k) += determined_[active_[k]] ? 1e-12 : 1.0;
+    const MatrixXd covariance = precision.inverse();
+    const double by_chance = 4.0 / std::sqrt(std::max(1.0, result.innovations / (any_heading_ ? 3.0 : 2.0)));
+    const double largest =
+        std::max({std::abs(result.correlation[0]), std::abs(result.correlation[1]), std::abs(result.correlation[2])});
+    if (largest <= std::max(0.1, by_chance)) return covariance;
+    VectorXd factor = VectorXd::Ones(n);
+    if (sums.batches >= kBatches / 2) {
+      const MatrixXd robust = covariance * of_active(sums.scatter) * covariance;
+      for (int k = 0; k < n; ++k)
+        if (determined_[active_[k]]) factor(k) = std::max(1.0, std::sqrt(robust(k, k) / covariance(k, k)));
+    }
+    result.innovations_are_correlated = true;
+    result.warnings.push_back(
+        formatted("the innovations are correlated (%.2f from one to the next): there is something that these "
+                  "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
+                  largest, n > 0 ? factor.maxCoeff() : 1.0));
+    return factor.asDiagonal() * covariance * factor.asDiagonal();
+  }
+
+  Clock clock_by(const MatrixXd& covariance) const {
+    const int n = active_count();
+    Clock clock;
+    clock.reported = MatrixXd::Zero(kColumns, n);
+    double weights = 0.0;
+    for (int k = 0; k < n; ++k) {
+      if (active_[k] < column::shared) clock.reported(active_[k], k) = 1.0;
+      if (active_[k] >= column::shared && determined_[active_[k]])
+        weights += clock.reported(column::truth_clock, k) = 1.0 / covariance(k, k);
+    }
+    clock.is_determined = weights > 0.0;
+    if (clock.is_determined) clock.reported.row(column::truth_clock) /= weights;
+    clock.offset_s = nominal_.truth.time_offset_s;
+    for (int k = 0; k < n; ++k)
+      if (active_[k] >= column::shared)
+        clock.offset_s += clock.reported(column::truth_clock, k) *
+                          (LikelihoodFit::value(fit_->now(), active_[k]) - nominal_.truth.time_offset_s);
+    for (int k = 0; k < n; ++k) {
+      const int c = active_[k];
+      if (c < column::shared || !determined_[c]) continue;
+      const double off_s = LikelihoodFit::value(fit_->now(), c) - clock.offset_s;
+      clock.scatter = std::max(clock.scatter, std::abs(off_s) / (fit_->prior(c) * std::sqrt(covariance(k, k))));
+    }
+    return clock;
+  }
+
+  std::optional<Error> put_parameters(const MatrixXd& covariance, const Clock& clock, const std::string& named,
+                                      LeastSquaresCalibration& result) const {
+    const MatrixXd of_reported = clock.reported * covariance * clock.reported.transpose();
+    std::vector<int> shown;
+    for (int c = 0; c < kColumns; ++c) {
+      if (!is_asked_for(c)) continue;
+      const bool is_clock = c == column::truth_clock;
+      const auto at = std::find(active_.begin(), active_.end(), c);
+      ParameterEstimate p;
+      p.name = kNames[c].key;
+      p.unit = kNames[c].unit;
+      p.nominal = is_clock ? nominal_.truth.time_offset_s : LikelihoodFit::value(start_, c);
+      p.value = is_clock ? clock.offset_s : LikelihoodFit::value(fit_->now(), c);
+      p.determined = is_clock ? clock.is_determined : determined_[c] != 0;
+      if (c <= column::wheelbase && p.determined && is_beyond_belief(p.value / p.nominal))
+        return Error{named, p.name + formatted(" of %.3g m where the vehicle's file has %.3g m", p.value, p.nominal),
+                     "wheels and truth of one robot, in the units that the columns are named after"};
+      p.stderr_value = fit_->prior(c);
+      if (p.determined)
+        p.stderr_value *= std::sqrt(of_reported(c, c));
+      else if (at != active_.end())
+        p.stderr_value *= std::sqrt(posterior_(at - active_.begin(), at - active_.begin()));
+      if (p.determined) shown.push_back(c);
+      result.parameters.push_back(p);
+    }
+    for (int a : shown)
+      for (int b : shown) result.covariance.push_back(fit_->prior(a) * fit_->prior(b) * of_reported(a, b));
+    for (std::size_t r = 0; r < fit_->runs().size(); ++r)
+      result.time_offset_s.push_back(fit_->now().of(static_cast<int>(r)).truth.time_offset_s);
+    return std::nullopt;
+  }
+
+  void warn_of_truth(LeastSquaresCalibration& result) const {
+    const int samples = fit_->truth_samples();
+    int frozen = 0;
+    for (const InnovationRun& run : fit_->runs()) {
+      frozen += run.frozen;
+      result.outliers += static_cast<int>(std::count(run.set_aside.begin(), run.set_aside.end(), 1));
+    }
+    if (frozen > 0)
+      result.warnings.push_back(std::to_string(frozen) +
+                                " truth samples repeat themselves while the wheels turn and were left out");
+    if (fit_->restarts() > 0)
+      result.warnings.push_back("the truth contradicts the wheels for 20 samples or more at " +
+                                std::to_string(fit_->restarts()) +
+                                (fit_->restarts() == 1 ? " place; the fit starts anew behind it"
+                                                       : " places; the fit starts anew behind them"));
+    if (result.outliers > 0.02 * samples)
+      result.warnings.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
+                                " truth samples contradict their neighbours and were set aside");
+  }
+
+  static void warn_of_values(const Clock& clock, LeastSquaresCalibration& result) {
+    if (clock.scatter > 5.0) {
+      const auto [least, most] = std::minmax_element(result.time_offset_s.begin(), result.time_offset_s.end());
+      result.warnings.push_back(
+          formatted("the truth's clock differs between the recordings: from %.3f s to %.3f s", *least, *most));
+    }
+    for (const ParameterEstimate& p : result.parameters)
+      if (p.determined && p.unit == "m" && p.name.rfind("wheel", 0) == 0 && std::abs(p.value / p.nominal - 1.0) > 0.1)
+        result.warnings.push_back(
+            p.name + formatted(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
+  }
+
+  const Vehicle& nominal_;
+  const LeastSquaresOptions& options_;
+  DifferentialDrive drive_;  // as given
+  bool any_heading_, clock_hides_in_place_;
+  std::vector<std::string> said_;
+  FitParameters start_;
+  std::vector<int> active_;  // columns that are fitted
+  std::optional<LikelihoodFit> fit_;
+  std::vector<char> determined_;  // of each column
+  MatrixXd posterior_;
+  bool scale_is_open_ = false;
+};
+
+}  // namespace
+
+Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                                  const LeastSquaresOptions& options, const Progress& progress) {
+  if (const auto other = other_than_differential_drive(nominal, "can be calibrated against a truth")) return *other;
+  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
+    return Error{nominal.name, "", problems.front()};
+  if (recordings.empty()) return Error{"recordings", "none", "one or more"};
+  const std::string named = recordings.size() == 1 ? recordings[0].name : "the recordings";
+  Result<ReadRuns> read = read_runs(recordings, nominal, options);
+  if (!read) return read.error();
+  std::vector<InnovationRun> moved;
+  if (nominal.truth.time_offset_s != 0.0) moved = by_the_wheels_clock(read->runs, nominal.truth.time_offset_s);
+  const std::vector<InnovationRun>& on_one_clock = moved.empty() ? read->runs : moved;
+  if (const std::string contradiction = contradiction_in(on_one_clock, *drive); !contradiction.empty())
+    return Error{named, contradiction, "wheels and truth of one robot, in the units that the columns are named after"};
+  const FirstGuess guess = first_guess(on_one_clock, *drive);
+
+  FitOfAll fit(std::move(*read), nominal, options);
+  fit.begin_at(guess);
+  const Error stopped{"calibration", "stopped before its end", ""};
+  if (!fit.fit_in_rounds(progress)) return stopped;
+  fit.keep_what_shows();
+  if (!goes_on(progress, 1.0)) return stopped;
+  return fit.reported(named);
+}
+
+}  // namespace odolab
