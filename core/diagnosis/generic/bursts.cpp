@@ -39,6 +39,14 @@ std::string in_words(const std::vector<Burst>& bursts, const JointModel& joint) 
   return words;
 }
 
+// Whether a push displaces a rim by no more than rounded readings hide of it, where it begins and where it ends: wheels
+// that set off have turned by most of a count before any is read.
+bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint) {
+  constexpr double kCounts = 1.5;
+  const double displaced_m = std::hypot(push[0], push[1]) + 0.5 * joint.model.drive.wheelbase_m * std::abs(push[2]);
+  return displaced_m <= kCounts * largest_count_m(joint);
+}
+
 }  // namespace
 
 std::vector<Burst> bursts_of(std::vector<Burst> statistics) {
@@ -66,13 +74,16 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   if (is_nothing(joint.gathered_error()) || counts_are_coarse(joint)) return std::nullopt;
   const auto push =
       std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
-  const SearchedShapes moments = best_shape(joint.views(), CandidateScan(joint, JointModel::kNone), *push);
+  const CandidateScan scan(joint, JointModel::kNone);
+  const SearchedShapes moments = best_shape(joint.views(), scan, *push);
   if (moments.statistics.empty()) return std::nullopt;
   const double scatter = std::max(1.0, scatter_of_statistics(moments.statistics, kFreedom));
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
-    all.push_back({static_cast<int>(shape[0]), shape[1], moments.statistics[n] / scatter});
+    const double statistic = moments.statistics[n] / scatter;
+    if (statistic > kNinetySeven && hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
+    all.push_back({static_cast<int>(shape[0]), shape[1], statistic});
   }
   std::sort(all.begin(), all.end(), [](const Burst& a, const Burst& b) {
     return std::pair{a.run, a.at_s} < std::pair{b.run, b.at_s};

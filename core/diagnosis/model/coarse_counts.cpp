@@ -62,12 +62,15 @@ double counts_of_a_reading(const JointModel& joint) {
 
 }  // namespace
 
+double largest_count_m(const JointModel& joint) {
+  const DifferentialDrive& drive = joint.model.drive;
+  return largest_count_rad(joint) * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+}
+
 bool counts_are_coarse(const JointModel& joint) {
   constexpr double kCoarse = 2.0, kFew = 8.0;
-  const DifferentialDrive& drive = joint.model.drive;
-  const double of_a_wheel_m = largest_count_rad(joint) / std::sqrt(12.0) *
-                              std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m),
-               of_heading_rad = std::sqrt(2.0) * of_a_wheel_m / drive.wheelbase_m;
+  const double of_a_wheel_m = largest_count_m(joint) / std::sqrt(12.0),
+               of_heading_rad = std::sqrt(2.0) * of_a_wheel_m / joint.model.drive.wheelbase_m;
   const FittedNoise& noise = joint.model.noise;
   const bool are_beyond_truth = of_a_wheel_m > kCoarse * noise.truth_position_m ||
                                 (noise.truth_heading_rad > 0.0 && of_heading_rad > kCoarse * noise.truth_heading_rad);

@@ -7,6 +7,9 @@
 
 namespace odolab {
 
+// At the rim of the larger wheel, of the recording that is read most coarsely. Zero where readings are not rounded.
+double largest_count_m(const JointModel& joint);
+
 // Whether the rounding of the wheels' counts errs by more than twice what a sample of the truth does, in place or
 // heading, and wheels turn by fewer than eight from reading to reading: nothing tells then where between two counts a
 // wheel is, and counts come and go with what the driver does.
