@@ -47,14 +47,15 @@ struct Neighbours {
   double correlation() const { return products / squares; }
 };
 
-// Times at which the wheels have rested for a second, and rest still.
+// Times at which the wheels have rested for a second, or since the recording began, and rest still.
 std::vector<std::pair<double, double>> long_rests(const std::vector<WheelSample>& wheels) {
   constexpr double kComesToRest_s = 1.0;
   std::vector<std::pair<double, double>> rests;
   for (std::size_t i = 0, since = 0; i < wheels.size(); ++i) {
     const bool moves = wheels[i].left_rad != wheels[since].left_rad || wheels[i].right_rad != wheels[since].right_rad;
     if (!moves && i + 1 < wheels.size()) continue;
-    const double from_s = wheels[since].time_s + kComesToRest_s, to_s = wheels[moves ? i - 1 : i].time_s;
+    const double from_s = wheels[since].time_s + (since > 0 ? kComesToRest_s : 0.0),
+                 to_s = wheels[moves ? i - 1 : i].time_s;
     if (from_s < to_s) rests.emplace_back(from_s, to_s);
     since = i;
   }

@@ -16,9 +16,9 @@ namespace odolab {
 // little to lose.
 Recording with_truth_apart(const Recording& recording, double apart_s);
 
-// The correlation of the truth's noise from one sample to the next where the wheels have rested for a second: of
-// positions or headings, whichever is larger. Nothing where there are too few such samples to tell 0.2 from 0.5.
-// Behind commands only this tells a tracker that smooths from a base that follows late.
+// The correlation of the truth's noise from one sample to the next where the wheels have rested for a second, or since
+// the recording began: of positions or headings, whichever is larger. Nothing where there are too few such samples to
+// tell 0.2 from 0.5. Only this tells a tracker that smooths from a base that follows late or a mast that swings.
 std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive);
 
 }  // namespace odolab

@@ -53,8 +53,9 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
     return next(c) < kNext && c.lasting_correlation < kWhite;
   };
   if (!all || is_white(*all) || all->correlation_after_1_s > kOfManoeuvres) return all;
-  // A base that follows its commands late correlates them as a tracker that smooths does, but not where it stands.
-  if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind); options.by_commands && drive) {
+  // What the base, or the mast that carries its marker, does late or swings with correlates them as a tracker that
+  // smooths does, but not where it stands.
+  if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind)) {
     const std::optional<double> at_rest = correlation_at_rest(recordings, *drive);
     if (at_rest && *at_rest <= kLasting) return all;
   }

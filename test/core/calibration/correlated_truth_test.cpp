@@ -107,6 +107,21 @@ TEST(CorrelatedTruth, IsToldAtRest) {
   }
 }
 
+TEST(CorrelatedTruth, IsToldByTheRestWithWhichRecordingsBegin) {
+  std::vector<Recording> beginnings;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Recording r = stop_and_go(0.8, seed);
+    constexpr std::size_t kRows = 9;  // 0.9 s
+    r.time_s.resize(kRows);
+    for (Channel& c : r.channels) c.values.resize(kRows);
+    beginnings.push_back(std::move(r));
+  }
+  const auto smoothed = correlation_at_rest(beginnings, DifferentialDrive{});
+  ASSERT_TRUE(smoothed);
+  // Nine samples tell less of what lasts than twenty: their mean takes a part of it.
+  EXPECT_GT(*smoothed, 0.3);
+}
+
 TEST(CorrelatedTruth, IsNotToldWhereNothingRests) {
   Recording r = stop_and_go(0.0, 1);
   for (Channel& c : r.channels)

@@ -117,6 +117,52 @@ void localise_by_laser(Case& c, std::uint64_t seed) {
   }
 }
 
+// The same, begun by so long a rest under a truth with the noise of motion capture.
+Recording standing_first(Recording r, double stands_s, Random& random) {
+  Recording all;
+  all.name = r.name;
+  const double period_s = (r.time_s.back() - r.time_s.front()) / static_cast<double>(r.time_s.size() - 1);
+  const std::size_t rows = static_cast<std::size_t>(stands_s / period_s);
+  for (std::size_t i = 0; i < rows; ++i)
+    all.time_s.push_back(r.time_s.front() - period_s * static_cast<double>(rows - i));
+  all.time_s.insert(all.time_s.end(), r.time_s.begin(), r.time_s.end());
+  for (const Channel& c : r.channels) {
+    const bool is_truth = c.name.rfind("truth", 0) == 0;
+    const double first = *std::find_if(c.values.begin(), c.values.end(), [](double v) { return !std::isnan(v); });
+    std::vector<double>& values = all.add_channel(c.name).values;
+    for (std::size_t i = 0; i < rows; ++i) values[i] = is_truth ? first + 0.0005 * random.normal() : first;
+    std::copy(c.values.begin(), c.values.end(), values.begin() + static_cast<std::ptrdiff_t>(rows));
+  }
+  return all;
+}
+
+// What swings while the robot drives, and not where it stands, is no noise of the truth that lasts: had only samples
+// far apart been used, nothing would have been missing.
+TEST(Diagnose, SaysThatSomethingIsMissingWhereTheHeadingSwingsOnlyAsTheRobotDrives) {
+  constexpr double kSwing_rad = 0.06, kPer_s = 1.7, kStands_s = 1.5;
+  Case c = generated_case(short_case("", 0.0), 7064);
+  Random random(7065);
+  for (Recording& r : c.recordings) {
+    std::vector<double> driven_s;  // at each sample of the truth
+    const std::vector<WheelSample> wheels = wheel_samples(r, DifferentialDrive{});
+    double drives_s = 0.0;
+    std::size_t w = 1;
+    for (const TruthSample& t : truth_samples(r)) {
+      for (; w < wheels.size() && wheels[w].time_s <= t.time_s; ++w)
+        if (wheels[w].left_rad != wheels[w - 1].left_rad || wheels[w].right_rad != wheels[w - 1].right_rad)
+          drives_s += wheels[w].time_s - wheels[w - 1].time_s;
+      driven_s.push_back(drives_s);
+    }
+    change_truth(r, [&](std::size_t k, double&, double&, double& heading) {
+      heading += kSwing_rad * std::sin(2.0 * kPi * kPer_s * driven_s[k]);
+    });
+    r = standing_first(std::move(r), kStands_s, random);
+  }
+  const Diagnosis d = diagnosed(c);
+  EXPECT_EQ(d.calibration_alone.truth_apart_s, 0.0);
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect) << said(d);
+}
+
 // The noise of neighbours had been taken for that of the wheels, which hid scrubs and loads of 15 to 30 standard errors
 // and made the wheelbase's error five times what it is.
 TEST(Diagnose, NamesWhatIsMissingUnderATruthWhoseNoiseLastsForTenthsOfASecond) {
