@@ -49,6 +49,16 @@ bool have_the_same_windows(const JointModel::GatheredError& a, const JointModel:
   return a.windows == b.windows && a.window_at_s == b.window_at_s;
 }
 
+// Whether a term moves dead reckoning nowhere by more than any floor or camera resolves.
+bool moves_nothing(const JointModel::GatheredError& before, const JointModel::GatheredError& after) {
+  for (std::size_t i = 0; i < before.of_window.size(); ++i) {
+    const Pose &e = before.of_window[i], &f = after.of_window[i];
+    const Vec2 moved = f.position() - e.position();
+    if (dot(moved, moved) >= kNothing || std::pow(f.heading_rad - e.heading_rad, 2) >= kNothing) return false;
+  }
+  return true;
+}
+
 // So much larger a mean square of so many windows may be by chance than that of so many others: each is the square of
 // two numbers, and as uncertain as it is large.
 double larger_by_chance(int windows) { return 1.0 + kByChance * std::sqrt(2.0 / std::max(1, windows)); }
@@ -79,6 +89,7 @@ bool is_material(double distrust, bool truth_noise_lasts, const JointModel::Gath
   const double lower = truth_noise_lasts ? std::max(of_numbers, 1.0 - kMostLeftWhereSmoothed) : of_numbers;
   if (before.windows == 0 || !have_the_same_windows(before, after))
     return lowers(before, after, std::lerp(larger_by_chance(before.windows), 1.0 - lower, distrust));
+  if (moves_nothing(before, after)) return false;
   const Change change = change_of(before, after);
   return !is_nothing(before) && change.worse < std::lerp(std::max(change.may_be_worse, 0.0), -lower, distrust);
 }

@@ -48,6 +48,16 @@ TEST(WorseThanChance, IsATermThatTakesAwayWhatIsNotThere) {
   }
 }
 
+// In a world without noise all is significant: a hundredth of a millimetre over a metre is still nothing that acts.
+TEST(IsMaterial, IsNothingThatMovesDeadReckoningNowhereByWhatAnybodyResolves) {
+  const auto is_believed = [](double share_of_noise) {
+    const Pair p = windows(1, share_of_noise, 100, share_of_noise, 100);
+    return is_material(0.0, false, p.before, p.after);
+  };
+  EXPECT_FALSE(is_believed(0.003));  // 0.009 mm and 0.015 mrad
+  EXPECT_TRUE(is_believed(0.008));   // 0.024 mm and 0.04 mrad
+}
+
 TEST(WorseThanChance, IsNoTermThatIsRightHoweverSmall) {
   int refused = 0;
   for (double size : {0.05, 0.2, 1.0})
