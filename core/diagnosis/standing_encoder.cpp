@@ -146,6 +146,16 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
   TimeStretches found;
   const double count_rad = least_count_rad(wheels, wheel);
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
+  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
+  // A wheel that sped up before it held, by what it turned last: it goes on so until it is as fast as behind. The other
+  // goes on, too.
+  const auto is_of_speeding_up = [&](std::size_t i, std::size_t j, double next, double after) {
+    constexpr double kOfIt = 0.5, kOfTheOther = 0.25;
+    const double last = rad(i) - rad(i - 1), would_turn = 0.5 * (last + after) * static_cast<double>(j + 1 - i);
+    return std::abs(last) > kCounts * count_rad && last * after > 0.0 && would_turn / next > kOfIt &&
+           would_turn / next < 1.0 / kOfIt &&
+           std::abs(rotation(wheels[j + 1], other) - rotation(wheels[i], other)) > kOfTheOther * std::abs(next);
+  };
   for (const auto& [i, j] : holds_of(wheels, wheel, kPace))
     if (j >= i + 3 && j + 1 < wheels.size()) {
       const std::size_t end = std::min(j + 1 + kPace, wheels.size() - 1);
@@ -153,7 +163,8 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
                    after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
       if (std::abs(next) > kCounts * count_rad &&
           std::abs(next) > kTimesThePace * std::max(std::abs(before), std::abs(after)) &&
-          std::abs(before) * static_cast<double>(j + 1 - i) > kOfTheWayMissed * std::abs(next) &&
+          (std::abs(before) * static_cast<double>(j + 1 - i) > kOfTheWayMissed * std::abs(next) ||
+           is_of_speeding_up(i, j, next, after)) &&
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
         found.push_back({wheels[i].time_s, wheels[j + 1].time_s});
     }

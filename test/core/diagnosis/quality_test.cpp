@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/standing_encoder.h"
 #include "test/support/drive_generator.h"
 #include "test/support/missing_physics.h"
 
@@ -187,6 +188,23 @@ TEST(Checked, TakesAWheelThatSetsOffLateForSound) {
       },
       random);
   EXPECT_TRUE(checked(r, Vehicle{}).faults.empty());
+}
+
+// Both wheels speed up from rest, 25 readings a second; the left counter holds from 0.24 s on, for 0.8 s,
+// and then has all of it at once.
+TEST(CatchingUpEncoder, IsOneThatHoldsWhileItsWheelSpeedsUp) {
+  constexpr double kPeriod_s = 0.04, kCount_rad = 0.001, kSpeedsUp_radps2 = 4.0;
+  const auto read_rad = [](double t) { return std::floor(0.5 * kSpeedsUp_radps2 * t * t / kCount_rad) * kCount_rad; };
+  std::vector<WheelSample> wheels;
+  for (int i = 0; i < 60; ++i) {
+    const double t = kPeriod_s * i, left_at = t > 0.24 && t < 1.04 ? 0.24 : t;
+    wheels.push_back({t, read_rad(left_at), read_rad(t)});
+  }
+  const TimeStretches found = catching_up_encoder(wheels, Wheel::left);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].first, 0.24, kPeriod_s);
+  EXPECT_NEAR(found[0].second, 1.04, kPeriod_s);
+  EXPECT_TRUE(catching_up_encoder(wheels, Wheel::right).empty());
 }
 
 // A counter that steps back for good, under a truth of 100 Hz that is late by five readings: it is left out at its own
