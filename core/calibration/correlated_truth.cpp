@@ -47,14 +47,15 @@ struct Neighbours {
   double correlation() const { return products / squares; }
 };
 
-// Times at which the wheels have rested for a second, or since the recording began, and rest still.
-std::vector<std::pair<double, double>> long_rests(const std::vector<WheelSample>& wheels) {
+// Times at which the wheels have rested for a second, and rest still; where they rest as they begin, from then on, if
+// `rest_before`.
+std::vector<std::pair<double, double>> long_rests(const std::vector<WheelSample>& wheels, bool rest_before) {
   constexpr double kComesToRest_s = 1.0;
   std::vector<std::pair<double, double>> rests;
   for (std::size_t i = 0, since = 0; i < wheels.size(); ++i) {
     const bool moves = wheels[i].left_rad != wheels[since].left_rad || wheels[i].right_rad != wheels[since].right_rad;
     if (!moves && i + 1 < wheels.size()) continue;
-    const double from_s = wheels[since].time_s + (since > 0 ? kComesToRest_s : 0.0),
+    const double from_s = wheels[since].time_s + (since == 0 && rest_before ? 0.0 : kComesToRest_s),
                  to_s = wheels[moves ? i - 1 : i].time_s;
     if (from_s < to_s) rests.emplace_back(from_s, to_s);
     since = i;
@@ -81,11 +82,12 @@ Recording with_truth_apart(const Recording& recording, double apart_s) {
   return out;
 }
 
-std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive) {
+std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive,
+                                          bool by_commands) {
   Neighbours positions, headings;
   for (const Recording& recording : recordings) {
     const std::vector<TruthSample> truth = truth_samples(recording);
-    for (const auto& [from_s, to_s] : long_rests(wheel_samples(recording, drive))) {
+    for (const auto& [from_s, to_s] : long_rests(wheel_samples(recording, drive), !by_commands)) {
       std::vector<double> x_m, y_m, heading_rad;
       for (const TruthSample& t : truth) {
         if (t.time_s < from_s || t.time_s > to_s) continue;

@@ -56,7 +56,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   // What the base, or the mast that carries its marker, does late or swings with correlates them as a tracker that
   // smooths does, but not where it stands.
   if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind)) {
-    const std::optional<double> at_rest = correlation_at_rest(recordings, *drive);
+    const std::optional<double> at_rest = correlation_at_rest(recordings, *drive, options.by_commands);
     if (at_rest && *at_rest <= kLasting) return all;
   }
   // Clocks that run apart correlate them just so, and that is no noise.
