@@ -244,9 +244,13 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
 }
 
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all) {
-  if (std::none_of(all.begin(), all.end(), is_of_a_joint)) return;
-  std::erase_if(all, [](const Finding& f) {
-    return f.effect == "link_angle_bias" || f.effect == "link_length_bias" || f.effect == "pivot_angle_bias";
+  double of_joints = 0.0;
+  for (const Finding& f : all)
+    if (is_of_a_joint(f)) of_joints = std::max(of_joints, f.log_likelihood_gain);
+  std::erase_if(all, [&](const Finding& f) {
+    const bool is_bias =
+        f.effect == "link_angle_bias" || f.effect == "link_length_bias" || f.effect == "pivot_angle_bias";
+    return is_bias && f.log_likelihood_gain < of_joints;
   });
 }
 

@@ -31,7 +31,8 @@ bool leave_out_small_rest(std::vector<Finding>& all);
 std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units,
                                     std::vector<Finding>& all);
 
-// Where an encoder of a joint errs in a way that has no name, a bias of that or another is what its mean makes of it.
+// Where an encoder of a joint errs in a way that has no name, a bias of that or another is what its mean makes of it;
+// not one that says more.
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 
 // What has no name first, then the strongest; and of the evidence of all the share of each that has one.

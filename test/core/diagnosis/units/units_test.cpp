@@ -248,6 +248,20 @@ TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {
   EXPECT_NE(synchro.error().message().find("synchro_drive"), std::string::npos);
 }
 
+TEST(Units, ABiasStandsBesideAnEncoderThatErrsOnlyWhereItSaysMore) {
+  for (const double gain : {800.0, 1600.0}) {
+    Finding erring, bias;
+    erring.effect = "unknown";
+    erring.component = "truck_b";
+    erring.log_likelihood_gain = 1000.0;
+    bias.effect = "link_length_bias";
+    bias.log_likelihood_gain = gain;
+    std::vector<Finding> found = {erring, bias};
+    leave_out_biases_beside_erring_joints(found);
+    EXPECT_EQ(found.size(), gain > erring.log_likelihood_gain ? 2u : 1u) << gain;
+  }
+}
+
 TEST(Units, HowWellTheTruthsPlaceIsKnownMakesNothingElseSmall) {
   Finding unknown, mounting, slip;
   unknown.effect = "unknown";
