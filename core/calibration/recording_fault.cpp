@@ -47,7 +47,6 @@ struct Mend {
   const char* found;
   const char* expected;
   bool of_lengths = false;  // shows without turns and headings
-  bool of_axes = false;     // turns the tracked point's heading by quarters, if at all
 };
 
 const Mend kMends[] = {
@@ -78,7 +77,7 @@ const Mend kMends[] = {
      "rotation that grows forward"},
     {[](Recording& r) { scale(r, {"truth_y_m"}, -1.0); },
      "positions that look mirrored against the headings (y, or x, with its sign reversed)",
-     "x forward, y left, headings counter-clockwise", false, true},
+     "x forward, y left, headings counter-clockwise"},
     {[](Recording& r) { heading_scaled(r, -1.0); }, "truth_heading_rad that looks clockwise",
      "counter-clockwise headings"},
 };
@@ -102,14 +101,6 @@ double misfit(const RunFit& f, const Vehicle& nominal) {
          std::abs(turned_rad);
 }
 
-// Axes that are reversed or exchanged leave a mirrored frame turned by quarters. Ways towards one corner of the room
-// fit their mirror image as well, where the tracked point may be turned by anything.
-bool keeps_axes(const RunFit& f, const Vehicle& nominal) {
-  constexpr double kOff_rad = 0.15;
-  const double turned_rad = f.axle_T_tracked.heading_rad - nominal.truth.axle_T_tracked.heading_rad;
-  return std::abs(std::remainder(turned_rad, 0.5 * kPi)) < kOff_rad;
-}
-
 // The one that mends it best; null where nothing is wrong or nothing mends it.
 const Mend* mend_of(const Recording& recording, const Vehicle& nominal) {
   const std::optional<RunFit> as_it_is = run_fit(recording, nominal);
@@ -120,7 +111,7 @@ const Mend* mend_of(const Recording& recording, const Vehicle& nominal) {
     Recording mended = recording;
     mend.apply(mended);
     const std::optional<RunFit> fit = run_fit(mended, nominal);
-    if (!fit || !agrees(*fit, mend.of_lengths) || (mend.of_axes && !keeps_axes(*fit, nominal))) continue;
+    if (!fit || !agrees(*fit, mend.of_lengths)) continue;
     if (best && misfit(*fit, nominal) >= least) continue;
     best = &mend;
     least = misfit(*fit, nominal);

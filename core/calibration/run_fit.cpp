@@ -36,6 +36,8 @@ struct Stretch {
   double turn_rad = 0.0;                    // of the truth, wrapped
   double middle_rad = 0.0;
   double chord_m = 0.0;  // of the tracked point
+
+  bool rolls() const { return std::abs(rolled_m) > kMoves_m; }
 };
 
 std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nominal, bool headings) {
@@ -77,13 +79,15 @@ std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nom
   return stretches;
 }
 
-// Weighted rows of a linear problem, `each` of them to a stretch; weak priors of these widths, 0 for none.
+// Weighted rows of a linear problem, `each` of them to a stretch; weak priors of these widths, 0 for none. What is an
+// outlier goes by what `telling` stretches miss: of many turns on the spot and few ways all ways would be one.
 struct Solution {
   VectorXd x, stderrs;
   double explained = 1.0;
 };
 
-Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::vector<double>& priors) {
+Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::vector<double>& priors,
+                const std::vector<char>& telling) {
   const Eigen::Index n = rows.cols(), stretches = rows.rows() / each;
   const auto size_of = [&](const VectorXd& v, Eigen::Index i) { return v.segment(i * each, each).squaredNorm(); };
   std::vector<char> used(static_cast<std::size_t>(stretches), 1);
@@ -108,9 +112,12 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
     inverse = information.inverse();
     s.x = inverse * gradient;
     left = y - rows * s.x;
-    std::vector<double> misses;
-    for (Eigen::Index i = 0; i < stretches; ++i) misses.push_back(std::sqrt(size_of(left, i)));
-    const double gate = 3.0 * median(misses) / 0.6745 + 1e-9;
+    std::vector<double> misses, of_telling;
+    for (Eigen::Index i = 0; i < stretches; ++i) {
+      misses.push_back(std::sqrt(size_of(left, i)));
+      if (telling[static_cast<std::size_t>(i)]) of_telling.push_back(misses.back());
+    }
+    const double gate = 3.0 * median(std::move(of_telling)) / 0.6745 + 1e-9;
     double squares = 0.0, count = 0.0;
     for (std::size_t i = 0; i < misses.size(); ++i) {
       used[i] = misses[i] <= gate;
@@ -151,7 +158,7 @@ void fit_turns(const std::vector<Stretch>& stretches, double wheelbase_m, RunFit
     rows.row(i) << s.rolled_rad, s.rolled_m;
     y[i] = s.turn_rad;
   }
-  const Solution found = solved(rows, y, 1, {0.0, kUnequal / wheelbase_m});
+  const Solution found = solved(rows, y, 1, {0.0, kUnequal / wheelbase_m}, std::vector<char>(stretches.size(), 1));
   fit.turn_ratio = found.x[0];
   fit.turn_explained = found.explained;
 }
@@ -161,6 +168,7 @@ void fit_way(const std::vector<Stretch>& stretches, RunFit& fit) {
   const Eigen::Index n = static_cast<Eigen::Index>(stretches.size());
   MatrixXd rows = MatrixXd::Zero(2 * n, 8);
   VectorXd y(2 * n);
+  std::vector<char> rolls;
   for (Eigen::Index i = 0; i < n; ++i) {
     const Stretch& s = stretches[static_cast<std::size_t>(i)];
     const double half = 0.5 * s.turn_rad;
@@ -172,8 +180,9 @@ void fit_way(const std::vector<Stretch>& stretches, RunFit& fit) {
     rows.row(2 * i + 1) << 0.0, along, 0.0, across, slip, 0.0, -d, c;
     y[2 * i] = s.moved.x_m;
     y[2 * i + 1] = s.moved.y_m;
+    rolls.push_back(s.rolls());
   }
-  const Solution found = solved(rows, y, 2, {0.0, 0.0, 0.0, 0.0, kSlip_s, kLost_m, kCreep_mps, kCreep_mps});
+  const Solution found = solved(rows, y, 2, {0.0, 0.0, 0.0, 0.0, kSlip_s, kLost_m, kCreep_mps, kCreep_mps}, rolls);
   fit.way_explained = found.explained;
   fit.way_ratio = std::hypot(found.x[0], found.x[1]);
   const double heading_rad = -std::atan2(found.x[1], found.x[0]);
@@ -209,8 +218,12 @@ std::optional<RunFit> run_fit(const Recording& recording, const Vehicle& nominal
     return fit;
   }
   double driven_m = 0.0, turned_rad = 0.0;
-  for (const Stretch& s : stretches) driven_m += std::abs(s.rolled_m), turned_rad += std::abs(s.rolled_rad);
-  fit.drives = driven_m > kLeastDriven_m;
+  std::size_t roll = 0;
+  for (const Stretch& s : stretches) {
+    driven_m += std::abs(s.rolled_m), turned_rad += std::abs(s.rolled_rad);
+    roll += s.rolls();
+  }
+  fit.drives = driven_m > kLeastDriven_m && roll >= kFewest;
   fit.turns = turned_rad > kLeastTurned_rad;
   if (fit.turns) fit_turns(stretches, std::get<DifferentialDrive>(nominal.kind).wheelbase_m, fit);
   if (fit.drives) fit_way(stretches, fit);

@@ -19,15 +19,7 @@ namespace {
 struct OfRun {
   AxlePutOff off;
   std::vector<std::vector<double>> values;  // [function][sample]
-
-  AxlePutOff times(std::size_t function) const {
-    AxlePutOff all = off;
-    for (std::size_t i = 0; i < all.by.size(); ++i) {
-      const double v = values[function][i];
-      all.by[i] = {v * off.by[i].x_m, v * off.by[i].y_m, v * off.by[i].heading_rad};
-    }
-    return all;
-  }
+  std::vector<AxlePutOff> times;            // [function]: one by the other
 };
 using OfRuns = std::map<std::string, OfRun>;
 
@@ -101,11 +93,22 @@ std::vector<Motions> motions_in(const DriveView& view, const OfRuns& runs, std::
   const auto run = runs.find(view.recording);
   if (run == runs.end()) return out;
   for (std::size_t f = 0; f < functions; ++f) {
-    const AxlePutOff off = run->second.times(f);
+    const AxlePutOff& off = run->second.times[f];
     for (const EffectStep& s : view.steps)
       out[f].push_back(off.moved(s.time_s, s.duration_s, s.forward_m(), s.turn_rad));
   }
   return out;
+}
+
+void multiply(OfRun& run) {
+  for (const std::vector<double>& of_function : run.values) {
+    AxlePutOff product = run.off;
+    for (std::size_t i = 0; i < product.by.size(); ++i) {
+      Pose& by = product.by[i];
+      by = {of_function[i] * by.x_m, of_function[i] * by.y_m, of_function[i] * by.heading_rad};
+    }
+    run.times.push_back(std::move(product));
+  }
 }
 
 // Root mean square of what amplitudes come to over all samples, about its mean: that would be a bias.
@@ -122,6 +125,7 @@ double size_of(const OfRuns& runs, const std::vector<double>& value) {
 
 TruthError error_of(OfRuns runs, const JointName& joint, const std::string& variable, double least) {
   const std::size_t functions = runs.begin()->second.values.size();
+  for (auto& [name, run] : runs) multiply(run);
   const auto shared = std::make_shared<const OfRuns>(std::move(runs));
   TruthError error;
   error.component = joint.component;
