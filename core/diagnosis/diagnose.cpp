@@ -50,7 +50,7 @@ Finding finding_of(const JointModel& joint, const AcceptedEffect& a, const Eigen
   Finding f;
   f.effect = a.effect->name;
   f.component = a.effect->component;
-  f.parameters = parameters_of(a, covariance);
+  f.parameters = parameters_of(a, covariance, joint.views());
   f.where = where_of(joint, a, covariance);
   f.log_likelihood_gain = 0.5 * evidence.test.statistic;
   f.p_value = evidence.p_value;

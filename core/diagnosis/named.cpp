@@ -155,10 +155,12 @@ void take_simpler_forms(JointModel& joint, Selected& selected, const Vehicle& no
     const std::size_t simpler = has_simpler ? static_cast<std::size_t>(a.effect->simpler_form[own]) : 0;
     if (simpler == own) continue;
     const CandidateTest test = tested_in_form(joint, k, simpler);
+    std::vector<double> shape = a.shape;
+    shape.back() = static_cast<double>(simpler);
     const double as_it_is = tested_in_form(joint, k, own).statistic;
     const double plainly =
         std::max(kPlainly * selected.evidence[k].test.inflation, has_simpler ? 0.0 : kOfForms * kOfForms * as_it_is);
-    if (test.statistic < as_it_is - plainly || !is_physical(*a.effect, test.value)) continue;
+    if (test.statistic < as_it_is - plainly || !is_physical(joint, *a.effect, test.value, shape)) continue;
     JointModel instead = in_form(joint, k, simpler, test);
     if (!has_simpler && !sits_as_given(instead, nominal)) continue;
     joint = std::move(instead);

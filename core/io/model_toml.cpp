@@ -43,7 +43,7 @@ FittedEffect read_effect(TomlTable& table) {
     keys.push_back(parameter.name);
   }
   if (at_a_time) keys.push_back("at_s");
-  for (const char* key : {"form", "session_start_s"}) keys.push_back(key);  // core/diagnosis/effects/effect.h
+  for (const char* key : {"form", "session_start_s", "at_mps"}) keys.push_back(key);  // core/diagnosis/effects/effect.h
   for (const std::string& key : keys) {
     std::optional<double> value, error;
     table.field(key.c_str(), value);

@@ -80,6 +80,7 @@ std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, do
 
 // A shape that is given and not estimated: when the session of all recordings began.
 inline constexpr const char* kSessionStart = "session_start_s";
+inline constexpr const char* kStatedAt = "at_mps";  // of what grows with the speed, the one at which it is so much
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -109,6 +110,13 @@ struct Effect {
   std::function<bool(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                      const std::vector<DriveView>& views)>
       beyond_counts;
+  // Whether a form is one of such amplitudes, and told from the catalogue's own by more than a count; empty: any is.
+  std::function<bool(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
+                     const std::vector<DriveView>& views)>
+      form_goes_with;
+  // The speed at which these drives show a form whose amplitudes are those at 1 m/s, and grow with it; 0 for another
+  // form. Empty: none is such a one.
+  std::function<double(const std::vector<double>& shape, const std::vector<DriveView>& views)> stated_at_mps;
   // How well a place can be known at best, by its form; empty: to a centimetre.
   std::function<double(const std::vector<double>& shape)> place_known_to_m;
   // Shapes to try; empty function: there is no shape.

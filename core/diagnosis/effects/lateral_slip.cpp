@@ -7,6 +7,22 @@
 
 namespace odolab::effects {
 
+namespace {
+
+// At which slip at an angle is as large as slip that does not grow with the speed, by least squares.
+double speed_of_bends_mps(const std::vector<DriveView>& views) {
+  double squares = 0.0, by_speed = 1e-12;
+  for (const DriveView& view : views)
+    for (const EffectStep& s : view.steps) {
+      const double square = std::pow(s.speed_mps * s.yaw_rate_radps, 2) * s.duration_s;
+      squares += square;
+      by_speed += square * std::abs(s.speed_mps);
+    }
+  return squares > 0.0 ? by_speed / squares : 0.0;
+}
+
+}  // namespace
+
 std::vector<Effect> lateral_slip() {
   Effect e;
   e.name = "lateral_slip";
@@ -25,6 +41,12 @@ std::vector<Effect> lateral_slip() {
       m.push_back(BodyMotion{0.0, shape.back() > 0.5 ? slip * std::abs(s.speed_mps) : slip, 0.0});
     }
     return std::vector<Motions>{m};
+  };
+  e.stated_at_mps = [](const std::vector<double>& shape, const std::vector<DriveView>& views) {
+    return shape.back() > 0.5 ? speed_of_bends_mps(views) : 0.0;
+  };
+  e.from_parameters = [](const ActiveEffect& a) {
+    return std::vector<double>{a.parameter("m_per_s_per_mps2") / a.parameter(kStatedAt, 1.0)};
   };
   return {e};
 }

@@ -19,6 +19,8 @@ class CandidateScan {
   // The same of many shapes, sooner than one by one; what else is asked changes no more than the rounding.
   std::vector<CandidateTest> tests(const Effect& effect, const std::vector<std::vector<double>>& shapes) const;
 
+  const JointModel& joint() const { return joint_; }
+
  private:
   const JointModel& joint_;
   int without_;

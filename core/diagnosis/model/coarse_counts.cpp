@@ -9,12 +9,6 @@ namespace odolab {
 
 namespace {
 
-double largest_count_rad(const JointModel& joint) {
-  double count = 0.0;
-  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
-  return count;
-}
-
 struct Squares {
   double forward_m2 = 0.0, sideways_m2 = 0.0, turn_rad2 = 0.0;
 };
@@ -61,6 +55,12 @@ double counts_of_a_reading(const JointModel& joint) {
 }
 
 }  // namespace
+
+double largest_count_rad(const JointModel& joint) {
+  double count = 0.0;
+  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
+  return count;
+}
 
 double largest_count_m(const JointModel& joint) {
   const DifferentialDrive& drive = joint.model.drive;

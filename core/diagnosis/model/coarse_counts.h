@@ -7,7 +7,8 @@
 
 namespace odolab {
 
-// At the rim of the larger wheel, of the recording that is read most coarsely. Zero where readings are not rounded.
+// Of the recording that is read most coarsely, and at the rim of the larger wheel. Zero where readings are not rounded.
+double largest_count_rad(const JointModel& joint);
 double largest_count_m(const JointModel& joint);
 
 // Whether the rounding of the wheels' counts errs by more than twice what a sample of the truth does, in place or

@@ -187,8 +187,8 @@ class JointModel {
   // That run alone under what all others say: one step of Gauss-Newton from here without it. Its clock is its own, and
   // what happened in it alone is unknown to the others.
   JointModel left_out(int run) const;
-  // With the recordings of another model of the same robot, which has the same effects let in, as it stands; to be
-  // linearised.
+  // With the recordings of another model of the same robot, which has the same effects let in but for what happened in
+  // one recording alone, as it stands; to be linearised.
   JointModel together_with(const JointModel& others) const;
   InnovationModel model_of(int run) const;
   double* clock_rate_of(int run);         // null where its clock has no rate of its own

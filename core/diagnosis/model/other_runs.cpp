@@ -110,11 +110,13 @@ JointModel JointModel::together_with(const JointModel& others) const {
   append(all.clock_s, others.clock_s);
   append(all.clock_active, others.clock_active);
   for (std::size_t r = numbers_.size(); r < all.runs_.size(); ++r) all.numbers_.push_back(static_cast<int>(r));
-  for (std::size_t k = 0; k < accepted.size(); ++k) {
-    AcceptedEffect& a = all.accepted[k];
-    if (!a.effect->clock_rate || !a.effect->of_each_recording) continue;
+  // What happened in one recording alone is not among the others' names.
+  const auto are_clocks = [](const AcceptedEffect& a) { return a.effect->clock_rate && a.effect->of_each_recording; };
+  for (AcceptedEffect& a : all.accepted) {
+    if (!are_clocks(a)) continue;
     a.effect = &effects::clock_rate_of_each_run(static_cast<int>(all.runs_.size())).front();
-    append(a.value, others.accepted[k].value);
+    const auto theirs = std::find_if(others.accepted.begin(), others.accepted.end(), are_clocks);
+    append(a.value, theirs == others.accepted.end() ? std::vector<double>(others.runs_.size(), 0.0) : theirs->value);
   }
   const auto where_they_are = std::make_shared<Linearisation>();
   where_they_are->runs = now_->runs;

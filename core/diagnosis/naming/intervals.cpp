@@ -208,7 +208,8 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
   return out;
 }
 
-std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixXd& covariance) {
+std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixXd& covariance,
+                                          const std::vector<DriveView>& views) {
   const auto n = static_cast<Eigen::Index>(a.value.size());
   const auto in_words = [&](const std::vector<double>& value) {
     if (a.effect->to_parameters) return a.effect->to_parameters(value, std::vector<double>(value.size(), 0.0));
@@ -234,6 +235,11 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
   for (std::size_t j = 0; j < out.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     out[j].stderr_value = std::sqrt(std::max(0.0, cov(i, i)));
+  }
+  const double at_mps = a.effect->stated_at_mps ? a.effect->stated_at_mps(a.shape, views) : 0.0;
+  if (at_mps > 0.0) {
+    for (FoundParameter& p : out) p.value *= at_mps, p.stderr_value *= at_mps;
+    out.push_back({kStatedAt, at_mps, 0.0, "m/s"});
   }
   Eigen::Index k = n;
   for (int s : free_shapes(*a.effect)) {

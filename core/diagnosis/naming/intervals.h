@@ -25,8 +25,9 @@ std::vector<int> free_shapes(const Effect& effect);
 // `inflation`: of the evidence of each accepted effect.
 Intervals refined(JointModel& joint, const std::vector<double>& inflation);
 
-// An accepted effect in the catalogue's words. `covariance`: as in Intervals::of_effect.
-std::vector<FoundParameter> parameters_of(const AcceptedEffect& accepted, const Eigen::MatrixXd& covariance);
+// An accepted effect in the catalogue's words, as these drives show it. `covariance`: as in Intervals::of_effect.
+std::vector<FoundParameter> parameters_of(const AcceptedEffect& accepted, const Eigen::MatrixXd& covariance,
+                                          const std::vector<DriveView>& views);
 
 // The calibration that belongs to a model with effects; what was not determined without them is not determined now.
 LeastSquaresCalibration calibration_with(const JointModel& joint, const Intervals& intervals,

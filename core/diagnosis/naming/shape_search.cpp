@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <numeric>
 
+#include "core/diagnosis/model/coarse_counts.h"
+
 namespace odolab {
 
 namespace {
@@ -114,7 +116,8 @@ class ShapeSearch {
   }
 
   bool take(CandidateTest t, const std::vector<double>& shape) {
-    if (t.value.empty() || !is_physical(e_, t.value) || t.statistic <= best().statistic) return false;
+    if (t.value.empty() || t.statistic <= best().statistic || !is_physical(scan_.joint(), e_, t.value, shape))
+      return false;
     t.shape = shape;
     best() = std::move(t);
     return true;
@@ -154,11 +157,26 @@ class ShapeSearch {
   }
 
   void refine() {
+    const std::vector<double> begun = best().shape;
     climb();
-    if (forms_ > 1 && !places_.empty()) try_other_forms(), climb();
+    if (forms_ > 1 && !places_.empty()) try_other_forms(), climb(), climb_in_each_form(begun);
     climb_from_other_places();
     if (is_a_patch(e_) && best().statistic > kWorthAnotherStart) climb_from_patches_about();
     if (forms_ > 1) try_other_forms();
+  }
+
+  // What is climbed otherwise is met elsewhere.
+  void climb_in_each_form(const std::vector<double>& begun) {
+    const CandidateTest top = best();
+    CandidateTest summit = top;
+    for (std::size_t form = 0; form < forms_; ++form) {
+      std::vector<double> start = begun;
+      start.back() = static_cast<double>(form);
+      best().statistic = 0.0;
+      if (take(scan_.test(e_, start), start)) climb();
+      if (best().statistic > summit.statistic) summit = best();
+    }
+    best() = summit;
   }
 
   // A place is looked for from several starts.
@@ -191,7 +209,7 @@ class ShapeSearch {
     const std::vector<CandidateTest> tests = scan_.tests(e_, about);
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < about.size(); ++k)
-      if (!tests[k].value.empty() && is_physical(e_, tests[k].value)) order.push_back(k);
+      if (!tests[k].value.empty() && is_physical(scan_.joint(), e_, tests[k].value, about[k])) order.push_back(k);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return tests[a].statistic > tests[b].statistic; });
     if (order.size() > kStarts) order.resize(kStarts);
@@ -227,10 +245,11 @@ class ShapeSearch {
 
 bool is_a_patch(const Effect& e) { return e.local && e.shapes.size() > 2 && e.shapes[2].name == "radius_m"; }
 
-bool is_physical(const Effect& e, const std::vector<double>& value) {
+bool is_physical(const JointModel& joint, const Effect& e, const std::vector<double>& value,
+                 const std::vector<double>& shape) {
   for (std::size_t k = 0; k < value.size(); ++k)
     if (value[k] < e.amplitudes[k].low || value[k] > e.amplitudes[k].high) return false;
-  return true;
+  return !e.form_goes_with || e.form_goes_with(value, shape, largest_count_rad(joint), joint.views());
 }
 
 CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std::size_t form) {

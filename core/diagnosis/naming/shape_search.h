@@ -20,8 +20,9 @@ SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateSc
 
 bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radius
 
-// Whether its amplitudes are such as there are.
-bool is_physical(const Effect& effect, const std::vector<double>& value);
+// Whether its amplitudes are such as there are, and of the form of that shape.
+bool is_physical(const JointModel& joint, const Effect& effect, const std::vector<double>& value,
+                 const std::vector<double>& shape);
 
 // An accepted effect as it would be in another of its forms, all else as it is.
 CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std::size_t form);

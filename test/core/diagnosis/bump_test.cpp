@@ -60,5 +60,43 @@ TEST(Bump, IsOneThingOnTheFloorThoughEitherWheelMeetsIt) {
   EXPECT_EQ(physics, 1);
 }
 
+// Half of the way over it, a stop on its top, and home again: in reverse the wheel comes down where it went up, and
+// turns further than it travels once more.
+TEST(Bump, ThatAWheelComesBackFromIsClimbedByHalves) {
+  constexpr double kRadius_m = 0.075, kHeight_m = 0.011, kTop_m = 0.45;
+  const double reach_m = std::sqrt(2.0 * kRadius_m * kHeight_m - kHeight_m * kHeight_m),
+               extra_m = 2.0 * (kRadius_m * std::asin(reach_m / kRadius_m) - reach_m);
+  Random random(45);
+  GeneratorSettings g = under_motion_capture({kRadius_m, kRadius_m, 0.34}, 0.0005, 0.01);
+  g.duration_s = 56.0;
+  g.start = {0.0, -0.17, 0.0};
+  // To the top and back, and then over it, as far again, and back.
+  const auto forth_and_back = [=, top_s = kTop_m / (3.0 * kRadius_m)](double t) {
+    if (t < 8.0) return t < 4.0 ? WheelSpeedsAt{-3.0, 3.0} : WheelSpeedsAt{3.0, -3.0};  // for the wheelbase
+    const double in_round_s = std::fmod(t - 8.0, 6.0 * top_s + 4.0);
+    const bool over = in_round_s > 2.0 * top_s + 2.0;
+    const double in_leg_s = over ? in_round_s - 2.0 * top_s - 2.0 : in_round_s, there_s = over ? 2.0 * top_s : top_s;
+    const double speed = in_leg_s < there_s                                           ? 3.0
+                         : in_leg_s > there_s + 1.0 && in_leg_s < 2.0 * there_s + 1.0 ? -3.0
+                                                                                      : 0.0;
+    return WheelSpeedsAt{speed, speed};
+  };
+  const auto climbing = [=](int) {
+    return [=](InjectedStep& s) {
+      const Vec2 ahead = inverse(s.pose) * Vec2{kTop_m, 0.0} - Vec2{0.0, 0.17};
+      if (std::abs(ahead.x_m) < reach_m && std::abs(ahead.y_m) < 0.1)
+        s.left_m *= std::sqrt(1.0 - ahead.x_m * ahead.x_m / (kRadius_m * kRadius_m));
+    };
+  };
+  const std::vector<Recording> runs = three_runs(
+      g, random, [&](int) { return SpeedProfile(forth_and_back); }, climbing);
+  const Diagnosis d = diagnose(runs, {}, Vehicle{}).value();
+  ASSERT_FALSE(d.findings.empty());
+  const Finding& f = d.findings.front();
+  ASSERT_EQ(f.effect, "bump");
+  EXPECT_EQ(f.component, "left_wheel");
+  EXPECT_NEAR(f.parameters.front().value, extra_m, 3.0 * f.parameters.front().stderr_value);
+}
+
 }  // namespace
 }  // namespace odolab::test

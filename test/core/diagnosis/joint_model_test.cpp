@@ -143,5 +143,24 @@ TEST(JointModel, BelievesTheLikelihoodWhereInnovationsAreCorrelatedByWholeCounts
   EXPECT_EQ(joint.distrust(), 0.0);
 }
 
+// A push is one recording's own, the clocks are all recordings'.
+TEST(JointModel, KeepsEachClockWhereOthersLackWhatHappenedInOneRecording) {
+  CaseSettings settings;
+  settings.runs = 2;
+  settings.duration_s = 20.0;
+  const Case c = generated_case(settings, 7312);
+  JointModel joint = joint_model(c.recordings, c.nominal), others = joint_model({c.recordings[1]}, c.nominal);
+  joint.linearise();
+  others.linearise();
+  for (const Effect& e : catalogue())
+    if (e.name == "collision" && joint.accepted.empty())
+      joint.accepted.push_back({&e, {0.0, 10.0, 0.0}, {0.0, 0.0, 0.0}});
+  joint.accepted.push_back({&effects::clock_rate_of_each_run(2).front(), {}, {1e-4, 2e-4}});
+  others.accepted.push_back({&effects::clock_rate_of_each_run(1).front(), {}, {3e-4}});
+  const JointModel all = joint.together_with(others);
+  ASSERT_EQ(all.accepted.size(), 2u);
+  EXPECT_EQ(all.accepted[1].value, (std::vector<double>{1e-4, 2e-4, 3e-4}));
+}
+
 }  // namespace
 }  // namespace odolab::test

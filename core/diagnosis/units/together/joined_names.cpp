@@ -358,7 +358,7 @@ class Naming {
     AcceptedEffect accepted{&e, s.shape, {}, false};
     for (Eigen::Index a = 0; a < s.test.value.size(); ++a) accepted.value.push_back(s.test.value[a]);
     JoinedModel others = without(k), with = others;
-    f.parameters = parameters_of(accepted, covariance_of(others, s));
+    f.parameters = parameters_of(accepted, covariance_of(others, s), model_.views(s.candidate.units.front()));
     for (const FoundParameter& p : f.parameters)
       if (p.name == "at_s") f.where.time_s = {{p.value - k95 * p.stderr_value, p.value + k95 * p.stderr_value}};
 
