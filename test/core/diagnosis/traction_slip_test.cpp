@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
@@ -44,47 +42,6 @@ TEST(TractionSlip, IsNoTyreCompressionWhereTheMassStandsAheadOfTheAxle) {
   const FoundParameter& p = d.findings.front().parameters.front();
   EXPECT_NEAR(p.value, kSlip_per_mps2, 0.2 * kSlip_per_mps2 + 3.0 * p.stderr_value);
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "tyre_compression");
-}
-
-// s' = k v (a - s''): a vehicle whose wheels slip by a tenth for each m/s2 speeds up later than they do. In squares,
-// turned on the spot, what it stays behind by had been a second name in six of ten such drives.
-TEST(TractionSlip, ThatHoldsTheVehicleBackNeedsNoSecondName) {
-  constexpr double kSlips_per_mps2 = 0.1;
-  const auto held_back = [](int) {
-    struct Tyre {
-      double speed_mps = 0.0, slips_mps = 0.0;
-    };
-    return [tyres = std::array<Tyre, 2>{}](InjectedStep& s) mutable {
-      for (int wheel = 0; wheel < 2; ++wheel) {
-        Tyre& tyre = tyres[static_cast<std::size_t>(wheel)];
-        const double rim_mps = kRadius_m * (wheel == 0 ? s.left_radps : s.right_radps),
-                     behind_s = std::max(1e-3, kSlips_per_mps2 * std::abs(rim_mps)),
-                     due_mps = kSlips_per_mps2 * std::abs(rim_mps) * (rim_mps - tyre.speed_mps) / s.dt_s;
-        tyre.slips_mps += (1.0 - std::exp(-s.dt_s / behind_s)) * (due_mps - tyre.slips_mps);
-        tyre.speed_mps = rim_mps;
-        (wheel == 0 ? s.left_m : s.right_m) -= tyre.slips_mps * s.dt_s;
-      }
-    };
-  };
-  const auto squares = [](int run) {
-    return SpeedProfile([=](double t) {
-      const double side = run % 2 == 0 ? 1.0 : -1.0, in_leg_s = std::fmod(t, 5.2);
-      const auto ramped = [](double at_s, double lasts_s, double most) {
-        return most * std::clamp(std::min(at_s, lasts_s - at_s) / 0.4, 0.0, 1.0);
-      };
-      const double ahead = ramped(in_leg_s, 3.0, 8.0), turns = side * ramped(in_leg_s - 3.4, 1.4, 3.561);
-      return WheelSpeedsAt{ahead - turns, ahead + turns};
-    });
-  };
-  Random random(82);
-  GeneratorSettings g = under_motion_capture({kRadius_m, kRadius_m, kWheelbase_m}, 0.0008, 0.01);
-  g.duration_s = 62.4;
-  const Diagnosis d = diagnose(three_runs(g, random, squares, held_back), {}, Vehicle{}).value();
-  ASSERT_FALSE(d.findings.empty());
-  EXPECT_EQ(d.findings.front().effect, "traction_slip");
-  EXPECT_EQ(d.findings.size(), 1u) << d.findings.back().effect;
-  const FoundParameter& p = d.findings.front().parameters.front();
-  EXPECT_NEAR(p.value, kSlips_per_mps2, 3.0 * p.stderr_value);
 }
 
 }  // namespace

@@ -102,5 +102,19 @@ TEST(ConcealedCase, ANameIsNotGivenUpForAWeakerOneThatMadeItsSizeUncertain) {
   for (const JudgedParameter& p : j.parameters) EXPECT_NEAR(p.found, p.truth, 3.0 * p.stderr_value) << p.name;
 }
 
+// Wheels that slip by a tenth for each m/s2 hold the vehicle back: it speeds up later than they do. In squares, with
+// starts and stops and turns on the spot, what it stays behind by had been a second name in six of ten such drives.
+TEST(ConcealedCase, ATractionSlipThatHoldsTheVehicleBackNeedsNoSecondName) {
+  Wish wish;
+  wish.kind = Kind::one;
+  wish.level = Level::strong;
+  wish.poor = true;
+  wish.effects = {"traction_slip"};
+  const Judged j = judged(drawn_case(700, 18, wish));
+  EXPECT_TRUE(j.named_all && j.only_those) << j.line();
+  ASSERT_FALSE(j.parameters.empty());
+  EXPECT_TRUE(j.parameters.front().held()) << j.line();
+}
+
 }  // namespace
 }  // namespace odolab::concealed
