@@ -51,13 +51,13 @@ double fastest_radps(const std::vector<WheelSample>& readings, double WheelSampl
 
 }  // namespace
 
-std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings) {
-  constexpr double kLeast_s = 0.2, kTimesUsual = 5.0;
+std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings, double times_usual) {
+  constexpr double kLeast_s = 0.2;
   constexpr std::size_t kFewest = 20;
   if (readings.size() < kFewest) return {};
   std::vector<double> lasts_s;
   for (std::size_t i = 0; i + 1 < readings.size(); ++i) lasts_s.push_back(duration_s(readings, i));
-  const double longest_s = std::max(kLeast_s, kTimesUsual * quantile(lasts_s, 0.5));
+  const double longest_s = std::max(kLeast_s, times_usual * quantile(lasts_s, 0.5));
   std::vector<std::size_t> intervals;
   for (std::size_t i = 0; i < lasts_s.size(); ++i)
     if (lasts_s[i] > longest_s) intervals.push_back(i);
@@ -65,8 +65,8 @@ std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings
 }
 
 TimeStretches encoder_gaps(const std::vector<WheelSample>& readings) {
-  constexpr double kUsualStep = 0.95;
-  const std::vector<std::size_t> intervals = long_intervals(readings);
+  constexpr double kUsualStep = 0.95, kTimesUsual = 2.5;
+  const std::vector<std::size_t> intervals = long_intervals(readings, kTimesUsual);
   if (intervals.empty()) return {};
   std::vector<double> turned_rad;
   for (std::size_t i = 0; i + 1 < readings.size(); ++i) {

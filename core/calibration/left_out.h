@@ -11,10 +11,10 @@ namespace odolab {
 
 using TimeStretches = std::vector<std::pair<double, double>>;  // from, to, in seconds
 
-// Which intervals between readings last for more than 0.2 s and five usual ones; none of fewer than 20 readings.
-std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings);
+// Which intervals between readings last for more than 0.2 s and so many usual ones; none of fewer than 20 readings.
+std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings, double times_usual);
 
-// Where readings are missing: an interval of more than 0.2 s and five usual ones, in which a wheel turned further than
+// Where readings are missing: an interval of more than 0.2 s and 2.5 usual ones, in which a wheel turned further than
 // from one reading to the next elsewhere. A log that only has what changes leaves none where the wheels rest.
 TimeStretches encoder_gaps(const std::vector<WheelSample>& readings);
 

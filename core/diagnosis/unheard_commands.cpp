@@ -81,8 +81,8 @@ std::ptrdiff_t repeated(const std::vector<WheelSample>& obeyed) {
 
 TimeStretches holes_in_commands(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive,
                                 const std::vector<TruthSample>& truth) {
-  constexpr double kEven = 6.0, kNearlyAll = 0.9, kRepeats = 0.02;
-  const std::vector<std::size_t> intervals = long_intervals(obeyed);
+  constexpr double kEven = 6.0, kNearlyAll = 0.9, kRepeats = 0.02, kTimesUsual = 5.0;
+  const std::vector<std::size_t> intervals = long_intervals(obeyed, kTimesUsual);
   if (intervals.empty()) return {};
   std::vector<double> lasts_s;
   for (std::size_t i = 0; i + 1 < obeyed.size(); ++i) lasts_s.push_back(obeyed[i + 1].time_s - obeyed[i].time_s);
