@@ -183,6 +183,7 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
     adequacy.unnamed = what_was_not_foreseen(sought, all_calibrated, first_held_out);
   }
   if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
+  adequacy.shows_beside_held_out = adequacy.unnamed.has_value();
   return adequacy;
 }
 
@@ -219,24 +220,11 @@ std::vector<std::string> sentences_of(const Diagnosis& d) {
   return sentences;
 }
 
-}  // namespace
-
-ActiveEffect Finding::as_active() const {
-  ActiveEffect a;
-  a.effect = effect;
-  a.component = component;
-  for (const FoundParameter& p : parameters) a.parameters.push_back({p.name, p.value});
-  if (form > 0) a.parameters.push_back({"form", static_cast<double>(form)});
-  return a;
-}
-
-Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                           const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
-  if (has_units(nominal)) return diagnose_units(train, held_out, nominal, options, progress);
-  if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
+// `shows_beside_held_out`: whether what has no name shows only together with what was held out.
+Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
+                            bool* shows_beside_held_out = nullptr) {
   const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&nominal.kind);
-  if (const std::vector<std::string> problems = problems_in(*drive); !problems.empty())
-    return Error{nominal.name, "", problems.front()};
   const Error stopped{"diagnosis", "stopped before its end", ""};
   const Result<ReadyRecordings> ready =
       ready_recordings(train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); });
@@ -296,6 +284,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   of_calibration.command_timing_s = joint.model.noise.command_timing_s;  // which calibration does not know
   const Adequacy adequacy =
       judged_adequacy(*names, calibrated, predictor, of_calibration, kOfTheUnnamed * options.family_wise_error);
+  if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
   if (adequacy.something_small_is_left)
     d.warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
@@ -421,6 +410,50 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
 
   d.sentences = sentences_of(d);
   return d;
+}
+
+// What calibration took up in the runs that were given shows beside others: fitted to all, it may have a name.
+std::optional<Diagnosis> named_beside_held_out(const std::vector<Recording>& train,
+                                               const std::vector<Recording>& held_out, const Vehicle& nominal,
+                                               const DiagnosisOptions& options, const Progress& progress) {
+  std::vector<Recording> all = train;
+  all.insert(all.end(), held_out.begin(), held_out.end());
+  Result<Diagnosis> d =
+      diagnosed(all, {}, nominal, options, [&](double share) { return goes_on(progress, 0.5 + 0.5 * share); });
+  if (!d || (d->verdict != Verdict::found && d->verdict != Verdict::ambiguous)) return std::nullopt;
+  const bool has_a_name = std::any_of(d->findings.begin(), d->findings.end(), [](const Finding& f) {
+    return !is_of_the_truth(f.effect) && !is_data_fault(f.effect);
+  });
+  if (!has_a_name) return std::nullopt;
+  d->warnings.push_back(
+      "the recordings given do not show what is missing, calibration takes it up; those held out were fitted too, and "
+      "each run is predicted by all others instead");
+  return std::move(*d);
+}
+
+}  // namespace
+
+ActiveEffect Finding::as_active() const {
+  ActiveEffect a;
+  a.effect = effect;
+  a.component = component;
+  for (const FoundParameter& p : parameters) a.parameters.push_back({p.name, p.value});
+  if (form > 0) a.parameters.push_back({"form", static_cast<double>(form)});
+  return a;
+}
+
+Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                           const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  if (has_units(nominal)) return diagnose_units(train, held_out, nominal, options, progress);
+  if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
+  if (const std::vector<std::string> problems = problems_in(std::get<DifferentialDrive>(nominal.kind));
+      !problems.empty())
+    return Error{nominal.name, "", problems.front()};
+  bool shows_beside_held_out = false;
+  Result<Diagnosis> d = diagnosed(train, held_out, nominal, options, progress, &shows_beside_held_out);
+  if (!d || !shows_beside_held_out) return d;
+  std::optional<Diagnosis> named = named_beside_held_out(train, held_out, nominal, options, progress);
+  return named ? std::move(*named) : std::move(d);
 }
 
 }  // namespace odolab

@@ -15,10 +15,11 @@ constexpr int kParameters = 7;          // of the calibration
 constexpr int kFewestInnovations = 40;  // beyond these: fewer cannot judge a model
 
 struct Adequacy {
-  std::vector<GenericTest> generic;  // of what the names leave, best first
-  std::optional<Unnamed> unnamed;    // where the names are not enough
-  std::optional<Unnamed> as_likely;  // where they may be, but something without a name is not beaten by them either;
-                                     // its gain is what it explains in their place
+  std::vector<GenericTest> generic;    // of what the names leave, best first
+  std::optional<Unnamed> unnamed;      // where the names are not enough
+  bool shows_beside_held_out = false;  // and that only together with what was held out
+  std::optional<Unnamed> as_likely;    // where they may be, but something without a name is not beaten by them either;
+                                       // its gain is what it explains in their place
   bool something_small_is_left = false;
   // What comes and goes with time and may as well be a truth that sways; its wave in words.
   struct Sway {
