@@ -412,8 +412,9 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   return d;
 }
 
-// What calibration took up in the runs that were given shows beside others: fitted to all, it may have a name.
-std::optional<Diagnosis> named_beside_held_out(const std::vector<Recording>& train,
+// What calibration took up in the runs that were given shows beside others: fitted to all, it may have a name. `given`:
+// what these say, of which each name is one that they resemble or could not have shown; else they contradict it.
+std::optional<Diagnosis> named_beside_held_out(const Diagnosis& given, const std::vector<Recording>& train,
                                                const std::vector<Recording>& held_out, const Vehicle& nominal,
                                                const DiagnosisOptions& options, const Progress& progress) {
   std::vector<Recording> all = train;
@@ -421,9 +422,16 @@ std::optional<Diagnosis> named_beside_held_out(const std::vector<Recording>& tra
   Result<Diagnosis> d =
       diagnosed(all, {}, nominal, options, [&](double share) { return goes_on(progress, 0.5 + 0.5 * share); });
   if (!d || (d->verdict != Verdict::found && d->verdict != Verdict::ambiguous)) return std::nullopt;
-  const bool has_a_name = std::any_of(d->findings.begin(), d->findings.end(), [](const Finding& f) {
-    return !is_of_the_truth(f.effect) && !is_data_fault(f.effect);
-  });
+  constexpr double kTakenUp = 0.1;  // of what an effect does, that calibration leaves of it
+  bool has_a_name = false;
+  for (const Finding& f : d->findings) {
+    if (is_of_the_truth(f.effect) || is_data_fault(f.effect)) continue;
+    has_a_name = true;
+    const bool is_hidden = std::any_of(given.asked.begin(), given.asked.end(), [&](const AskedEffect& a) {
+      return a.effect == f.effect && a.survives.value_or(0.0) < kTakenUp;
+    });
+    if (!is_hidden && !is_said(f.effect, given.findings)) return std::nullopt;
+  }
   if (!has_a_name) return std::nullopt;
   d->warnings.push_back(
       "the recordings given do not show what is missing, calibration takes it up; those held out were fitted too, and "
@@ -452,7 +460,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   bool shows_beside_held_out = false;
   Result<Diagnosis> d = diagnosed(train, held_out, nominal, options, progress, &shows_beside_held_out);
   if (!d || !shows_beside_held_out) return d;
-  std::optional<Diagnosis> named = named_beside_held_out(train, held_out, nominal, options, progress);
+  std::optional<Diagnosis> named = named_beside_held_out(*d, train, held_out, nominal, options, progress);
   return named ? std::move(*named) : std::move(d);
 }
 
