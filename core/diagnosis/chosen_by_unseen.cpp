@@ -32,7 +32,9 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
     if (other.test.shape == shape) continue;
     const CandidateTest test = tested_in_form(joint, name, form);
     const bool is_tested = test.value.size() == joint.accepted[name].value.size();  // else calibration leaves nothing
-    if (!is_tested || test.statistic < own - 2.0 * kClearlyBeaten || !is_physical(joint, effect, test.value, other.test.shape)) continue;
+    if (!is_tested || test.statistic < own - 2.0 * kClearlyBeaten ||
+        !is_physical(joint, effect, test.value, other.test.shape))
+      continue;
     other.test.value = test.value;
     JointModel model = with_instead(fitted, name, other);
     if (!best) best = predictor.of(fitted, fitted.model.noise);

@@ -40,6 +40,18 @@ bool is_more_than_counts(double displaces_m, double count_rad, const std::vector
   return displaces_m > kCounts * count_rad * radius_m;
 }
 
+bool part_by_more_than_counts(const std::function<Motions(const DriveView&)>& one,
+                              const std::function<Motions(const DriveView&)>& other, double value, double count_rad,
+                              const std::vector<DriveView>& views) {
+  const auto apart = [&](const DriveView& view) {
+    Motions difference(view.steps.size());
+    one(view).add_to(difference, value);
+    other(view).add_to(difference, -value);
+    return difference;
+  };
+  return is_more_than_counts(displaces_m(views, apart), count_rad, views);
+}
+
 bool changes_speeds(const Effect& effect) { return effect.acts_on_motion() && !effect.local; }
 
 DriveView as_it_goes(DriveView view, const std::function<std::vector<BodyMotion>(const DriveView&)>& motions) {

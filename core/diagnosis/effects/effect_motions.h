@@ -18,6 +18,11 @@ Motions motion_of(const Effect& effect, const DriveView& view, const std::vector
 double displaces_m(const std::vector<DriveView>& views, const std::function<Motions(const DriveView&)>& motion);
 bool is_more_than_counts(double displaces_m, double count_rad, const std::vector<DriveView>& views);
 
+// Whether so much of one motion and of another part by more than that.
+bool part_by_more_than_counts(const std::function<Motions(const DriveView&)>& one,
+                              const std::function<Motions(const DriveView&)>& other, double value, double count_rad,
+                              const std::vector<DriveView>& views);
+
 // Whether an effect changes how fast a vehicle goes for longer than a moment.
 bool changes_speeds(const Effect& effect);
 

@@ -38,21 +38,16 @@ Motions slipped_by(const DriveView& view, const Form& form) {
   return m;
 }
 
-// What settles in as long as it slips, to within a factor of the root of two, and by more than whole counts feign.
+// What settles in as long as it slips, to within a factor of one and a half, and by more than whole counts feign.
 bool settles_so(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                 const std::vector<DriveView>& views) {
   constexpr double kNear = 1.5;
   const Form& form = kForms[std::lround(shape.back())];
   if (form.settles_s == 0.0) return true;
   if (value[0] < form.settles_s / kNear || value[0] > form.settles_s * kNear) return false;
-  return is_more_than_counts(displaces_m(views,
-                                         [&](const DriveView& view) {
-                                           Motions later(view.steps.size());
-                                           slipped_by(view, form).add_to(later, value[0]);
-                                           slipped_by(view, kForms[0]).add_to(later, -value[0]);
-                                           return later;
-                                         }),
-                             count_rad, views);
+  return part_by_more_than_counts([&](const DriveView& view) { return slipped_by(view, form); },
+                                  [](const DriveView& view) { return slipped_by(view, kForms[0]); }, value[0],
+                                  count_rad, views);
 }
 
 // At which slip at an angle is as large as slip that does not grow with the speed, by least squares.

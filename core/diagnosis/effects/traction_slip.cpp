@@ -76,14 +76,9 @@ bool stays_behind_so(const std::vector<double>& value, const std::vector<double>
   const double by = form.gives_way_s_per_mps.value_or(0.0);
   if (by == 0.0) return true;
   if (value[0] < 0.5 * by || value[0] > 2.0 * by) return false;
-  return is_more_than_counts(displaces_m(views,
-                                         [&](const DriveView& view) {
-                                           Motions behind(view.steps.size());
-                                           lost_by(Wheel::both, view, form).add_to(behind, value[0]);
-                                           lost_by(Wheel::both, view, kForms[0]).add_to(behind, -value[0]);
-                                           return behind;
-                                         }),
-                             count_rad, views);
+  return part_by_more_than_counts([&](const DriveView& view) { return lost_by(Wheel::both, view, form); },
+                                  [](const DriveView& view) { return lost_by(Wheel::both, view, kForms[0]); }, value[0],
+                                  count_rad, views);
 }
 
 Effect of_wheel(Wheel wheel) {

@@ -133,8 +133,6 @@ TEST(RecordingFault, LeavesRunsWithoutTurnsAlone) {
   EXPECT_FALSE(fault_in(r, Vehicle{}));
 }
 
-// On a circle way and turn are the same but for a factor: which of both the truth's turn belongs to is told by nothing
-// but noise.
 // A quarter of a metre ahead, and between that some rounds on the spot: the little way fits its mirror image, turned by
 // some angle, about as well as itself, and where a compass deviates better.
 TEST(RecordingFault, LeavesTurnsOnTheSpotAloneThoughACompassDeviates) {
@@ -159,6 +157,8 @@ TEST(RecordingFault, LeavesTurnsOnTheSpotAloneThoughACompassDeviates) {
   EXPECT_EQ(refused, 0) << "of 60";
 }
 
+// On a circle way and turn are the same but for a factor: which of both the truth's turn belongs to is told by nothing
+// but noise.
 TEST(RecordingFault, LeavesCirclesAloneHoweverNoisyTheirHeadingsAre) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     test::GeneratorSettings g;
