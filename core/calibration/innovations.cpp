@@ -56,14 +56,23 @@ InnovationSums gated(const InnovationRun& run, const SummedRun& summed, const In
   return as_given;
 }
 
+// Nothing says which of a few samples errs, as of the poses at both ends of a run: what all of those behind the way
+// contradict is what the wheels say of it.
+bool says_which_err(const std::vector<TruthSample>& truth) {
+  constexpr std::size_t kFewest = 5, kMostAtBothEnds = 50;
+  if (truth.size() < kFewest) return false;
+  if (truth.size() > kMostAtBothEnds) return true;
+  double longest_s = 0.0;
+  for (std::size_t i = 1; i < truth.size(); ++i) longest_s = std::max(longest_s, truth[i].time_s - truth[i - 1].time_s);
+  return longest_s < 0.5 * (truth.back().time_s - truth.front().time_s);
+}
+
 }  // namespace
 
 InnovationSums filtered(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
                         const FilterOptions& options) {
   if (options.gate <= 0.0) return passed(run, summed, model, options);
-  constexpr std::size_t kFewestToGate = 5;
-  if (run.truth.size() >= kFewestToGate) return gated(run, summed, model, options);
-  // Nothing says which of a few samples errs, as of the poses at both ends of a run.
+  if (says_which_err(run.truth)) return gated(run, summed, model, options);
   FilterOptions open = options;
   open.gate = std::numeric_limits<double>::infinity();
   return passed(run, summed, model, open);

@@ -187,6 +187,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
     return a.ldlt().vectorD().array().log().sum();
   };
   NoiseFit fit{{noise_size::wheel, noise_size::position}, kUsualNoise};
+  fit.expect_usual_truth_of(truth_samples());
   if (any_heading) fit.free.push_back(noise_size::heading);
   if (of_body) fit.add_body();
   const auto likelihood = [&](const FittedNoise& noise) {
@@ -266,10 +267,13 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
   constexpr double kReadings = 2.0;  // beside the same reading they share its rounding
   struct Products {
     std::array<double, 3> product{}, square{};
+    double count = 0.0;
+    // Of what is more than chance makes of so many: white noise correlates to within 1 / sqrt(count).
     double largest() const {
+      constexpr double kSigmas = 2.5;
       double most = 0.0;
       for (std::size_t k = 0; k < 3; ++k)
-        if (square[k] > 0.0) most = std::max(most, product[k] / square[k]);
+        if (product[k] * std::sqrt(count) > kSigmas * square[k]) most = std::max(most, product[k] / square[k]);
       return most;
     }
   };
@@ -290,7 +294,7 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
     const auto add = [&](Products& sum, double apart_s) {
       const auto lag =
           static_cast<std::size_t>(std::clamp(std::round(apart_s / period_s(runs_[r].truth)), 1.0, 1000.0));
-      for (std::size_t i = lag; i < white.size(); ++i)
+      for (std::size_t i = lag; i < white.size(); ++i, sum.count += 1.0)
         for (std::size_t k = 0; k < 3; ++k) {
           sum.product[k] += white[i][k] * white[i - lag][k];
           sum.square[k] += white[i][k] * white[i][k];
@@ -301,8 +305,10 @@ LikelihoodFit::Lasting LikelihoodFit::lasting_correlation() const {
   });
   const auto largest = [](const std::vector<Products>& of_run) {
     Products sum;
-    for (const Products& p : of_run)
+    for (const Products& p : of_run) {
+      sum.count += p.count;
       for (std::size_t k = 0; k < 3; ++k) sum.product[k] += p.product[k], sum.square[k] += p.square[k];
+    }
     return sum.largest();
   };
   return {largest(a_reading), largest(a_second)};

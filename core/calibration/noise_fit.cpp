@@ -102,12 +102,14 @@ FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&
       const bool goes_with_wheels = is_of_the_body(size) && fit.usual_of_body > 0.0;
       FittedNoise copy = noise;
       const double at_rest = goes_with_wheels ? fit.usual_of_body * noise.wheel_m_per_sqrt_m : size_of(usual, size);
-      const double off = std::log(size_of(copy, size) / at_rest) / fit.within;
+      const double within =
+          size == noise_size::position || size == noise_size::heading ? fit.within_of_truth : fit.within;
+      const double off = std::log(size_of(copy, size) / at_rest) / within;
       sums.value += off * off;
       const auto curve = [&](int a, int b, double by) {
-        sums.curvature[static_cast<std::size_t>(noise_size::count * a + b)] += by * 2.0 / (fit.within * fit.within);
+        sums.curvature[static_cast<std::size_t>(noise_size::count * a + b)] += by * 2.0 / (within * within);
       };
-      const auto pull = [&](int a, double by) { slope[static_cast<std::size_t>(a)] += by * 2.0 * off / fit.within; };
+      const auto pull = [&](int a, double by) { slope[static_cast<std::size_t>(a)] += by * 2.0 * off / within; };
       pull(size, 1.0);
       curve(size, size, 1.0);
       if (!goes_with_wheels) continue;

@@ -12,10 +12,18 @@ struct NoiseFit {
   std::vector<int> free;  // of noise_size; the others stay
   FittedNoise usual;      // mild priors keep a size finite that the recordings say nothing about:
   double within = 2.3;    // so far from usual, in logarithms; a factor of ten
+  double within_of_truth = 2.3;
   // Shares of the wheels' noise: what is usual of the body (along, turning and sideways), and what nobody is truer than
   // sideways, where nothing rolls.
   double usual_of_body = 0.0, least_sideways = 0.0;
 
+  // Of so many samples of the truth: a few, as of both ends of each run, are hardly more than what they calibrate, and
+  // do not say by themselves that they are far truer than such poses are as a rule.
+  void expect_usual_truth_of(int samples) {
+    constexpr int kFew = 200;
+    constexpr double kFactorOfTwo = 0.7;
+    if (samples < kFew) within_of_truth = kFactorOfTwo;
+  }
   // Lets the truth's wander free too. Not while samples are still thinned until they are white: it would take the noise
   // of neighbours, which ends, for one that goes on.
   void add_wander(bool of_headings);

@@ -8,15 +8,15 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/adequacy.h"
-#include "core/diagnosis/generic/bursts.h"
-#include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/responses.h"
+#include "core/diagnosis/judged_adequacy.h"
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/place_response.h"
 #include "core/diagnosis/ready_recordings.h"
+#include "core/diagnosis/sentences.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/where.h"
@@ -26,17 +26,6 @@ namespace odolab {
 namespace {
 
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
-
-std::string in_words(const Finding& f) {
-  std::string s = f.sentence;
-  for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
-    const FoundParameter& p = f.parameters[k];
-    s += (k == 0 ? " (" : ", ") + p.name + formatted(" %.4g +- %.2g", p.value, p.stderr_value) +
-         (p.unit == "1" ? "" : " " + p.unit);
-  }
-  if (!f.parameters.empty()) s += ")";
-  return s;
-}
 
 std::string in_words(const Undone& u, const std::string& recording) {
   return recording + formatted(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) +
@@ -141,83 +130,12 @@ std::vector<Confusion> confusions(const JointModel& joint, const Selected& selec
   return confused;
 }
 
-const char* headline(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::found:
-      return "Something is missing from the model, and it has a name:";
-    case Verdict::nothing_missing:
-      return "Nothing is missing: calibration leaves nothing but noise.";
-    case Verdict::unknown_effect:
-      return "Something is missing that no entry of the catalogue describes.";
-    case Verdict::ambiguous:
-      return "Something is missing; these recordings do not decide between the names given.";
-    case Verdict::cannot_say:
-      break;
-  }
-  return "These recordings are too poor to judge whether anything is missing.";
-}
-
-bool is_at_a_place(const AcceptedEffect& a) { return a.effect->local && !a.effect->of_one_recording; }
-
-// Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
-Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor, double error) {
-  const JointModel& joint = named.joint;
-  const std::optional<JointModel>& all_named = named.with_held_out;
-  std::vector<ScoredCandidate> evidence = named.selected.evidence;
-  Adequacy adequacy = adequacy_of(joint, calibrated, evidence, all_named ? 0.5 * error : error);
-  if (adequacy.unnamed || !all_named) return adequacy;
-  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
-    const AcceptedEffect& a = all_named->accepted[k];
-    const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
-    evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
-  }
-  const JointModel all_calibrated = *predictor.fitted_to_all(calibrated);
-  const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, 0.5 * error);
-  adequacy.unnamed = of_all.unnamed;
-  const auto first_held_out = static_cast<int>(joint.runs().size());
-  if (!adequacy.unnamed) adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, first_held_out);
-  // A patch that the others only graze is another one where it is met in full.
-  if (adequacy.unnamed && !of_all.unnamed && std::any_of(joint.accepted.begin(), joint.accepted.end(), is_at_a_place)) {
-    JointModel sought = *all_named;
-    find_places_again(sought);
-    adequacy.unnamed = what_was_not_foreseen(sought, all_calibrated, first_held_out);
-  }
-  if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
-  adequacy.shows_beside_held_out = adequacy.unnamed.has_value();
-  return adequacy;
-}
-
-Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
-                         const FittedNoise& of_calibration, double error) {
-  Adequacy adequacy = judged_by_both(named, calibrated, predictor, error);
-  if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
-  if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
-  double explained = 0.0;
-  for (const ScoredCandidate& e : named.selected.evidence)
-    explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
-  if (!adequacy.unnamed) adequacy.unnamed = what_comes_in_bursts(named.joint, explained, error);
-  if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
-  return adequacy;
-}
-
 // What shows, or what something without a name resembles, could show.
 bool is_said(const std::string& effect, const std::vector<Finding>& findings) {
   return std::any_of(findings.begin(), findings.end(), [&](const Finding& f) {
     return f.effect == effect || std::any_of(f.alternatives.begin(), f.alternatives.end(),
                                              [&](const Alternative& a) { return a.effect == effect; });
   });
-}
-
-// The verdict, its findings and the next drive in plain words.
-std::vector<std::string> sentences_of(const Diagnosis& d) {
-  std::vector<std::string> sentences = {headline(d.verdict)};
-  for (const Finding& f : d.findings) {
-    sentences.push_back(in_words(f));
-    for (const Alternative& a : f.alternatives)
-      sentences.push_back("  or " + a.effect + " (" + a.component + "); told apart by " + a.told_apart_by);
-  }
-  if (!d.next_drive.empty()) sentences.push_back("Drive next: " + d.next_drive + ".");
-  return sentences;
 }
 
 // `shows_beside_held_out`: whether what has no name shows only together with what was held out.

@@ -118,6 +118,9 @@ void JointModel::fit_noise() {
     any_commands = any_commands || l.run().speeds_are_held;
   }
   NoiseFit of_samples{{noise_size::wheel, noise_size::position}, kUsualNoise};
+  int samples = 0;
+  for (const Part& part : whole) samples += static_cast<int>(part.run->truth.size());
+  of_samples.expect_usual_truth_of(samples);
   of_samples.add_body();
   of_samples.add_wander(any_heading);
   if (any_commands) of_samples.add_timing();

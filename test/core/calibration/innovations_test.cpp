@@ -269,5 +269,16 @@ TEST(Innovations, GateLeavesPosesAtBothEndsOfARunAlone) {
   EXPECT_EQ(aside_by_gate(run).back(), 0);
 }
 
+// Five poses at rest at either end agree with each other on what the wheels missed on the way.
+TEST(Innovations, GateLeavesSeveralPosesAtEitherEndAlone) {
+  constexpr std::ptrdiff_t kAtEither = 5;
+  InnovationRun run = a_run(0.05);
+  run.truth.erase(run.truth.begin() + kAtEither, run.truth.end() - kAtEither);
+  run.set_aside.assign(run.truth.size(), 0);
+  for (std::size_t k = kAtEither; k < run.truth.size(); ++k) run.truth[k].position.x_m += 1.0;
+  const std::vector<char> aside = aside_by_gate(run);
+  EXPECT_EQ(std::count(aside.begin(), aside.end(), 0), 2 * kAtEither);
+}
+
 }  // namespace
 }  // namespace odolab

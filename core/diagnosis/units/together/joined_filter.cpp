@@ -91,6 +91,7 @@ JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double 
       reading.by_joint.push_back(std::move(by));
     }
   }
+  count_what_is_held();
   moved_.resize(units());
   rolled_m_.resize(units());
   for (std::size_t u = 0; u < units(); ++u) {
@@ -160,6 +161,24 @@ double JoinedFilter::kept_of_frame(std::size_t reading) const {
   return wander_lasts_s_ > 0.0
              ? std::exp(-(readings_[reading].time_s - readings_[reading - 1].time_s) / wander_lasts_s_)
              : 1.0;
+}
+
+void JoinedFilter::count_what_is_held() {
+  constexpr std::ptrdiff_t kMostPassed = 10;
+  for (std::size_t j = 0; j < joint_step_.size(); ++j) {
+    std::vector<Reading*> read;
+    for (Reading& reading : readings_)
+      if (reading.joints_are_read) read.push_back(&reading);
+    const auto reads = [&](std::size_t k) { return read[k]->joints[j]; };
+    for (std::size_t first = 0, end = 0; first < read.size(); first = end) {
+      while (end < read.size() && reads(end) == reads(first)) ++end;
+      const bool is_passed =
+          first > 0 && end < read.size() && (reads(first) - reads(first - 1)) * (reads(end) - reads(first)) > 0.0;
+      const auto count = static_cast<std::ptrdiff_t>(end - first);
+      const double held = is_passed && count <= kMostPassed ? 1.0 : static_cast<double>(count);
+      for (std::size_t k = first; k < end; ++k) read[k]->held.push_back(held);
+    }
+  }
 }
 
 Pose JoinedFilter::on_the_way(const Track& track, double time_s) {

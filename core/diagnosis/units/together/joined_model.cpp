@@ -45,7 +45,7 @@ JoinedModel::JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, st
     has_headings_ = has_headings_ || (!run.tracked.empty() && run.has_headings);
   }
   for (JointParameter& p : joint_parameters(vehicle_))
-    if (p.component != "truth" || (follows_truth_ && (has_headings_ || p.unit == "m")))
+    if (p.component != "truth" || has_headings_ || (follows_truth_ && p.unit == "m"))
       lengths_.push_back({p.name, p.prior, [of = p.of](Vehicle& v, double by) { of(v) += by; }, grows_m(p, vehicle_)});
   if (const auto* platform = std::get_if<MultiCastor>(&vehicle_.kind))
     for (std::size_t i = 0; i < platform->castors.size(); ++i)  // where the pivot's line meets the axle
@@ -260,11 +260,18 @@ double JoinedModel::stderr_of_aside_m(std::size_t castor) const {
   return known ? known->stderr_value : kAsidePrior_m;
 }
 
-double JoinedModel::stderr_of_scale() const {
+VectorXd JoinedModel::mean_of_radii() const {
   VectorXd mean = VectorXd::Zero(z_.cols());
   for (std::size_t u = 0; u < units(); ++u)
     mean.segment<2>(static_cast<Index>(lengths_.size() + 3 * u)).setConstant(0.5 / static_cast<double>(units()));
-  return stderr_of(mean);
+  return mean;
+}
+
+double JoinedModel::stderr_of_scale() const { return stderr_of(mean_of_radii()); }
+
+double JoinedModel::expected_stderr_of_scale() const {
+  const VectorXd mean = mean_of_radii();
+  return std::sqrt(mean.dot(gram_.solve(mean)));
 }
 
 double JoinedModel::stderr_of(const VectorXd& sum) const {

@@ -63,6 +63,7 @@ class JoinedModel {
   double stderr_of_aside_m(std::size_t castor) const;
   // Of the share by which all wheels together may be larger than they are taken to be.
   double stderr_of_scale() const;
+  double expected_stderr_of_scale() const;  // the same, of a model that is not fitted yet and leaves more than noise
 
   // Of motions that each amplitude makes on a unit.
   using MotionsOf = std::function<std::vector<Motions>(const DriveView&)>;
@@ -101,6 +102,7 @@ class JoinedModel {
   // Minus twice the log-likelihood at the best of them.
   double fit_sizes(const std::vector<NoiseSize>& sizes);
   std::vector<NoiseSize> sizes_of_truth() const;
+  double share_of_ends_left() const;  // of what the poses at both ends err by
   void believe_what_contradicts();
   bool let_frame_wander();  // whether it does; the model is to be linearised anew then
   void make_filters();
@@ -112,6 +114,7 @@ class JoinedModel {
   // `cross`: products of the model's own columns with these.
   JoinedTest test_of(const Eigen::Ref<const Eigen::MatrixXd>& columns, const Eigen::MatrixXd& cross,
                      double batches_believed_white) const;
+  Eigen::VectorXd mean_of_radii() const;
   // How well a sum of the model's own numbers is known.
   double stderr_of(const Eigen::VectorXd& sum) const;
   // Of the score along a direction of what is left.

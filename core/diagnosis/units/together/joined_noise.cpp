@@ -1,5 +1,6 @@
 // How large the random errors are, and whether the truth's frame wanders: by the likelihood of all recordings.
 #include <algorithm>
+#include <cmath>
 
 #include "core/diagnosis/units/together/joined_model.h"
 
@@ -34,6 +35,26 @@ void JoinedModel::fit_noise() {
   all.insert(all.end(), of_truth.begin(), of_truth.end());
   fit_sizes(all);
   linearise();
+  if (!has_truth_ || follows_truth_) return;
+  const double larger = share_of_ends_left();
+  noise_.truth_position_m /= larger;
+  noise_.truth_heading_rad /= larger;
+  linearise();
+}
+
+// Poses at both ends are few: what the model took of them to fit itself makes what is left small.
+double JoinedModel::share_of_ends_left() const {
+  constexpr double kLeastLeft = 3.0;
+  const Eigen::Index reading = filters_.front().rows();
+  Eigen::MatrixXd of_truth = z_;
+  double numbers = 0.0;
+  for (Eigen::Index first = 0; first < z_.rows(); first += reading) {
+    of_truth.middleRows(first, reading - 3).setZero();
+    numbers += static_cast<double>((residual_.segment(first + reading - 3, 3).array() != 0.0).count());
+  }
+  numbers -= 3.0 * static_cast<double>(filters_.size());  // where each run begins says nothing
+  const double taken = gram_.solve(of_truth.transpose() * of_truth).trace();
+  return std::sqrt(std::max(numbers - taken, kLeastLeft) / std::max(numbers, kLeastLeft));
 }
 
 std::vector<JoinedModel::NoiseSize> JoinedModel::sizes_of_truth() const {

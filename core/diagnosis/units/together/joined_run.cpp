@@ -169,7 +169,7 @@ void JoinedFilter::look(const Reading& reading, const JoinedNoise& noise, const 
     for (std::size_t u = 1; u < units(); ++u)
       by.segment<3>(3 * static_cast<Index>(u) - 3) = in(to_first, moved_by(u) - of_first);
     if (reading.truth) by.tail<3>() = in(to_truth, of_first);
-    err += std::pow(noise.joint_steps * joint_step_[j], 2) * by * by.transpose();
+    err += reading.held[j] * std::pow(noise.joint_steps * joint_step_[j], 2) * by * by.transpose();
   }
   for (std::size_t u = 0; u < units(); ++u) {  // a count that is not full yet
     const double variance = count_m_[u] * count_m_[u] / 12.0, base_m = drives_[u].wheelbase_m;

@@ -161,6 +161,27 @@ TEST(JoinedFilter, GathersTheScoreOfEachMomentAsItsColumnCarriesIt) {
   }
 }
 
+// A trailer on a circle holds one angle, which its encoder rounds: by up to half a step, however often it is read.
+TEST(JoinedModel, KnowsAnAngleThatIsHeldNoBetterThanItsEncoderRounds) {
+  constexpr double kSpeed_mps = 0.3, kRate_radps = 0.15;
+  const SmartEncoderTrailer train;
+  const double hitch_rad = std::asin(kRate_radps * train.drawbar_length_m / kSpeed_mps);
+  const double step_rad = train.hitch_angle_resolution_rad;
+  JoinedRun run;
+  for (int i = 0; i < 2000; ++i) {
+    const double time_s = 0.04 * i;
+    run.samples.push_back(
+        {time_s,
+         {wheel_rotation(train.tow, kSpeed_mps * time_s, kRate_radps * time_s),
+          wheel_rotation(train.trailer, kSpeed_mps * std::cos(hitch_rad) * time_s, kRate_radps * time_s)},
+         {step_rad * std::round(hitch_rad / step_rad)}});
+  }
+  const JoinedModel model({run}, vehicle_of(train), {}, {"circle"});
+  const auto offset = model.length("hitch_angle_offset_rad");
+  ASSERT_TRUE(offset);
+  EXPECT_GT(offset->stderr_value, 0.25 * step_rad);  // evenly spread over a step: 0.29
+}
+
 // Truck B's left wheel is out of round by a quarter of a percent: 0.19 mm to either side of a truth that errs by 10 mm.
 TEST(DiagnoseTogether, NamesAnOvalWheelOfATruckUnderATruthThatErrsFiftyTimesAsMuch) {
   constexpr double kAmplitude = 0.0025;

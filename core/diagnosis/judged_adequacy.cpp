@@ -1,0 +1,57 @@
+#include "core/diagnosis/judged_adequacy.h"
+
+#include <algorithm>
+
+#include "core/diagnosis/generic/bursts.h"
+#include "core/diagnosis/generic/contradicted.h"
+
+namespace odolab {
+
+namespace {
+
+bool is_at_a_place(const AcceptedEffect& a) { return a.effect->local && !a.effect->of_one_recording; }
+
+// Whether names suffice, of what they were fitted to; and of that together with what was held out, half the error each.
+Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const Predictor& predictor, double error) {
+  const JointModel& joint = named.joint;
+  const std::optional<JointModel>& all_named = named.with_held_out;
+  std::vector<ScoredCandidate> evidence = named.selected.evidence;
+  Adequacy adequacy = adequacy_of(joint, calibrated, evidence, all_named ? 0.5 * error : error);
+  if (adequacy.unnamed || !all_named) return adequacy;
+  for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
+    const AcceptedEffect& a = all_named->accepted[k];
+    const double of_all = all_named->test(all_named->columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
+    evidence[k].test.statistic = std::max(evidence[k].test.statistic, of_all);
+  }
+  const JointModel all_calibrated = *predictor.fitted_to_all(calibrated);
+  const Adequacy of_all = adequacy_of(*all_named, all_calibrated, evidence, 0.5 * error);
+  adequacy.unnamed = of_all.unnamed;
+  const auto first_held_out = static_cast<int>(joint.runs().size());
+  if (!adequacy.unnamed) adequacy.unnamed = what_was_not_foreseen(*all_named, all_calibrated, first_held_out);
+  // A patch that the others only graze is another one where it is met in full.
+  if (adequacy.unnamed && !of_all.unnamed && std::any_of(joint.accepted.begin(), joint.accepted.end(), is_at_a_place)) {
+    JointModel sought = *all_named;
+    find_places_again(sought);
+    adequacy.unnamed = what_was_not_foreseen(sought, all_calibrated, first_held_out);
+  }
+  if (of_all.as_likely) adequacy.as_likely = of_all.as_likely;
+  adequacy.shows_beside_held_out = adequacy.unnamed.has_value();
+  return adequacy;
+}
+
+}  // namespace
+
+Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
+                         const FittedNoise& of_calibration, double error) {
+  Adequacy adequacy = judged_by_both(named, calibrated, predictor, error);
+  if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
+  if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
+  double explained = 0.0;
+  for (const ScoredCandidate& e : named.selected.evidence)
+    explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
+  if (!adequacy.unnamed) adequacy.unnamed = what_comes_in_bursts(named.joint, explained, error);
+  if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
+  return adequacy;
+}
+
+}  // namespace odolab
