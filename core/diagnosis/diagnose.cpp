@@ -251,6 +251,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   bool ambiguous = false;
   for (const Finding& f : found) ambiguous = ambiguous || !f.alternatives.empty();
 
+  d.cannot_judge = joint.scalars_on_the_way() - kParameters < kFewestInnovations;
   const std::optional<JointModel> known = adequacy.unnamed ? beyond_doubt(joint, selected.evidence) : joint;
   if (const std::optional<Unnamed>& more = adequacy.unnamed) {
     d.responses.insert(d.responses.begin(), more->shape.begin(), more->shape.end());
@@ -272,7 +273,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   } else if (!found.empty()) {
     d.verdict = ambiguous ? Verdict::ambiguous : Verdict::found;
   } else {
-    d.verdict = joint.scalars() - kParameters < kFewestInnovations ? Verdict::cannot_say : Verdict::nothing_missing;
+    d.verdict = d.cannot_judge ? Verdict::cannot_say : Verdict::nothing_missing;
   }
   d.findings = found;
   for (const CheckedRecording& c : ready->train)
@@ -288,7 +289,8 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   d.asked = asked_effects(joint, selected, looks);
   d.not_testable = next.not_testable;
   std::erase_if(d.not_testable, [&](const NotTestable& n) { return is_said(n.effect, d.findings); });
-  if (d.verdict == Verdict::nothing_missing && are_most_effects(d.not_testable)) d.verdict = Verdict::cannot_say;
+  d.cannot_judge = d.cannot_judge || are_most_effects(d.not_testable);
+  if (d.verdict == Verdict::nothing_missing && d.cannot_judge) d.verdict = Verdict::cannot_say;
 
   if (d.verdict != Verdict::unknown_effect)
     d.calibration = calibration_with(joint, intervals, d.calibration_alone, nominal);

@@ -137,6 +137,8 @@ struct Diagnosis {
   // `where.recording` names the one run in which the tracked point sat elsewhere.
   std::vector<Finding> findings;
   FitTable train, held_out;
+  // Whether something is missing: there are too few innovations on the way, or most effects could not have shown.
+  bool cannot_judge = false;
   bool left_out_in_turn = false;  // what `held_out` is: each recording by a fit to the others
   // By how much likelier the findings make the recordings of `held_out`, log-likelihood, than calibration alone does:
   // where each sample of the truth errs by more than a metre of dead reckoning, only this shows them.

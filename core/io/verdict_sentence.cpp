@@ -67,7 +67,8 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
             : diagnosis.calibration_alone.innovations_are_correlated
                 ? "No physics is found missing, but what is left is no mere noise: it goes on from one sample of "
                   "the truth to the next."
-                : "No physics is missing.";
+            : diagnosis.cannot_judge ? "These recordings cannot say whether physics is missing."
+                                     : "No physics is missing.";
       if (!measured.empty())
         sentence += (sentence.empty() ? "" : " ") +
                     ("It was measured otherwise than the vehicle's file says: " + list_of(measured, "and") + ".");

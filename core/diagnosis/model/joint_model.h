@@ -124,6 +124,8 @@ class JointModel {
   double chi2() const { return chi2_; }
   double minus_two_log_likelihood() const { return chi2_ + log_determinant_; }
   int scalars() const { return scalars_; }
+  // Of samples between which a wheel rolled: those at rest are asked again and again, and say the same of any motion.
+  int scalars_on_the_way() const;
   Eigen::MatrixXd covariance() const;  // of the columns: nuisances, clocks, half counts, amplitudes
   double stderr_of_nuisance(int c) const;
   SharedClock shared_clock() const;

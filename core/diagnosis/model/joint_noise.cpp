@@ -155,6 +155,18 @@ void JointModel::fit_noise() {
   model.noise = fitted(thinned, of_ways, model.noise);
 }
 
+int JointModel::scalars_on_the_way() const {
+  constexpr double kRolls_m = 0.02;
+  int sum = 0;
+  for (std::size_t r = 0; r < now_->runs.size(); ++r) {
+    const LinearisedRun& l = now_->runs[r];
+    const ThinnedTruth thin = thinned_truth(l.run(), l.summed(), model_of(static_cast<int>(r)), kRolls_m);
+    const int each = l.run().truth_has_heading ? 3 : 2;
+    sum += each * std::max(0, static_cast<int>(thin.run.truth.size()) - 1);
+  }
+  return sum;
+}
+
 void JointModel::gate() {
   std::vector<std::vector<char>> aside(runs_.size());
   parallel_for(static_cast<int>(runs_.size()), [&](int run) {

@@ -89,6 +89,11 @@ TEST(VerdictSentence, TellsAMarkerFromPhysics) {
   d.findings = {mounting};
   EXPECT_EQ(verdict_sentence(d),
             "No physics is missing. It was measured otherwise than the vehicle's file says: truth mounting offset.");
+  Diagnosis of_few = d;
+  of_few.cannot_judge = true;
+  EXPECT_EQ(verdict_sentence(of_few),
+            "These recordings cannot say whether physics is missing. It was measured otherwise than the vehicle's file "
+            "says: truth mounting offset.");
   Finding toe;
   toe.effect = "wheel_toe";
   toe.component = "vehicle";

@@ -14,12 +14,13 @@
 #include "core/diagnosis/units/together/joined_candidates.h"
 #include "core/diagnosis/units/together/joined_moments.h"
 #include "core/diagnosis/units/together/joined_unnamed.h"
+#include "core/diagnosis/units/together/usual.h"
 
 namespace odolab {
 
 namespace {
 
-constexpr std::size_t kMostNames = 3;
+constexpr std::ptrdiff_t kMostNames = 3;  // beside what is usual
 // Twice what the likelihood gains, at least: of what was sought in many places or from many times on; and of a push
 // that one unit feels alone, which as a rule is a joint that errs.
 constexpr double kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
@@ -180,7 +181,8 @@ class Naming {
   void name_all(const Progress& progress) {
     score_all(progress);
     JoinedModel with = model_;
-    while (named_.size() < kMostNames && goes_on(progress, 0.5)) {
+    const auto is_more = [&](const ScoredTogether& s) { return !is_usual(s, model_); };
+    while (std::count_if(named_.begin(), named_.end(), is_more) < kMostNames && goes_on(progress, 0.5)) {
       ScoredTogether* best = nullptr;
       std::vector<ScoredTogether> now = scored_;
       if (!named_.empty()) ask_again(with, now);
@@ -338,7 +340,7 @@ class Naming {
   JoinedName name_of(std::size_t k) const {
     const ScoredTogether& s = named_[k];
     const Effect& e = *s.candidate.effect;
-    JoinedName name{{}, s.candidate.units};
+    JoinedName name{{}, s.candidate.units, is_usual(s, model_)};
     Finding& f = name.finding;
     f.effect = e.name;
     f.component = s.candidate.component;

@@ -17,6 +17,7 @@ namespace odolab {
 struct JoinedName {
   Finding finding;                 // in the vehicle's words
   std::vector<std::size_t> units;  // on which it acts
+  bool is_usual = false;           // usual.h: no finding
 };
 
 struct JoinedNames {

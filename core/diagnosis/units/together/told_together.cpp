@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/effects/effect_motions.h"
@@ -11,6 +12,7 @@
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/merged_findings.h"
 #include "core/diagnosis/units/unit_models.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -48,13 +50,40 @@ Finding of_unit(const JoinedName& name, const VehicleUnit& unit, const std::vect
   return f;
 }
 
-std::vector<Finding> findings_of(const ToldTogether& told, std::size_t unit) {
+enum class Names { all, findings };
+
+std::vector<Finding> names_on(const ToldTogether& told, std::size_t unit, Names which) {
   const std::vector<VehicleUnit> units = units_of(told.model.vehicle());
   std::vector<Finding> all;
-  for (const JoinedName& name : told.said.names)
+  for (const JoinedName& name : told.said.names) {
+    if (which == Names::findings && name.is_usual) continue;
     if (std::find(name.units.begin(), name.units.end(), unit) != name.units.end())
       all.push_back(of_unit(name, units[unit], units));
+  }
   return all;
+}
+
+// "the left wheel of truck B", "truck A", "the vehicle".
+std::string component_in_words(const std::string& component) {
+  const std::size_t dot = component.find('.');
+  if (dot != std::string::npos)
+    return "the " + with_blanks(component.substr(dot + 1)) + " of " + part_words(component.substr(0, dot));
+  const bool has_a_number = component.rfind("truck_", 0) == 0 || component.rfind("castor", 0) == 0;
+  return has_a_number ? part_words(component) : "the " + with_blanks(component);
+}
+
+std::string usual_in_words(const std::vector<JoinedName>& names) {
+  std::string said;
+  for (const JoinedName& name : names) {
+    if (!name.is_usual) continue;
+    const FoundParameter& p = name.finding.parameters.front();
+    said += (said.empty() ? "" : ", ") + effect_words(name.finding.effect) + " of " +
+            component_in_words(name.finding.component) + formatted(" (%.2g +- %.1g", p.value, p.stderr_value) +
+            (p.unit == "1" ? "" : " " + p.unit) + ")";
+  }
+  return said.empty() ? said
+                      : "the units tell of each other what any vehicle does, and no more of it than any: " + said +
+                            "; it is reckoned with, and no finding";
 }
 
 }  // namespace
@@ -110,7 +139,8 @@ std::vector<Understood> understood_without(const ToldTogether& told, const std::
     std::vector<std::vector<BodyMotion>> motions(units.size());
     for (std::size_t u = 0; u < units.size(); ++u) {
       FittedModel model;
-      for (const Finding& f : findings_of(told, u)) model.effects.push_back({f.as_active(), {}, f.where.recording});
+      for (const Finding& f : names_on(told, u, Names::all))
+        model.effects.push_back({f.as_active(), {}, f.where.recording});
       motions[u] = motions_of(drive_view(0, run_of_wheels(all.back().samples, u), units[u].drive, false, tracks[u]),
                               model.effects_in(recordings[r].name));
     }
@@ -119,7 +149,7 @@ std::vector<Understood> understood_without(const ToldTogether& told, const std::
   return all;
 }
 
-bool acts_on(const ToldTogether& told, std::size_t unit) { return !findings_of(told, unit).empty(); }
+bool acts_on(const ToldTogether& told, std::size_t unit) { return !names_on(told, unit, Names::all).empty(); }
 
 Diagnosis with_names(const ToldTogether& told, std::size_t unit, const Diagnosis& as_read, Diagnosis again) {
   std::vector<Finding>& findings = again.findings;
@@ -127,7 +157,7 @@ Diagnosis with_names(const ToldTogether& told, std::size_t unit, const Diagnosis
                 [](const Finding& f) { return is_told_together(f) || is_of_a_joint(f) || is_data_fault(f.effect); });
   for (const Finding& f : as_read.findings)
     if (is_data_fault(f.effect)) findings.push_back(f);
-  for (const Finding& f : findings_of(told, unit)) findings.push_back(f);
+  for (const Finding& f : names_on(told, unit, Names::findings)) findings.push_back(f);
   for (FitTable Diagnosis::*table : {&Diagnosis::train, &Diagnosis::held_out}) {
     (again.*table).nominal = (as_read.*table).nominal;
     (again.*table).calibrated = (as_read.*table).calibrated;
@@ -160,11 +190,15 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
     d.verdict = Verdict::unknown_effect;
     return;
   }
-  for (const JoinedName& name : told.said.names) d.findings.push_back(name.finding);
+  for (const JoinedName& name : told.said.names)
+    if (!name.is_usual) d.findings.push_back(name.finding);
   put_in_order(d.findings);
+  if (std::string usual = usual_in_words(told.said.names); !usual.empty()) d.warnings.push_back(std::move(usual));
   // What one unit by itself could not say all of them may.
   if (d.verdict == Verdict::cannot_say && !are_most_effects(d.not_testable)) d.verdict = Verdict::nothing_missing;
-  if (told.said.names.empty() || d.verdict == Verdict::unknown_effect) return;
+  const auto is_usual = [](const JoinedName& name) { return name.is_usual; };
+  if (std::all_of(told.said.names.begin(), told.said.names.end(), is_usual) || d.verdict == Verdict::unknown_effect)
+    return;
   d.verdict =
       std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return !f.alternatives.empty(); })
           ? Verdict::ambiguous

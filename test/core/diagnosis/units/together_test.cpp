@@ -213,6 +213,24 @@ TEST(DiagnoseTogether, NamesAnOvalWheelOfATruckUnderATruthThatErrsFiftyTimesAsMu
   EXPECT_GT(d->calibration.noise.wheel_m_per_sqrt_m, 0.0);
 }
 
+// 18 um to either side on a wheel of 75 mm, which the trucks' joints show under a camera of a centimetre.
+TEST(DiagnoseTogether, TakesAWheelThatIsAsRoundAsAnyForNoFinding) {
+  constexpr double kAmplitude = 0.00024;
+  LinkedRunSettings s = under_a_coarse_truth();
+  s.wheel_noise = 3e-5;
+  s.b_left = [](double, double rotation_rad, double by_rad) { return kAmplitude * std::cos(rotation_rad) * by_rad; };
+  const Clapper trucks = fine_clapper();
+  const std::vector<Recording> runs = {linked_run(trucks, s, 304), linked_run(trucks, s, 305),
+                                       linked_run(trucks, s, 306)};
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::nothing_missing);
+  EXPECT_TRUE(d->findings.empty()) << d->findings.front().effect;
+  EXPECT_TRUE(std::any_of(d->warnings.begin(), d->warnings.end(), [](const std::string& said) {
+    return said.find("wheel eccentricity of the left wheel of truck B") != std::string::npos;
+  }));
+}
+
 // The wheel once counts 6 mm too much, at 22 s of the second run.
 TEST(DiagnoseTogether, FeelsABumpUnderATruthThatErrsByMore) {
   const LinkedRunSettings even = under_a_coarse_truth();
