@@ -17,10 +17,11 @@ namespace odolab {
 
 namespace {
 
-const std::vector<std::string>& common_effects() {
-  static const std::vector<std::string> names = {
-      "clock_rate",   "floor_slope_creep",     "truth_time_offset",      "truth_smoothing",
-      "truth_frozen", "truth_mounting_offset", "speed_dependent_radius", "turn_speed_loss"};
+// What all units do alike, and what only a truth shows that is followed; poses at both ends tell where it sits.
+std::vector<std::string> common_effects(OutsideTruth truth) {
+  std::vector<std::string> names = {"clock_rate",   "floor_slope_creep",      "truth_time_offset", "truth_smoothing",
+                                    "truth_frozen", "speed_dependent_radius", "turn_speed_loss"};
+  if (truth == OutsideTruth::nothing) names.push_back("truth_mounting_offset");
   return names;
 }
 
@@ -175,7 +176,7 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     if (acts_on(told, u)) std::erase_if(one.findings, [](const Finding& f) { return is_data_fault(f.effect); });
     one = with_names(told, u, one, one);  // counts from which something was taken off are no whole ones
   }
-  Diagnosis d = merged(judged->units, judged->geometry, nominal, train, by_positions);
+  Diagnosis d = merged(judged->units, judged->geometry, nominal, train, truth);
   put_names_into(told, d);
   if (by_positions) {
     d.warnings.insert(d.warnings.begin(),
@@ -186,13 +187,14 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
     return d;
   }
   for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone}) c->scale_is_open = !is_measured;
-  const auto is_common = [](const auto& of) {
-    return std::find(common_effects().begin(), common_effects().end(), of.effect) != common_effects().end();
+  const std::vector<std::string> common = common_effects(truth);
+  const auto is_common = [&](const auto& of) {
+    return std::find(common.begin(), common.end(), of.effect) != common.end();
   };
   std::erase_if(d.not_testable, is_common);
   std::erase_if(d.asked, is_common);
   mark_named(d);
-  for (const std::string& name : common_effects())
+  for (const std::string& name : common)
     d.not_testable.push_back({name, "without an outside truth what all units do alike does not show between them",
                               "the same with an outside truth that has headings"});
   d.warnings.insert(d.warnings.begin(),

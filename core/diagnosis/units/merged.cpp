@@ -64,7 +64,8 @@ Verdict verdict_of(const std::vector<Diagnosis>& diagnoses, const std::vector<Fi
 }  // namespace
 
 Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geometry, const Vehicle& nominal,
-                 const std::vector<Recording>& recordings, bool from_outside) {
+                 const std::vector<Recording>& recordings, OutsideTruth truth) {
+  const bool from_outside = truth == OutsideTruth::poses || truth == OutsideTruth::positions;
   std::vector<VehicleUnit> units = units_of(nominal);
   for (VehicleUnit& unit : units) unit.carries_truth = unit.carries_truth && from_outside;
   Diagnosis d;
@@ -112,13 +113,12 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
       });
   put_events_into_their_zones(d.findings);
   put_pushes_together(d.findings, units);
-  if (!truth_is_carried && from_outside) {
-    add_truth(geometry, nominal, d.findings);
-  }
+  if (!truth_is_carried && truth != OutsideTruth::nothing) add_mounting(geometry, nominal, d.findings);
+  if (!truth_is_carried && from_outside) add_clock(geometry, nominal, d.findings);
   if (!truth_is_carried)
     for (std::size_t r = 0; r < recordings.size(); ++r)
       d.truth_clock_s.emplace_back(recordings[r].name, nominal.truth.time_offset_s + geometry.clock_s[r]);
-  if (!from_outside)
+  if (truth == OutsideTruth::nothing)
     d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
   for (std::string& sentence : add_biases(geometry, units, d.findings)) d.warnings.push_back(std::move(sentence));
   leave_out_biases_beside_erring_joints(d.findings);

@@ -265,7 +265,7 @@ void put_in_order(std::vector<Finding>& all) {
     if (gain > 0.0 && f.effect != "unknown") f.share_of_mismatch = f.log_likelihood_gain / gain;
 }
 
-void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {
+void add_mounting(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {
   Finding mounting;
   bool material = false;
   for (const JointEstimate& e : geometry.joints) {
@@ -285,6 +285,9 @@ void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<
                             : "the tracked point is not where the vehicle's file has it";
     all.push_back(mounting);
   }
+}
+
+void add_clock(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {
   const Eigen::VectorXd error_s = Eigen::Map<const Eigen::VectorXd>(
       geometry.clock_stderr_s.data(), static_cast<Eigen::Index>(geometry.clock_stderr_s.size()));
   const SharedClock shared = shared_clock(geometry.clock_s, Eigen::MatrixXd(error_s.cwiseAbs2().asDiagonal()));

@@ -38,7 +38,8 @@ void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 // What has no name first, then the strongest; and of the evidence of all the share of each that has one.
 void put_in_order(std::vector<Finding>& all);
 
-// Mounting and clock of the truth where no unit carries it.
-void add_truth(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);
+// Of the truth, where no unit by itself is held against it: where it sits, and its clock.
+void add_mounting(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);
+void add_clock(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all);
 
 }  // namespace odolab

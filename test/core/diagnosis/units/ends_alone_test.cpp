@@ -102,7 +102,10 @@ TEST(DiagnoseUnits, MeasureByTheEndsOfTheirWaysWhereTheTrackedPointSits) {
     runs.push_back(with_tracked_point_at(ends_of(linked_run(actual, under_a_tape(), seed)), axle_T_tracked));
   const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(fine_clapper()));
   ASSERT_TRUE(d);
-  EXPECT_TRUE(d->findings.empty()) << d->findings.front().effect;
+  ASSERT_EQ(d->findings.size(), 1u);
+  EXPECT_EQ(d->findings[0].effect, "truth_mounting_offset");
+  EXPECT_DOUBLE_EQ(d->fitted_vehicle->truth.axle_T_tracked.y_m, d->findings[0].parameters[1].value);
+  for (const NotTestable& n : d->not_testable) EXPECT_NE(n.effect, "truth_mounting_offset");
   expect_known(*d, "truck_a.wheel_radius_left_m", actual.truck_a.wheel_radius_left_m, 0.003);
   expect_known(*d, "truck_b.wheel_radius_right_m", actual.truck_b.wheel_radius_right_m, 0.003);
   expect_known(*d, "truth_mounting.y_m", axle_T_tracked.y_m, 0.3);
