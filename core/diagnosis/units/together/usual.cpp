@@ -17,7 +17,7 @@ double fastest_mps(const JoinedModel& model) {
 }  // namespace
 
 bool is_usual(const ScoredTogether& s, const JoinedModel& model) {
-  constexpr double kAngle_rad_per_mps2 = 0.016, kShare_per_mps2 = 0.01, kRunOut = 3e-4;
+  constexpr double kAngle_rad_per_mps2 = 0.016, kShare_per_mps2 = 0.01, kRunOut = 5e-4;
   const Effect& e = *s.candidate.effect;
   if (e.name == "traction_slip") return std::abs(s.test.value[0]) < kShare_per_mps2;
   if (e.name == "wheel_eccentricity") {
