@@ -155,21 +155,12 @@ std::string figures_text(const FitFigures& f) {
          (f.has_heading() ? number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad)) : "");
 }
 
-std::string component_text(const std::string& component) {
-  const std::size_t dot = component.find('.');
-  if (dot != std::string::npos)
-    return component_text(component.substr(dot + 1)) + " of " + part_words(component.substr(0, dot));
-  if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0)
-    return part_words(component);
-  return "the " + part_words(component);
-}
-
 std::string effect_text(const std::string& effect, const std::string& component) {
   if (effect == "unknown")
-    return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_text(component);
+    return component.empty() ? "an effect in no list" : "an effect in no list, of " + component_words(component);
   std::string text = effect_words(effect);
   // "truth frozen of the truth" says it twice
-  if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_text(component);
+  if (!component.empty() && effect.rfind(component, 0) != 0) text += " of " + component_words(component);
   return text;
 }
 
@@ -253,7 +244,7 @@ std::vector<Finding> faults_together(const std::vector<Finding>& findings) {
     all.component = of_one_part ? first.component : "";
     for (std::size_t i = 0; i < std::min(alike.size(), kMostSaid); ++i)
       all.where.regime += (i == 0 ? "" : "; ") + where_text(alike[i]->where) +
-                          (of_one_part ? "" : " (" + component_text(alike[i]->component) + ")");
+                          (of_one_part ? "" : " (" + component_words(alike[i]->component) + ")");
     if (alike.size() > kMostSaid)
       all.where.regime += more_of(alike.size() - kMostSaid, "; and in one recording or part more",
                                   "; and in %.0f recordings or parts more");

@@ -20,9 +20,6 @@ std::string figures_text(const FitFigures& figures);
 // "wheel eccentricity of the left wheel".
 std::string effect_text(const std::string& effect, const std::string& component);
 
-// "the left wheel", "both wheels", "the left wheel of truck A".
-std::string component_text(const std::string& component);
-
 // "6.00 ± 0.10 mm": lengths in millimetres, angles in degrees, fractions in per cent, as many digits as the error
 // bears.
 std::string quantity_text(double value, double stderr_value, const std::string& unit);

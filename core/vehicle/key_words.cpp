@@ -51,6 +51,15 @@ std::string part_words(const std::string& part) {
   return joined(split(spaced));
 }
 
+std::string component_words(const std::string& component) {
+  const std::size_t dot = component.find('.');
+  if (dot != std::string::npos)
+    return component_words(component.substr(dot + 1)) + " of " + part_words(component.substr(0, dot));
+  if (component.rfind("both", 0) == 0 || component.rfind("truck", 0) == 0 || component.rfind("castor", 0) == 0)
+    return part_words(component);
+  return "the " + part_words(component);
+}
+
 std::string parameter_words(const std::string& key) {
   if (const std::size_t dot = key.find('.'); dot != std::string::npos)
     return part_words(key.substr(0, dot)) + ", " + parameter_words(key.substr(dot + 1));

@@ -111,16 +111,16 @@ void JointModel::fit_noise() {
     return most_likely_noise([&](const FittedNoise& noise) { return likelihood_of(parts, fit, noise); }, from, fit);
   };
   bool any_heading = false, any_commands = false;
+  int truth_samples = 0;
   std::vector<Part> whole;
   for (const LinearisedRun& l : now_->runs) {
     whole.push_back({&l.run(), &l.summed()});
+    truth_samples += static_cast<int>(l.run().truth.size());
     any_heading = any_heading || l.run().truth_has_heading;
     any_commands = any_commands || l.run().speeds_are_held;
   }
   NoiseFit of_samples{{noise_size::wheel, noise_size::position}, kUsualNoise};
-  int samples = 0;
-  for (const Part& part : whole) samples += static_cast<int>(part.run->truth.size());
-  of_samples.expect_usual_truth_of(samples);
+  of_samples.expect_usual_truth_of(truth_samples);
   of_samples.add_body();
   of_samples.add_wander(any_heading);
   if (any_commands) of_samples.add_timing();

@@ -119,22 +119,24 @@ Result<Diagnosis> diagnose_inside(const std::vector<Recording>& train, const std
                  "such a truth, or " + std::to_string(kMostJoinedUnits) + " units at most"};
   std::vector<std::string> names;
   for (const Recording& r : train) names.push_back(r.name);
-  const auto told_by = [&](OutsideTruth by) {
-    return *told_together(runs_of(train, by, nominal),
-                          by == OutsideTruth::nothing ? without_mounting(nominal) : nominal, {}, names,
+  std::vector<JoinedRun> runs = runs_of(train, truth, nominal);
+  const auto leave_truth_out = [&] { runs = runs_of(train, truth = OutsideTruth::nothing, nominal); };
+  const auto told_by_all = [&] {
+    return *told_together(runs, truth == OutsideTruth::nothing ? without_mounting(nominal) : nominal, {}, names,
                           options.family_wise_error, [&](double share) { return goes_on(progress, 0.3 * share); });
   };
   // Ends where the vehicle comes back to where it set off do not tell how large it is.
   constexpr double kMayTell = 0.005, kTellTheScale = 0.01;  // before it is fitted, and once it is
-  if (truth == OutsideTruth::ends &&
-      JoinedModel(runs_of(train, truth, nominal), nominal, {}, names).expected_stderr_of_scale() > kMayTell)
-    truth = OutsideTruth::nothing;
-  ToldTogether told = told_by(truth);
-  if (truth == OutsideTruth::ends && told.model.stderr_of_scale() > kTellTheScale)
-    told = told_by(truth = OutsideTruth::nothing);
+  if (truth == OutsideTruth::ends && JoinedModel(runs, nominal, {}, names).expected_stderr_of_scale() > kMayTell)
+    leave_truth_out();
+  ToldTogether told = told_by_all();
+  if (truth == OutsideTruth::ends && told.model.stderr_of_scale() > kTellTheScale) {
+    leave_truth_out();
+    told = told_by_all();
+  }
   if (!goes_on(progress, 0.3)) return Error{"diagnosis", "stopped before its end", ""};
   const bool by_positions = truth == OutsideTruth::positions, is_measured = truth != OutsideTruth::nothing;
-  const std::vector<JoinedRun> runs = runs_of(train, truth, nominal), runs_held_out = runs_of(held_out, truth, nominal);
+  const std::vector<JoinedRun> runs_held_out = runs_of(held_out, truth, nominal);
   std::vector<double> clock_s(runs.size()), clock_held_out_s(runs_held_out.size());
   std::vector<Pose> begun, begun_held_out;
   if (is_measured) {

@@ -92,7 +92,7 @@ class JoinedFilter {
     bool is_believed = false;                 // it is none of the outliers
     std::vector<Pose> unit_T_body;            // the tracked point as each unit has it
     std::vector<std::vector<Pose>> by_joint;  // [joint][unit] what that moves by where the joint reads more by one
-    std::vector<double> held = {};            // of each joint that is read: so many readings in a row say the same
+    std::vector<double> held = {};            // of each joint that is read: so many readings count as one
   };
   // What the filter did to arrive at a reading.
   struct Step {
@@ -133,7 +133,8 @@ class JoinedFilter {
     Vec2 rest;
   };
   void cut_into_pieces();
-  // A joint that holds its angle holds its rounding: what is read again and again is one reading.
+  // A joint that holds its angle holds its rounding: what is read again and again is one reading, unless the joint soon
+  // passes on to the next step.
   void count_what_is_held();
 
   // The body at the first reading, by the truth.

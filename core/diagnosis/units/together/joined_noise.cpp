@@ -36,9 +36,9 @@ void JoinedModel::fit_noise() {
   fit_sizes(all);
   linearise();
   if (!has_truth_ || follows_truth_) return;
-  const double larger = share_of_ends_left();
-  noise_.truth_position_m /= larger;
-  noise_.truth_heading_rad /= larger;
+  const double left = share_of_ends_left();
+  noise_.truth_position_m /= left;
+  noise_.truth_heading_rad /= left;
   linearise();
 }
 
@@ -46,14 +46,16 @@ void JoinedModel::fit_noise() {
 double JoinedModel::share_of_ends_left() const {
   constexpr double kLeastLeft = 3.0;
   const Eigen::Index reading = filters_.front().rows();
-  Eigen::MatrixXd of_truth = z_;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(z_.cols(), z_.cols());
   double numbers = 0.0;
-  for (Eigen::Index first = 0; first < z_.rows(); first += reading) {
-    of_truth.middleRows(first, reading - 3).setZero();
-    numbers += static_cast<double>((residual_.segment(first + reading - 3, 3).array() != 0.0).count());
+  for (Eigen::Index of_truth = reading - 3; of_truth < z_.rows(); of_truth += reading) {
+    if ((residual_.segment<3>(of_truth).array() == 0.0).all()) continue;  // no sample of it
+    const auto rows = z_.middleRows<3>(of_truth);
+    information += rows.transpose() * rows;
+    numbers += static_cast<double>((residual_.segment<3>(of_truth).array() != 0.0).count());
   }
   numbers -= 3.0 * static_cast<double>(filters_.size());  // where each run begins says nothing
-  const double taken = gram_.solve(of_truth.transpose() * of_truth).trace();
+  const double taken = gram_.solve(information).trace();
   return std::sqrt(std::max(numbers - taken, kLeastLeft) / std::max(numbers, kLeastLeft));
 }
 

@@ -63,22 +63,13 @@ std::vector<Finding> names_on(const ToldTogether& told, std::size_t unit, Names 
   return all;
 }
 
-// "the left wheel of truck B", "truck A", "the vehicle".
-std::string component_in_words(const std::string& component) {
-  const std::size_t dot = component.find('.');
-  if (dot != std::string::npos)
-    return "the " + with_blanks(component.substr(dot + 1)) + " of " + part_words(component.substr(0, dot));
-  const bool has_a_number = component.rfind("truck_", 0) == 0 || component.rfind("castor", 0) == 0;
-  return has_a_number ? part_words(component) : "the " + with_blanks(component);
-}
-
 std::string usual_in_words(const std::vector<JoinedName>& names) {
   std::string said;
   for (const JoinedName& name : names) {
     if (!name.is_usual) continue;
     const FoundParameter& p = name.finding.parameters.front();
     said += (said.empty() ? "" : ", ") + effect_words(name.finding.effect) + " of " +
-            component_in_words(name.finding.component) + formatted(" (%.2g +- %.1g", p.value, p.stderr_value) +
+            component_words(name.finding.component) + formatted(" (%.2g +- %.1g", p.value, p.stderr_value) +
             (p.unit == "1" ? "" : " " + p.unit) + ")";
   }
   return said.empty() ? said
