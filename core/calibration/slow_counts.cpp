@@ -10,21 +10,17 @@ namespace {
 
 void draw(const std::vector<WheelSample>& readings, double WheelSample::*wheel, double count_rad,
           std::vector<WheelSample>& out) {
-  const int n = static_cast<int>(readings.size());
-  const auto counts_after = [&](int i) { return (readings[i + 1].*wheel - readings[i].*wheel) / count_rad; };
+  const std::vector<Movement> all = movements(readings, wheel);
   const auto edge_s = [&](int i) { return 0.5 * (readings[i].time_s + readings[i + 1].time_s); };
   const auto edge_rad = [&](int i) { return 0.5 * (readings[i].*wheel + readings[i + 1].*wheel); };
-  int before = -1;  // the last interval that brought a count
-  for (int i = 0; i + 1 < n; ++i) {
-    const double counts = counts_after(i);
-    if (counts == 0.0) continue;
-    const bool slow = before >= 0 && i - before > 1 && std::abs(counts) < 1.5 && std::abs(counts_after(before)) < 1.5 &&
-                      counts * counts_after(before) > 0.0 && edge_s(i) - edge_s(before) < kRest_s;
-    if (slow) {
-      const double from_s = edge_s(before), slope = (edge_rad(i) - edge_rad(before)) / (edge_s(i) - from_s);
-      for (int k = before + 1; k <= i; ++k) out[k].*wheel = edge_rad(before) + slope * (readings[k].time_s - from_s);
-    }
-    before = i;
+  const auto is_a_count = [&](const Movement& m) { return std::abs(m.by) < 1.5 * count_rad; };
+  for (std::size_t m = 0; m + 1 < all.size(); ++m) {
+    const int before = all[m].interval, i = all[m + 1].interval;
+    const bool slow = i - before > 1 && is_a_count(all[m]) && is_a_count(all[m + 1]) &&
+                      all[m].by * all[m + 1].by > 0.0 && !all[m].then_rests;
+    if (!slow) continue;
+    const double from_s = edge_s(before), slope = (edge_rad(i) - edge_rad(before)) / (edge_s(i) - from_s);
+    for (int k = before + 1; k <= i; ++k) out[k].*wheel = edge_rad(before) + slope * (readings[k].time_s - from_s);
   }
 }
 

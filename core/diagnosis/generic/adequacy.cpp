@@ -322,15 +322,15 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double error) {
   // Groups share most of what they ask, and the bound over all of them is wide: of 116 sets of four programs in which
   // nothing was missing the least p was below a tenth in two. Beside names that is kept, so that none is wronged; of
-  // a base that is driven by its commands, whose lag may be too small to be let in; and where there are few
-  // innovations, which groups of so many terms fit by chance.
+  // a base that is driven by its commands, whose lag may be too small to be let in; where there are few innovations,
+  // which groups of so many terms fit by chance; and where counts are coarse, of whose feigning only so much is known.
   constexpr double kShared = 6.0;
   const std::ptrdiff_t names = names_held_against(joint, Base::goes);
   const bool commands = std::any_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands));
   int stretches = joint.gathered_error().windows;
   if (stretches == 0) stretches = joint.path_error().windows;
   const bool many = 3 * stretches > kFewestInnovations;
-  const double of_what_is_left = names == 0 && !commands && many ? kShared * error : error;
+  const double of_what_is_left = names == 0 && !commands && many && !joint.counted_again ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, of_what_is_left);

@@ -22,6 +22,7 @@
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
 #include "core/diagnosis/model/coarse_counts.h"
+#include "core/diagnosis/model/counted_again.h"
 
 namespace odolab {
 
@@ -61,6 +62,11 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   t.p_value = t.p_value_of(t.test);
   t.as_effect = std::move(term);
   if (asked.counts_are_coarse) leave_displaced_to_counting(t, asked.joint);
+  constexpr double kWorthAsking = 0.05;
+  if (!asked.joint.counted_again || t.p_value >= kWorthAsking) return;
+  for (CandidateTest* of : {&t.test, &t.instead})
+    asked.joint.counted_again->widen(*of, *t.as_effect, {}, kAskedOfGeneric);
+  t.p_value = t.p_value_of(t.test);
 }
 
 GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,

@@ -36,6 +36,16 @@ JointModel JointModel::under(const FittedNoise& noise) const {
   return other;
 }
 
+JointModel JointModel::with_runs(std::vector<InnovationRun> runs) const {
+  JointModel other = *this;
+  other.runs_ = std::move(runs);
+  for (std::size_t r = 0; r < other.runs_.size(); ++r) other.masked_[r] = other.runs_[r].set_aside;
+  other.now_.reset();
+  other.linearised_at_.reset();
+  other.cut();
+  return other;
+}
+
 JointModel JointModel::as_recorded() const {
   JointModel all = *this;
   all.model.noise = noise_as_recorded();

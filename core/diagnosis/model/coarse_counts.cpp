@@ -67,15 +67,22 @@ double largest_count_m(const JointModel& joint) {
   return largest_count_rad(joint) * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
 }
 
-bool counts_are_coarse(const JointModel& joint) {
-  constexpr double kCoarse = 2.0, kFew = 8.0;
+namespace {
+
+bool err_by_more(const JointModel& joint, double times, double counts_from_reading_to_reading) {
   const double of_a_wheel_m = largest_count_m(joint) / std::sqrt(12.0),
                of_heading_rad = std::sqrt(2.0) * of_a_wheel_m / joint.model.drive.wheelbase_m;
   const FittedNoise& noise = joint.model.noise;
-  const bool are_beyond_truth = of_a_wheel_m > kCoarse * noise.truth_position_m ||
-                                (noise.truth_heading_rad > 0.0 && of_heading_rad > kCoarse * noise.truth_heading_rad);
-  return are_beyond_truth && counts_of_a_reading(joint) < kFew;
+  const bool are_beyond_truth = of_a_wheel_m > times * noise.truth_position_m ||
+                                (noise.truth_heading_rad > 0.0 && of_heading_rad > times * noise.truth_heading_rad);
+  return are_beyond_truth && counts_of_a_reading(joint) < counts_from_reading_to_reading;
 }
+
+}  // namespace
+
+bool counts_are_coarse(const JointModel& joint) { return err_by_more(joint, 2.0, 8.0); }
+
+bool counts_may_feign(const JointModel& joint) { return err_by_more(joint, 0.5, 16.0); }
 
 // Both ends of a change are rounded, each by up to a count.
 bool is_within_counts(const JointModel& joint, const Effect& term, const std::vector<double>& value,

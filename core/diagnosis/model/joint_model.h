@@ -32,7 +32,9 @@ struct CandidateTest {
   int freedom = 0;
   double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
   double batches = 1e9;    // from so many it was found how the score scatters
-  double survives = 0.0;   // share of the signature's information that the projection leaves
+  // So much of that by what whole counts feign, which is known from so many squares (counted_again.h).
+  double feigned = 0.0, feigned_batches = 1e9;
+  double survives = 0.0;  // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
   // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Only
   // where that was asked for, of two columns and more.
@@ -68,6 +70,7 @@ struct CandidateProducts {
   Eigen::VectorXd with_residual;
 };
 
+class CountedAgain;
 class ScannedProducts;
 
 class JointModel {
@@ -114,6 +117,7 @@ class JointModel {
   // Whether the first fit of the noise asks after how long the truth's frame comes back.
   bool truth_may_come_back = true;
   std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else it may err by; null: nothing
+  std::shared_ptr<const CountedAgain> counted_again;            // where counts are coarse; null: nowhere
   double truth_feigns_m = 0.0;  // of a wheel's way at a place or moment, by the steps that the truth has
   bool truth_jumps = false;     // time and again, so that what happens at one moment is not told from these
 
@@ -199,7 +203,8 @@ class JointModel {
   InnovationRun recorded(int run) const;
   FittedNoise noise_as_recorded() const;
   JointModel as_recorded() const;  // all that was recorded, with what the model leaves of it; without columns
-  JointModel under(const FittedNoise& noise) const;  // to be linearised
+  JointModel under(const FittedNoise& noise) const;             // to be linearised
+  JointModel with_runs(std::vector<InnovationRun> runs) const;  // the same
 
  private:
   friend class CandidateScan;

@@ -26,7 +26,6 @@ InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t
 
 std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
                                                   const LeastSquaresCalibration& calibration, bool were_fitted) {
-  constexpr double kReadingsApart_s = 0.034;
   constexpr std::size_t kOfNone = static_cast<std::size_t>(-1);
   std::vector<Result<InnovationRun>> runs(checked.size(), Error{});
   parallel_for(static_cast<int>(checked.size()), [&](int i) {

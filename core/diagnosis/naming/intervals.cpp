@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/shape_likelihood.h"
 #include "core/diagnosis/naming/shape_search.h"
@@ -17,6 +18,7 @@ using Eigen::VectorXd;
 
 // A form is never quite that of the world, however long it is looked at: of a value, assumed.
 constexpr double kFormError = 0.01;
+constexpr double kErrorOfCounts = 0.2;  // of velocities and accelerations, where they are taken from coarse counts
 constexpr double kErrorOfForms = 0.05;  // where machines show it in several forms, of which the nearest was taken
 
 // A time is not known better than to the mean of the truth in which it lies; and a push has a beginning, too.
@@ -175,6 +177,7 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     moves[a] = -joint.absorbed(joint.columns_of(derivative, joint.accepted[a].shape));
     if (moves[a].cols() == of_shape[a].rows()) out.columns += moves[a] * of_shape[a] * moves[a].transpose();
   }
+  const bool are_coarse = counts_are_coarse(joint);
   for (std::size_t a = 0; a < count; ++a) {
     const int first = joint.first_column(static_cast<int>(a)), n = static_cast<int>(joint.accepted[a].value.size());
     const int m = static_cast<int>(of_shape[a].rows());
@@ -185,7 +188,10 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     if (is_patch) block.topLeftCorner(n, n) = at_these_shapes.block(first, first, n, n) + of_amplitudes[a];
     double square = 0.0;
     for (double v : joint.accepted[a].value) square += v * v / n;
-    const double form = joint.accepted[a].effect->forms.size() > 1 ? kErrorOfForms : kFormError;
+    const Effect& effect = *joint.accepted[a].effect;
+    const double form = are_coarse && !effect.local ? kErrorOfCounts
+                        : effect.forms.size() > 1   ? kErrorOfForms
+                                                    : kFormError;
     VectorXd of_form = VectorXd::Constant(n, form * form * square);
     block.topLeftCorner(n, n) += of_form.asDiagonal();
     if (m > 0) {

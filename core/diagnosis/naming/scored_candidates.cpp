@@ -5,7 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
-#include "core/diagnosis/model/coarse_counts.h"
+#include "core/diagnosis/model/counted_again.h"
 #include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/naming/shape_search.h"
 
@@ -63,8 +63,6 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
   constexpr double kCounts = 1.5, kCountsAtRest = 2.0;
   const DifferentialDrive& drive = joint.model.drive;
   const double radius_m = std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-  if (!e.local && e.acts_on_motion() && counts_are_coarse(joint) && is_within_counts(joint, e, test.value, test.shape))
-    return false;
   double sum_m2 = 0.0, least_m = 0.0;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const double count = count_rad(joint.runs()[r], drive);
@@ -135,7 +133,8 @@ bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
 }  // namespace
 
 void judge(ScoredCandidate& c) {
-  c.p_value = std::min(1.0, chi_square_tail(c.test.judged(), c.test.freedom) * std::exp(c.log_tests));
+  c.p_value = std::min(
+      1.0, scaled_chi_square_tail(c.test.judged(), c.test.freedom, c.test.feigned_batches) * std::exp(c.log_tests));
 }
 
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
@@ -184,6 +183,11 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   if (!best.test.value.empty()) best.beyond_counts = beyond_counts(joint, e, best.test);
   best.log_tests = log_tests;
   judge(best);
+  constexpr double kWorthAsking = 0.05;
+  if (joint.counted_again && !e.local && e.acts_on_motion() && best.p_value < kWorthAsking) {
+    joint.counted_again->widen(best.test, e, shape);
+    judge(best);
+  }
   return best;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/model/counted_again.h"
 #include "core/diagnosis/naming/compared_names.h"
 #include "core/diagnosis/naming/one_cause.h"
 
@@ -30,6 +31,8 @@ ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
   c.effect = a.effect;
   c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
   c.test.shape = a.shape;
+  if (joint.counted_again && !a.effect->local && a.effect->acts_on_motion())
+    joint.counted_again->widen(c.test, *a.effect, a.shape);
   judge(c);
   return c;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace odolab {
 namespace {
 
@@ -30,6 +32,18 @@ TEST(Rests, AreNoWaitingForTheNextCount) {
   std::vector<WheelSample> readings;
   for (int i = 0; i <= 300; ++i) readings.push_back({0.01 * i, 0.01 * (i / 15), 0.0});  // a count each 0.15 s
   EXPECT_TRUE(rest_edges(readings, &WheelSample::left_rad).empty());
+}
+
+TEST(Rests, AreNoWaitingOfAWheelThatTurnsSlowerThanItsCountsComeForAWhile) {
+  std::vector<WheelSample> readings;
+  const auto turned = [](double t) { return t < 2.0 ? t : t < 2.9 ? 2.0 : t - 0.9; };  // rests for 0.9 s
+  for (int i = 0; i <= 500; ++i) readings.push_back({0.01 * i, 0.4 * std::floor(turned(0.01 * i) / 0.4 + 0.5), 0.0});
+  const std::vector<RestEdge> edges = rest_edges(readings, &WheelSample::left_rad);  // a count each 0.4 s
+  ASSERT_EQ(edges.size(), 3u);                                                       // the last is the end
+  EXPECT_NEAR(readings[static_cast<std::size_t>(edges[0].interval)].time_s, 1.8, 0.02);
+  EXPECT_FALSE(edges[0].sets_off);
+  EXPECT_NEAR(readings[static_cast<std::size_t>(edges[1].interval)].time_s, 3.1, 0.02);
+  EXPECT_TRUE(edges[1].sets_off);
 }
 
 }  // namespace

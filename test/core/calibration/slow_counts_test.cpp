@@ -32,6 +32,14 @@ TEST(SlowCounts, AWheelSlowerThanItsReadingsIsKnownBetterThanToACount) {
   }
 }
 
+TEST(SlowCounts, AWheelThatWaitsHalfASecondForEachCountGoesOnBetween) {
+  const auto slow = [](double t) { return 2.0 * kCount_rad * t; };
+  for (const WheelSample& w : with_slow_counts_drawn(counted(slow, 4.0), kCount_rad)) {
+    if (w.time_s < 0.6 || w.time_s > 3.4) continue;
+    EXPECT_NEAR(w.left_rad, slow(w.time_s) - kHidden_rad, 0.02 * kCount_rad) << w.time_s;  // half a period's way
+  }
+}
+
 TEST(SlowCounts, AFastWheelAndOneThatRestsAreLeftAsTheyWereRead) {
   const auto fast = [](double t) { return 8.3 * t; };                     // two counts a reading
   const auto stops = [](double t) { return t < 1.0 ? 0.03 * t : 0.03; };  // one count, then none

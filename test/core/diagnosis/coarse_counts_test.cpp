@@ -62,5 +62,31 @@ TEST(CoarseCounts, HideWhatComesAndGoesWithWhatTheDriverDoes) {
   EXPECT_LE(alarms, 1);  // of a family-wise error of 2.5 %: two and more in twelve by chance once in 28
 }
 
+// What rounding makes averages out over a drive, and an effect adds up: 13 mm to a count hide no scrub of a tenth.
+TEST(CoarseCounts, HideNoEffectThatMovesAWheelByLessThanACountAtATime) {
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.05;
+  drive.wheelbase_m = 0.2;
+  drive.encoder_counts_per_revolution = 24.0;
+  Vehicle vehicle;
+  vehicle.kind = drive;
+  constexpr double kSize = 10.0, kMedium = 0.01;  // of injected
+  for (const char* effect : {"turn_scrub", "lateral_slip", "wheel_eccentricity"}) {
+    Random random(77);
+    GeneratorSettings g = under_motion_capture(drive, 0.0006, 0.01);
+    g.duration_s = 80.0;
+    const std::vector<Recording> recordings = three_runs(
+        g, random, [&](int) { return varied_driving(random, g.duration_s); },
+        [&](int run) { return injected(effect, kSize, drive, run, g.duration_s, random); });
+    const Result<Diagnosis> d = diagnose(recordings, {}, vehicle);
+    ASSERT_TRUE(d);
+    ASSERT_EQ(d->findings.size(), 1u) << effect;
+    EXPECT_EQ(d->findings[0].effect, effect);
+    if (std::string(effect) != "turn_scrub") continue;
+    const FoundParameter& per_radps = d->findings[0].parameters[0];
+    EXPECT_NEAR(per_radps.value, kSize * kMedium, 3.0 * per_radps.stderr_value);
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/calibration/least_squares.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+// Sides of a metre and turns of a quarter, each ended by a stop of 0.6 s, at ramps of a quarter second.
+SpeedProfile squares(const DifferentialDrive& drive, double speed_mps, double yaw_rate_radps) {
+  struct Leg {
+    double lasts_s, left_radps, right_radps;
+  };
+  constexpr double kRamp_s = 0.25, kStop_s = 0.6;
+  const double r = drive.wheel_radius_left_m, rim_mps = 0.5 * drive.wheelbase_m * yaw_rate_radps;
+  const Leg side{1.0 / speed_mps, speed_mps / r, speed_mps / r},
+      turn{0.5 * kPi / yaw_rate_radps, -rim_mps / r, rim_mps / r};
+  return [=](double t) {
+    const double both_s = side.lasts_s + turn.lasts_s + 2.0 * (kRamp_s + kStop_s);
+    double in_s = std::fmod(std::max(0.0, t - 1.0), both_s);
+    const bool turns = in_s > side.lasts_s + kRamp_s + kStop_s;
+    const Leg& leg = turns ? turn : side;
+    if (turns) in_s -= side.lasts_s + kRamp_s + kStop_s;
+    const double share = std::clamp(std::min(in_s, leg.lasts_s + kRamp_s - in_s) / kRamp_s, 0.0, 1.0);
+    return WheelSpeedsAt{share * leg.left_radps, share * leg.right_radps};
+  };
+}
+
+TEST(FewCountsATurn, AWheelThatTurnsInPlaceByFourCountsTellsTheWheelbase) {
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.0435;
+  drive.wheelbase_m = 0.1195;
+  drive.encoder_counts_per_revolution = 20.0;  // a slotted disc: 13.7 mm to a count, and a turn's wheels go 94 mm
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Random random(seed);
+    GeneratorSettings g = under_motion_capture(drive, 0.0006, 0.01);
+    g.duration_s = 80.0;
+    g.wheel_period_s = 0.01;
+    const double yaw_rate_radps = random.uniform(0.5, 0.9);  // three to five counts a second
+    const std::vector<Recording> recordings = three_runs(
+        g, random, [&](int) { return squares(drive, 0.25, yaw_rate_radps); },
+        [](int) { return std::function<void(InjectedStep&)>(); });
+    Vehicle vehicle;
+    vehicle.kind = drive;
+    const Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, vehicle);
+    ASSERT_TRUE(found) << found.error().message();
+    // Of some forty turns each hides a count of each wheel at either end at most, evenly spread: 2 % of a turn's way.
+    EXPECT_NEAR(std::get<DifferentialDrive>(found->vehicle.kind).wheelbase_m, drive.wheelbase_m,
+                0.03 * drive.wheelbase_m)
+        << seed;
+  }
+}
+
+}  // namespace
+}  // namespace odolab::test
