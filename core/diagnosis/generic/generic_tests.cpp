@@ -64,8 +64,8 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   if (asked.counts_are_coarse) leave_displaced_to_counting(t, asked.joint);
   constexpr double kWorthAsking = 0.05;
   if (!asked.joint.counted_again || t.p_value >= kWorthAsking) return;
-  for (CandidateTest* of : {&t.test, &t.instead})
-    asked.joint.counted_again->widen(*of, *t.as_effect, {}, kAskedOfGeneric);
+  const Feigned by_counts = asked.joint.counted_again->feigned(*t.as_effect, {}, kAskedOfGeneric);
+  for (CandidateTest* of : {&t.test, &t.instead}) of->widen(by_counts);
   t.p_value = t.p_value_of(t.test);
 }
 

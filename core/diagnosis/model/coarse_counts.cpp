@@ -7,6 +7,17 @@
 
 namespace odolab {
 
+double largest_count_rad(const JointModel& joint) {
+  double count = 0.0;
+  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
+  return count;
+}
+
+double largest_count_m(const JointModel& joint) {
+  const DifferentialDrive& drive = joint.model.drive;
+  return largest_count_rad(joint) * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
+}
+
 namespace {
 
 struct Squares {
@@ -53,21 +64,6 @@ double counts_of_a_reading(const JointModel& joint) {
   const double count_m = largest_count_rad(joint) * joint.model.drive.wheel_radius_left_m;
   return n > 0.0 && count_m > 0.0 ? std::sqrt(squares_m2 / n) / count_m : 1e300;
 }
-
-}  // namespace
-
-double largest_count_rad(const JointModel& joint) {
-  double count = 0.0;
-  for (const InnovationRun& run : joint.runs()) count = std::max(count, count_rad(run, joint.model.drive));
-  return count;
-}
-
-double largest_count_m(const JointModel& joint) {
-  const DifferentialDrive& drive = joint.model.drive;
-  return largest_count_rad(joint) * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m);
-}
-
-namespace {
 
 bool err_by_more(const JointModel& joint, double times, double counts_from_reading_to_reading) {
   const double of_a_wheel_m = largest_count_m(joint) / std::sqrt(12.0),

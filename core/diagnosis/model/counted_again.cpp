@@ -133,8 +133,7 @@ CountedAgain::CountedAgain(const JointModel& joint) {
   parallel_for(times, [&](int k) { again_[static_cast<std::size_t>(k)].linearise(); });
 }
 
-void CountedAgain::widen(CandidateTest& test, const Effect& effect, const std::vector<double>& shape,
-                         const AskedHow& how) const {
+Feigned CountedAgain::feigned(const Effect& effect, const std::vector<double>& shape, const AskedHow& how) const {
   double sum = 0.0;
   int numbers = 0;
   for (const JointModel& joint : again_) {
@@ -144,11 +143,8 @@ void CountedAgain::widen(CandidateTest& test, const Effect& effect, const std::v
     sum += of_rounding.statistic;
     numbers += of_rounding.freedom;
   }
-  if (numbers == 0) return;
-  test.feigned = std::max(0.0, sum / numbers / low_mean_of_squares(numbers) - 1.0);
-  test.feigned_batches = numbers;
-  test.inflation += test.feigned;
-  test.batches = std::min(test.batches, test.feigned_batches);
+  if (numbers == 0) return {};
+  return {std::max(0.0, sum / numbers / low_mean_of_squares(numbers) - 1.0), static_cast<double>(numbers)};
 }
 
 }  // namespace odolab

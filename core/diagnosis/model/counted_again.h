@@ -17,11 +17,10 @@ class CountedAgain {
  public:
   explicit CountedAgain(const JointModel& joint);
 
-  // Widens the scatter of a candidate's score by that of the same candidate where rounding is the whole of the error:
-  // the mean of its statistic for each number, at the upper end of what that many drives leave open (19 of 20), beyond
-  // the one that the model reckons with.
-  void widen(CandidateTest& test, const Effect& effect, const std::vector<double>& shape,
-             const AskedHow& how = {}) const;
+  // By how much a candidate's score scatters more than the model says where rounding is the whole of the error: the
+  // mean of its statistic for each number, at the upper end of what that many drives leave open (19 of 20), beyond the
+  // one that the model reckons with.
+  Feigned feigned(const Effect& effect, const std::vector<double>& shape, const AskedHow& how = {}) const;
 
  private:
   std::vector<JointModel> again_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <mutex>
@@ -26,15 +27,20 @@ struct AcceptedEffect {
   bool acts_on_motion() const { return effect->acts_on_motion(); }
 };
 
+// By how much a score scatters more than the model says by the rounding of whole counts alone, and from how many
+// squares that is known (counted_again.h).
+struct Feigned {
+  double more = 0.0, squares = 1e9;
+};
+
 // The efficient score of a candidate: its signature with everything that is in the model projected off.
 struct CandidateTest {
   double statistic = 0.0;  // twice the gain of log-likelihood, chi-square with `freedom` under the null
   int freedom = 0;
   double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
   double batches = 1e9;    // from so many it was found how the score scatters
-  // So much of that by what whole counts feign, which is known from so many squares (counted_again.h).
-  double feigned = 0.0, feigned_batches = 1e9;
-  double survives = 0.0;  // share of the signature's information that the projection leaves
+  Feigned feigned;         // what of the inflation whole counts make
+  double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
   // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Only
   // where that was asked for, of two columns and more.
@@ -42,6 +48,11 @@ struct CandidateTest {
   double cross_validated = 0.0;  // gain of chi-square on every other batch, fitted on the rest
   std::vector<double> shape;
   double judged() const { return statistic / inflation; }
+  void widen(const Feigned& by) {
+    feigned = by;
+    inflation += by.more;
+    batches = std::min(batches, by.squares);
+  }
 };
 
 struct AskedHow {

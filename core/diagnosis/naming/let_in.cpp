@@ -64,7 +64,7 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
     const CandidateTest again = scored_under_own_noise(with, !c.effect->local);
     c.test.statistic = again.statistic / kGivenToAnyTerm;
     if (!c.effect->local) {
-      c.test.inflation = again.inflation + c.test.feigned;
+      c.test.inflation = again.inflation + c.test.feigned.more;
       c.test.cross_validated = again.cross_validated;
     }
     judge(c);

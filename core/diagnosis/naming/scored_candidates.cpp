@@ -134,7 +134,7 @@ bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
 
 void judge(ScoredCandidate& c) {
   c.p_value = std::min(
-      1.0, scaled_chi_square_tail(c.test.judged(), c.test.freedom, c.test.feigned_batches) * std::exp(c.log_tests));
+      1.0, scaled_chi_square_tail(c.test.judged(), c.test.freedom, c.test.feigned.squares) * std::exp(c.log_tests));
 }
 
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
@@ -185,7 +185,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   judge(best);
   constexpr double kWorthAsking = 0.05;
   if (joint.counted_again && !e.local && e.acts_on_motion() && best.p_value < kWorthAsking) {
-    joint.counted_again->widen(best.test, e, shape);
+    best.test.widen(joint.counted_again->feigned(e, shape));
     judge(best);
   }
   return best;

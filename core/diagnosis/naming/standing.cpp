@@ -32,7 +32,7 @@ ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
   c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
   c.test.shape = a.shape;
   if (joint.counted_again && !a.effect->local && a.effect->acts_on_motion())
-    joint.counted_again->widen(c.test, *a.effect, a.shape);
+    c.test.widen(joint.counted_again->feigned(*a.effect, a.shape));
   judge(c);
   return c;
 }
