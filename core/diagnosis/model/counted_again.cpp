@@ -147,4 +147,10 @@ Feigned CountedAgain::feigned(const Effect& effect, const std::vector<double>& s
   return {std::max(0.0, sum / numbers / low_mean_of_squares(numbers) - 1.0), static_cast<double>(numbers)};
 }
 
+void widen_by_counts(CandidateTest& test, const JointModel& joint, const Effect& entry,
+                     const std::vector<double>& shape) {
+  if (joint.counted_again && !entry.local && entry.acts_on_motion())
+    test.widen(joint.counted_again->feigned(entry, shape));
+}
+
 }  // namespace odolab

@@ -184,8 +184,8 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   best.log_tests = log_tests;
   judge(best);
   constexpr double kWorthAsking = 0.05;
-  if (joint.counted_again && !e.local && e.acts_on_motion() && best.p_value < kWorthAsking) {
-    best.test.widen(joint.counted_again->feigned(e, shape));
+  if (best.p_value < kWorthAsking) {
+    widen_by_counts(best.test, joint, e, shape);
     judge(best);
   }
   return best;

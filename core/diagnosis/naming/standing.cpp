@@ -31,8 +31,7 @@ ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
   c.effect = a.effect;
   c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
   c.test.shape = a.shape;
-  if (joint.counted_again && !a.effect->local && a.effect->acts_on_motion())
-    c.test.widen(joint.counted_again->feigned(*a.effect, a.shape));
+  widen_by_counts(c.test, joint, *a.effect, a.shape);
   judge(c);
   return c;
 }
