@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -82,7 +83,7 @@ Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, 
     leave_out_standing(*one, *own, units[u].drive);
     // What is no fault of its readings all of them tell together.
     std::erase_if(one->findings, [&](const Finding& f) {
-      return !is_data_fault(f.effect) && !(by_truth && is_of_the_truth(f.effect)) &&
+      return !is_data_fault(f.effect) && !(by_truth && (is_of_the_truth(f.effect) || is_of_floor_or_truth(f))) &&
              (by_others || f.effect != "clock_rate");
     });
     if (one->findings.empty() && one->verdict != Verdict::cannot_say) one->verdict = Verdict::nothing_missing;

@@ -160,7 +160,13 @@ GenericCurve curve_over(const ReadingRange& range, const JointName& joint) {
 
 }  // namespace
 
-bool is_of_a_joint(const Finding& f) { return f.effect == "unknown" && f.component != "vehicle"; }
+bool is_of_floor_or_truth(const Finding& f) {
+  return f.effect == "unknown" && (f.component == "floor" || f.component == "truth");
+}
+
+bool is_of_a_joint(const Finding& f) {
+  return f.effect == "unknown" && f.component != "vehicle" && !is_of_floor_or_truth(f);
+}
 
 JointName name_of_joint(const Vehicle& vehicle, std::size_t joint) {
   std::vector<JointParameter> biases;  // one for each joint, in their order

@@ -22,6 +22,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
 
 // Whether a finding has no name and is of such an encoder; its component is the vehicle's already.
 bool is_of_a_joint(const Finding& f);
+// Whether it has none and is no unit's: the one that carries the truth sees it.
+bool is_of_floor_or_truth(const Finding& f);
 
 // "the link angle A", "the pivot of castor 2"; and the contract's component of its bias.
 struct JointName {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -126,6 +127,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     d.warnings.push_back("beside the names given something small is left that no name describes");
   put_in_order(d.findings);
   d.verdict = verdict_of(diagnoses, d.findings);
+  d.cannot_judge = std::any_of(diagnoses.begin(), diagnoses.end(), std::mem_fn(&Diagnosis::cannot_judge));
   d.train = joined(diagnoses, &Diagnosis::train);
   d.held_out = joined(diagnoses, &Diagnosis::held_out);
   d.not_testable = not_testable_in(diagnoses, units);

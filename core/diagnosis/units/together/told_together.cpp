@@ -144,8 +144,11 @@ bool acts_on(const ToldTogether& told, std::size_t unit) { return !names_on(told
 
 Diagnosis with_names(const ToldTogether& told, std::size_t unit, const Diagnosis& as_read, Diagnosis again) {
   std::vector<Finding>& findings = again.findings;
-  std::erase_if(findings,
-                [](const Finding& f) { return is_told_together(f) || is_of_a_joint(f) || is_data_fault(f.effect); });
+  const bool has_the_truth = units_of(told.model.vehicle())[unit].carries_truth;
+  std::erase_if(findings, [&](const Finding& f) {
+    return is_told_together(f) || is_of_a_joint(f) || is_data_fault(f.effect) ||
+           (is_of_floor_or_truth(f) && !has_the_truth);
+  });
   for (const Finding& f : as_read.findings)
     if (is_data_fault(f.effect)) findings.push_back(f);
   for (const Finding& f : names_on(told, unit, Names::findings)) findings.push_back(f);
@@ -186,7 +189,8 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
   put_in_order(d.findings);
   if (std::string usual = usual_in_words(told.said.names); !usual.empty()) d.warnings.push_back(std::move(usual));
   // What one unit by itself could not say all of them may.
-  if (d.verdict == Verdict::cannot_say && !are_most_effects(d.not_testable)) d.verdict = Verdict::nothing_missing;
+  d.cannot_judge = d.cannot_judge && are_most_effects(d.not_testable);
+  if (d.verdict == Verdict::cannot_say && !d.cannot_judge) d.verdict = Verdict::nothing_missing;
   const auto is_usual = [](const JoinedName& name) { return name.is_usual; };
   if (std::all_of(told.said.names.begin(), told.said.names.end(), is_usual) || d.verdict == Verdict::unknown_effect)
     return;

@@ -302,6 +302,29 @@ TEST(DiagnoseTogether, SayThatAVehicleWasPushedByMoreThanItsTruthErrs) {
   }
 }
 
+// A camera that has a tag elsewhere by where it looks, to 30 mm: what all units tell together has no word for it, and
+// the one that carries the tag has.
+TEST(DiagnoseTogether, LeaveATruthThatIsBentToTheUnitThatCarriesIt) {
+  constexpr double kBent_m = 0.03;
+  const Clapper trucks = fine_clapper();
+  std::vector<Recording> runs;
+  for (const std::uint64_t seed : {331u, 332u, 333u}) {
+    Recording run = linked_run(trucks, under_a_coarse_truth(), seed);
+    Channel* const truth = &run.channels[run.channels.size() - 3];  // x, y, heading
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+      const double heading_rad = truth[2].values[i];
+      truth[0].values[i] += kBent_m * std::sin(3.0 * heading_rad);
+      truth[1].values[i] += kBent_m * std::cos(2.0 * heading_rad);
+    }
+    runs.push_back(std::move(run));
+  }
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  ASSERT_FALSE(d->findings.empty());
+  EXPECT_EQ(d->findings[0].component, "truth");
+}
+
 // A tracker that takes another marker for its own for a second and a half, and finds it again.
 TEST(DiagnoseTogether, TakeATruthThatComesBackForNoPush) {
   const LinkedRunSettings s = under_a_coarse_truth();
