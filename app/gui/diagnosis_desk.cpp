@@ -6,7 +6,7 @@
 #include "core/base/quantile.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/given_recordings.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 #include "core/io/diagnosis_html.h"
 #include "core/io/diagnosis_json.h"
 #include "core/io/mismatch_csv.h"

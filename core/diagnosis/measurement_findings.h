@@ -7,7 +7,7 @@
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/naming/intervals.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 namespace odolab {
 

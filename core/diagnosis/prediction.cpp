@@ -6,7 +6,7 @@
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effects/effect_motions.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 #include "core/diagnosis/units/prediction.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/geometry/small_turn.h"

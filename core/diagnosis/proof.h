@@ -8,7 +8,7 @@
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model/joint_model.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 namespace odolab {
 

@@ -8,12 +8,12 @@
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
-#include "core/diagnosis/encoder_jumps.h"
-#include "core/diagnosis/lost_counts.h"
 #include "core/diagnosis/model/ready_run.h"
-#include "core/diagnosis/noiseless_truth.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
+#include "core/diagnosis/quality/lost_counts.h"
+#include "core/diagnosis/quality/noiseless_truth.h"
+#include "core/diagnosis/quality/truth_jumps.h"
 #include "core/diagnosis/truth_elsewhere.h"
-#include "core/diagnosis/truth_jumps.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {

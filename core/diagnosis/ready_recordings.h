@@ -8,7 +8,7 @@
 #include "core/calibration/least_squares.h"
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/model/joint_model.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 namespace odolab {
 

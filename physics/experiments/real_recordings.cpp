@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 #include "core/io/number_text.h"
 #include "core/odometry/prediction.h"
 #include "physics/experiments/experiment.h"

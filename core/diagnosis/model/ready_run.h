@@ -3,7 +3,7 @@
 
 #include "core/calibration/innovations.h"
 #include "core/calibration/least_squares.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 namespace odolab {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/base/formatted.h"
-#include "core/diagnosis/frozen_truth.h"
+#include "core/diagnosis/quality/frozen_truth.h"
 #include "core/diagnosis/units/biases_from_inside.h"
 #include "core/diagnosis/units/errors_of_lengths.h"
 #include "core/diagnosis/units/geometry_fit.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/encoder_jumps.h"
-#include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
+#include "core/diagnosis/quality/standing_encoder.h"
 
 namespace odolab {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/diagnosis/drawn_truth.h"
+#include "core/diagnosis/quality/drawn_truth.h"
 
 namespace odolab {
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/encoder_jumps.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "core/diagnosis/lost_counts.h"
+#include "core/diagnosis/quality/lost_counts.h"
 
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 #include "core/geometry/track.h"
 #include "core/odometry/differential_drive.h"
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/noiseless_truth.h"
+#include "core/diagnosis/quality/noiseless_truth.h"
 
 #include <gtest/gtest.h>
 

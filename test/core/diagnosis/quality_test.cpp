@@ -1,4 +1,4 @@
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/quality/standing_encoder.h"
 #include "test/support/drive_generator.h"
 #include "test/support/missing_physics.h"
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/quality/standing_encoder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/diagnosis/unheard_commands.h"
+#include "core/diagnosis/quality/unheard_commands.h"
 
 #include <gtest/gtest.h>
 

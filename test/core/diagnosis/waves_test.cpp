@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/diagnosis/naming/own_noise.h"
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab {

@@ -1,4 +1,4 @@
-#include "core/diagnosis/quality.h"
+#include "core/diagnosis/quality/quality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
-#include "core/diagnosis/drawn_truth.h"
-#include "core/diagnosis/encoder_jumps.h"
-#include "core/diagnosis/frozen_truth.h"
-#include "core/diagnosis/obeying_wheels.h"
-#include "core/diagnosis/standing_encoder.h"
-#include "core/diagnosis/unheard_commands.h"
+#include "core/diagnosis/quality/drawn_truth.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
+#include "core/diagnosis/quality/frozen_truth.h"
+#include "core/diagnosis/quality/obeying_wheels.h"
+#include "core/diagnosis/quality/standing_encoder.h"
+#include "core/diagnosis/quality/unheard_commands.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {

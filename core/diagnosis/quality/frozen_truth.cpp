@@ -1,4 +1,4 @@
-#include "core/diagnosis/frozen_truth.h"
+#include "core/diagnosis/quality/frozen_truth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/diagnosis/drawn_truth.h"
+#include "core/diagnosis/quality/drawn_truth.h"
 
 #include <cmath>
 

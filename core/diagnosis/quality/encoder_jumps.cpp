@@ -1,10 +1,10 @@
-#include "core/diagnosis/encoder_jumps.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/base/quantile.h"
-#include "core/diagnosis/part_of_run.h"
+#include "core/diagnosis/quality/part_of_run.h"
 
 namespace odolab {
 

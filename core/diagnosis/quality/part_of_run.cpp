@@ -1,4 +1,4 @@
-#include "core/diagnosis/part_of_run.h"
+#include "core/diagnosis/quality/part_of_run.h"
 
 namespace odolab {
 

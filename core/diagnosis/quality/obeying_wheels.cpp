@@ -1,4 +1,4 @@
-#include "core/diagnosis/obeying_wheels.h"
+#include "core/diagnosis/quality/obeying_wheels.h"
 
 #include <algorithm>
 #include <cmath>

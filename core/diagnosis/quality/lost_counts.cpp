@@ -1,10 +1,10 @@
-#include "core/diagnosis/lost_counts.h"
+#include "core/diagnosis/quality/lost_counts.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/part_of_run.h"
-#include "core/diagnosis/standing_encoder.h"
+#include "core/diagnosis/quality/part_of_run.h"
+#include "core/diagnosis/quality/standing_encoder.h"
 
 namespace odolab {
 

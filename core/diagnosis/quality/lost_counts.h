@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/calibration/innovations.h"
-#include "core/diagnosis/encoder_jumps.h"
+#include "core/diagnosis/quality/encoder_jumps.h"
 
 namespace odolab {
 

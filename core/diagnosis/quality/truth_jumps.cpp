@@ -1,4 +1,4 @@
-#include "core/diagnosis/truth_jumps.h"
+#include "core/diagnosis/quality/truth_jumps.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

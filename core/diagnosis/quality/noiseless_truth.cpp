@@ -1,4 +1,4 @@
-#include "core/diagnosis/noiseless_truth.h"
+#include "core/diagnosis/quality/noiseless_truth.h"
 
 #include "core/base/formatted.h"
 #include "core/base/random.h"
