@@ -1,6 +1,8 @@
 // A patch of floor on which wheels slip: there a wheel travels (1 - slip) of what it turns.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/diagnosis/effects/effect.h"
 
@@ -9,6 +11,49 @@ namespace odolab::effects {
 namespace {
 // A patch that a wheel does no more than graze is told from a bump by nothing.
 constexpr double kLeastWay_m = 0.15;
+
+// The points of a grid about which a patch of that radius would be met.
+std::vector<Vec2> points_met(const std::vector<DriveView>& views, Vec2 origin, double stride_m, double radius_m) {
+  using Cell = std::pair<int, int>;
+  std::set<Cell> met;
+  for (const DriveView& view : views) {
+    const double reach_m = radius_m + 0.5 * view.drive.wheelbase_m;
+    Vec2 last{1e9, 1e9};
+    for (const EffectStep& s : view.steps) {
+      if (length(s.position - last) < 0.1 * radius_m) continue;
+      last = s.position;
+      const Vec2 at = s.position - origin;
+      const auto low = [&](double m) { return static_cast<int>(std::ceil((m - reach_m) / stride_m)); };
+      const auto high = [&](double m) { return static_cast<int>(std::floor((m + reach_m) / stride_m)); };
+      for (int x = low(at.x_m); x <= high(at.x_m); ++x)
+        for (int y = low(at.y_m); y <= high(at.y_m); ++y)
+          if (length(Vec2{x * stride_m, y * stride_m} - at) < reach_m) met.emplace(x, y);
+    }
+  }
+  std::vector<Vec2> points;
+  for (const auto& [x, y] : met) points.push_back(origin + Vec2{x * stride_m, y * stride_m});
+  return points;
+}
+
+// So many of each size at most, wherever the vehicle went: one run across a hall leaves the grid of the others as fine.
+std::vector<std::vector<double>> patches_met(const std::vector<DriveView>& views) {
+  Vec2 origin{1e9, 1e9};
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps)
+      origin = {std::min(origin.x_m, s.position.x_m), std::min(origin.y_m, s.position.y_m)};
+  std::vector<std::vector<double>> patches;
+  for (const auto& [radius_m, most] : {std::pair{0.25, 600.0}, {0.5, 200.0}, {0.9, 70.0}}) {
+    double stride_m = 0.8 * radius_m;
+    std::vector<Vec2> points = points_met(views, origin, stride_m, radius_m);
+    while (static_cast<double>(points.size()) > most) {
+      stride_m *= std::max(1.05, std::sqrt(static_cast<double>(points.size()) / most));
+      points = points_met(views, origin, stride_m, radius_m);
+    }
+    for (const Vec2& p : points) patches.push_back({p.x_m, p.y_m, radius_m});
+  }
+  return patches;
+}
+
 }  // namespace
 
 std::vector<Effect> slip_zone() {
@@ -59,33 +104,7 @@ std::vector<Effect> slip_zone() {
     if (std::max(left_way_m, right_way_m) < kLeastWay_m) return std::vector<Motions>{Motions()};
     return std::vector<Motions>{m};
   };
-  e.scan = [](const std::vector<DriveView>& views) {
-    double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
-    for (const DriveView& v : views)
-      for (const EffectStep& s : v.steps) {
-        x0 = std::min(x0, s.position.x_m), x1 = std::max(x1, s.position.x_m);
-        y0 = std::min(y0, s.position.y_m), y1 = std::max(y1, s.position.y_m);
-      }
-    std::vector<std::vector<double>> shapes;
-    if (x1 < x0) return shapes;
-    for (const auto& [radius, most] : {std::pair{0.25, 600.0}, {0.5, 200.0}, {0.9, 70.0}}) {
-      const double stride = std::max(0.8 * radius, std::sqrt((x1 - x0 + 0.1) * (y1 - y0 + 0.1) / most));
-      for (double x = x0; x <= x1 + 0.5 * stride; x += stride)
-        for (double y = y0; y <= y1 + 0.5 * stride; y += stride) {
-          bool visited = false;
-          for (const DriveView& v : views) {
-            const double reach_m = radius + 0.5 * v.drive.wheelbase_m;
-            for (std::size_t i = 0; i < v.steps.size() && !visited; i += 10) {
-              const Vec2 to = v.steps[i].position - Vec2{x, y};
-              visited = dot(to, to) < reach_m * reach_m;
-            }
-            if (visited) break;
-          }
-          if (visited) shapes.push_back({x, y, radius});
-        }
-    }
-    return shapes;
-  };
+  e.scan = patches_met;
   return {e};
 }
 

@@ -79,10 +79,12 @@ bool beyond_counts(const JointModel& joint, const Effect& e, const CandidateTest
 
 constexpr std::size_t kFewestElsewhere = 20;  // to know a scatter from
 
-// Whether some wheel may be on two patches at once.
+// Whether some wheel may be on two patches at once; or two small places are so near each other that the truth does not
+// tell which was met.
 bool overlap(const Effect& e, const std::vector<double>& a, const std::vector<double>& b, double wheelbase_m) {
+  constexpr double kNear_m = 0.5;
   const Apart p = apart(e, a, b);
-  const double reach_m = p.radii_m > 0.0 ? p.radii_m + wheelbase_m : 0.0;
+  const double reach_m = p.radii_m > 0.0 ? p.radii_m + wheelbase_m : kNear_m;
   return p.away_m2 < reach_m * reach_m;
 }
 
@@ -150,7 +152,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   const std::vector<double> shape = best.test.shape;
   best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
   best.test.shape = shape;
-  // A patch shows in all others that it overlaps, in a small room in most of them: these are no measure of chance.
+  // A place shows in all others that it overlaps, in a small room in most of them: these are no measure of chance.
   if (e.local && !e.of_one_recording) {
     std::vector<double> elsewhere;
     for (std::size_t n = 0; n < statistics.size(); ++n)
