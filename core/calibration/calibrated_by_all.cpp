@@ -57,6 +57,21 @@ bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialD
   return n < 2.0 || squares / n - sum * sum / (n * n) < kSteady * kSteady * sum * sum / (n * n);
 }
 
+// Whether one of the robots turned by more than wheels slip and counts round to on a straight: of less these make
+// nearly all, and what shows in turns alone would come out as small as they are large (errors in variables).
+bool any_turns(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  constexpr double kLeast_rad = 0.1;
+  return std::any_of(runs.begin(), runs.end(), [&](const InnovationRun& run) {
+    double turned_rad = 0.0, least_rad = 0.0, most_rad = 0.0;
+    for (const DriveStep& step : drive_steps(run, drive)) {
+      turned_rad += (step.right_m - step.left_m) / drive.wheelbase_m;
+      least_rad = std::min(least_rad, turned_rad);
+      most_rad = std::max(most_rad, turned_rad);
+    }
+    return most_rad - least_rad > kLeast_rad;
+  });
+}
+
 // So far from each other that the likelihood may have another minimum in between.
 bool far_apart(const DifferentialDrive& a, const DifferentialDrive& b) {
   constexpr double kNear = 0.1;
@@ -244,7 +259,13 @@ class FitOfAll {
     fit_->fit_parameters(active_, 1.0, options_.most_iterations);
     posterior_ = (of_active(fit_->sums_now().information) + fit_->information_held(active_) + MatrixXd::Identity(n, n))
                      .inverse();
-    for (int k = 0; k < n; ++k) determined_[active_[k]] = std::sqrt(posterior_(k, k)) < kDetermined;
+    const bool turns = any_turns(fit_->runs(), fit_->now().shared.drive);
+    for (int k = 0; k < n; ++k) {
+      const bool shows_in_turns =
+          active_[k] == column::wheelbase || active_[k] == column::mounting_x || active_[k] == column::mounting_y;
+      if (shows_in_turns && !turns) posterior_(k, k) = 1.0;  // its prior's
+      determined_[active_[k]] = std::sqrt(posterior_(k, k)) < kDetermined;
+    }
   }
 
   // Of what is active; what is held at its nominal value stays uncertain by its prior. Where the innovations are

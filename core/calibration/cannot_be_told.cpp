@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/formatted.h"
 #include "core/calibration/likelihood_fit.h"
@@ -21,12 +22,16 @@ struct Driven {
 };
 
 Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
+  constexpr double kTrembles_rad = 0.02;  // as headings do by whole counts
   Driven driven;
-  for (const InnovationRun& run : runs)
+  for (const InnovationRun& run : runs) {
+    double since_rad = 0.0;
     for (const DriveStep& step : drive_steps(run, drive)) {
       driven.travel_m += 0.5 * std::abs(step.left_m + step.right_m);
-      driven.turn_rad += std::abs(step.turn_rad);
+      since_rad += step.turn_rad;
+      if (std::abs(since_rad) > kTrembles_rad) driven.turn_rad += std::abs(std::exchange(since_rad, 0.0));
     }
+  }
   return driven;
 }
 

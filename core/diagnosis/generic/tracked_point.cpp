@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -54,14 +55,44 @@ void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
   }
 }
 
-// Ahead, to the left and turned, in each recording but the first.
-void mounting_by_recording(int recording, double heading_rad, std::vector<Off>& out) {
-  std::fill(out.begin(), out.end(), Off{});
-  const std::size_t first = 3 * static_cast<std::size_t>(recording - 1);
-  if (recording == 0 || first >= out.size()) return;  // a run that was not fitted
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-  out[first].by = {c, s}, out[first + 1].by = {-s, c}, out[first + 2].turned_rad = 1.0;
+// Who hardly turns tells where the point sits by nothing but the rounding of counts and the noise.
+bool turns(const DriveView& view) {
+  constexpr double kLeast_rad = 0.3;
+  double turned_rad = 0.0, least_rad = 0.0, most_rad = 0.0;
+  for (const EffectStep& s : view.steps) {
+    turned_rad += s.turn_rad;
+    least_rad = std::min(least_rad, turned_rad);
+    most_rad = std::max(most_rad, turned_rad);
+  }
+  return most_rad - least_rad > kLeast_rad;
 }
+
+// Ahead and to the left, in each recording that turns but the first of these; turned, in each but the first.
+class MountingByRecording {
+ public:
+  explicit MountingByRecording(const std::vector<DriveView>& views) {
+    bool has_turned = false;
+    for (std::size_t r = 0; r < views.size(); ++r) {
+      const bool turns_here = turns(views[r]);
+      if (turns_here && has_turned) place_[views[r].number] = std::exchange(count_, count_ + 2);
+      has_turned = has_turned || turns_here;
+      if (r > 0) heading_[views[r].number] = count_++;
+    }
+  }
+  std::size_t count() const { return count_; }
+  void operator()(int recording, double heading_rad, std::vector<Off>& out) const {
+    std::fill(out.begin(), out.end(), Off{});
+    if (const auto at = place_.find(recording); at != place_.end()) {
+      const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+      out[at->second].by = {c, s}, out[at->second + 1].by = {-s, c};
+    }
+    if (const auto at = heading_.find(recording); at != heading_.end()) out[at->second].turned_rad = 1.0;
+  }
+
+ private:
+  std::map<int, std::size_t> place_, heading_;  // their columns, by the recording's number
+  std::size_t count_ = 0;
+};
 
 GenericCurve curve_of(const char* channel, const Offsets& offsets, std::size_t count,
                       const std::function<double(const Off&)>& part) {
@@ -101,8 +132,8 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
        heading_by_heading,
        {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
                  [](const Off& o) { return o.turned_rad; })}}};
-  if (const std::size_t runs = asked.joint.views().size(); runs > 1)
-    all.push_back({"recording", "truth's tracked point", 3 * (runs - 1), mounting_by_recording, {}});
+  if (const MountingByRecording mounting(asked.joint.views()); mounting.count() > 0)
+    all.push_back({"recording", "truth's tracked point", mounting.count(), mounting, {}});
   std::vector<GenericTest> tests(all.size());
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const auto& [variable, channel, amplitudes, offsets, curves] = all[static_cast<std::size_t>(i)];

@@ -120,6 +120,10 @@ JointModel::Absorbing JointModel::absorbing(int without) const {
     for (std::size_t j = 0; j < by.kept.size(); ++j) gram(i, j) = gram_(by.kept[i], by.kept[j]);
     zk(i) = zr(by.kept[i]);
   }
+  // That only ratios show was found while an effect may have been missing: what could be the mean radius, which a
+  // vehicle's file has to 3 %, is no effect.
+  constexpr double kOfFile = 0.1 / 0.03;
+  if (mean_radius_is_held_) gram.topLeftCorner<2, 2>() -= (kMeanRadiusHeld - kOfFile * kOfFile) * of_mean_radius();
   by.gram.compute(gram);
   by.step = by.gram.solve(zk);
   return by;

@@ -15,6 +15,8 @@ using Eigen::VectorXd;
 
 std::vector<int> JointModel::held_columns() const {
   std::vector<int> held;
+  for (int c = 0; c < 6; ++c)
+    if (untold_[static_cast<std::size_t>(c)]) held.push_back(c);
   for (std::size_t k = 0; k < accepted.size(); ++k)
     if (accepted[k].is_held)
       for (std::size_t j = 0; j < accepted[k].value.size(); ++j)

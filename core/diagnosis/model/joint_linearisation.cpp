@@ -149,23 +149,30 @@ void JointModel::linearise(bool with_columns) {
   add_priors();
 }
 
-void JointModel::add_priors() {
+std::array<double, 6> JointModel::sizes_of_priors() const {
   const DifferentialDrive& d = std::get<DifferentialDrive>(nominal_.kind);
-  const double size[6] = {
-      0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
-  InnovationModel nominal{d, nominal_.truth, {}}, now = model;
+  return {0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
+}
+
+// What a mean radius that is known to its prior would say of both.
+Eigen::Matrix2d JointModel::of_mean_radius() const {
+  const std::array<double, 6> size = sizes_of_priors();
+  const Eigen::Vector2d share(0.5 / size[0], 0.5 / size[1]);
+  return share * share.transpose();
+}
+
+void JointModel::add_priors() {
+  const std::array<double, 6> size = sizes_of_priors();
+  InnovationModel nominal{std::get<DifferentialDrive>(nominal_.kind), nominal_.truth, {}}, now = model;
   for (int c = 0; c < 6; ++c) {
     gram_(c, c) += 1.0 / (size[c] * size[c]);
     zr_(c) += nuisance_active[c] ? (nuisance(nominal, c) - nuisance(now, c)) / (size[c] * size[c]) : 0.0;
   }
   if (mean_radius_is_held_) {
-    constexpr double kHeld = 1e8;  // to a ten-thousandth of its prior, as calibration does
     double off = 0.0;
     for (int c : {0, 1}) off += 0.5 * (nuisance(nominal, c) - nuisance(now, c)) / size[c];
-    for (int c : {0, 1}) {
-      for (int with : {0, 1}) gram_(c, with) += kHeld * 0.25 / (size[c] * size[with]);
-      zr_(c) += nuisance_active[c] ? kHeld * 0.5 / size[c] * off : 0.0;
-    }
+    gram_.topLeftCorner<2, 2>() += kMeanRadiusHeld * of_mean_radius();
+    for (int c : {0, 1}) zr_(c) += nuisance_active[c] ? kMeanRadiusHeld * 0.5 / size[c] * off : 0.0;
   }
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
     gram_(6 + r, 6 + r) += 25.0;

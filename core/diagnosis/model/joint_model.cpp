@@ -11,6 +11,13 @@
 
 namespace odolab {
 
+namespace {
+
+constexpr const char* kNuisances[6] = {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m",
+                                       "truth_mounting.x_m",  "truth_mounting.y_m",   "truth_mounting.heading_rad"};
+
+}  // namespace
+
 double& JointModel::nuisance(InnovationModel& m, int c) {
   switch (c) {
     case 0:
@@ -47,6 +54,11 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   for (const InnovationRun& run : runs_) masked_.push_back(run.set_aside);
   cut();
   for (std::size_t r = 0; r < runs_.size(); ++r) numbers_.push_back(static_cast<int>(r));
+  constexpr double kNextToNothing = 0.25;  // of what was known before
+  const std::array<double, 6> prior = sizes_of_priors();
+  for (const ParameterEstimate& p : start.parameters)
+    for (std::size_t c = 0; c < prior.size(); ++c)
+      if (p.name == kNuisances[c] && !p.determined) untold_[c] = p.stderr_value > kNextToNothing * prior[c];
 }
 
 void JointModel::cut() {

@@ -282,6 +282,9 @@ class JointModel {
   void add_products(int run, Eigen::MatrixXd& gram, Eigen::VectorXd& zr) const;
   // As in calibration: wide, so that what these runs do not determine stays where it was.
   void add_priors();
+  std::array<double, 6> sizes_of_priors() const;
+  static constexpr double kMeanRadiusHeld = 1e8;  // to a ten-thousandth of its prior, as calibration does
+  Eigen::Matrix2d of_mean_radius() const;
   int columns() const;
   std::vector<int> held_columns() const;
   int clock_column(int run) const { return 6 + run; }
@@ -294,6 +297,8 @@ class JointModel {
   std::vector<std::vector<char>> masked_;  // as the runs came: faults of the data
   Vehicle nominal_;
   bool mean_radius_is_held_ = false;  // only ratios show
+  // Of radii, wheelbase and mounting those of which calibration learned next to nothing: they stay where they are.
+  std::array<char, 6> untold_{};
   std::shared_ptr<const Linearisation> now_;
   std::optional<Standing> linearised_at_;  // none where the runs have changed since
   bool has_columns_ = false;

@@ -26,6 +26,7 @@ JointModel JointModel::left_out(int run) const {
   one.clocks_are_held = clocks_are_held;
   one.nominal_ = nominal_;
   one.mean_radius_is_held_ = mean_radius_is_held_;
+  one.untold_ = untold_;
   // What only this run could tell is not known from the others; nor is what they do not tell from nothing, so that it
   // would come out as anything: without the one run that goes back, a drag is any radius. All else is fitted without
   // it.
@@ -35,6 +36,7 @@ JointModel JointModel::left_out(int run) const {
   for (Eigen::Index c = 0; c < gram.rows(); ++c) unknown[c] = gram(c, c) < 1e-6 * gram_(c, c);
   int amplitude = first_amplitude();
   std::vector<char> held(gram.rows(), 0);
+  for (std::size_t c = 0; c < untold_.size(); ++c) held[c] = untold_[c];
   for (const AcceptedEffect& a : accepted) {
     if (a.is_held) {  // as all of them say
       for (std::size_t j = 0; j < a.value.size(); ++j) held[static_cast<std::size_t>(amplitude++)] = 1;
@@ -103,6 +105,7 @@ double JointModel::lost_without(int accepted_effect, JointModel* kept) const {
 
 JointModel JointModel::together_with(const JointModel& others) const {
   JointModel all = *this;
+  all.untold_ = {};  // the others may tell
   const auto append = [](auto& to, const auto& of) { to.insert(to.end(), of.begin(), of.end()); };
   append(all.runs_, others.runs_);
   append(all.from_commands_, others.from_commands_);
