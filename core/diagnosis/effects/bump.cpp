@@ -195,7 +195,7 @@ Effect once(Wheel wheel) {
 
 std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& views, Wheel which) {
   constexpr double kGrid_m = 0.1, kNear_m = 0.15;  // a place between two points of the grid is near both
-  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kMost = 4000;
   using Cell = std::pair<int, int>;
   std::map<Cell, int> visits;
   for (const DriveView& view : views)

@@ -234,15 +234,15 @@ class Selection {
     }
   }
 
-  // What was let in found its place and form since, and what is simpler may say more now that it has its own.
-  bool puts_simpler_name(std::size_t k, const ScoredCandidate& own, const std::vector<ScoredCandidate>& instead) {
-    const auto simpler = std::find_if(instead.begin(), instead.end(), [&](const ScoredCandidate& c) {
-      return c.effect->name != own.effect->name && is_simpler(c, own) && beats(c, own) && !is_taken(c) &&
+  // What was let in found its place and form since, and another may say more now that it has its own.
+  bool puts_better_name(std::size_t k, const ScoredCandidate& own, const std::vector<ScoredCandidate>& instead) {
+    const auto better = std::find_if(instead.begin(), instead.end(), [&](const ScoredCandidate& c) {
+      return c.effect->name != own.effect->name && !is_simpler(own, c) && beats(c, own) && !is_taken(c) &&
              !is_refuted(c) && stands(c, family_wise_error_);
     });
-    if (simpler == instead.end()) return false;
+    if (better == instead.end()) return false;
     joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
-    let_in(joint_, *simpler);
+    let_in(joint_, *better);
     joint_.fit_noise_and_all();
     return true;
   }
@@ -258,7 +258,7 @@ class Selection {
       }
   }
 
-  // Whether a name stays, with its evidence; else it is taken out of the model, or a simpler one is put in its place.
+  // Whether a name stays, with its evidence; else it is taken out of the model, or a better one is put in its place.
   bool stays(std::size_t k) {
     if (with_all_.empty()) with_all_ = scored_candidates(joint_);
     const std::vector<ScoredCandidate> instead = instead_of(k);
@@ -273,7 +273,7 @@ class Selection {
       own.beyond_counts = true;
       judge(own);
     }
-    if (own.effect && own.effect->local && exchanged_ < kMostEffects && puts_simpler_name(k, own, instead)) {
+    if (own.effect && own.effect->local && exchanged_ < kMostEffects && puts_better_name(k, own, instead)) {
       ++exchanged_;
       return false;
     }
@@ -357,7 +357,7 @@ class Selection {
   const std::vector<const Effect*>& refuted_;
   bool asks_what_is_undone_;
   const Effect* clocks_ = nullptr;         // known beyond doubt
-  int exchanged_ = 0;                      // names, for simpler ones
+  int exchanged_ = 0;                      // names, for better ones
   std::vector<ScoredCandidate> with_all_;  // judged against the model that has all that was let in
   Selected out_;
 };

@@ -54,16 +54,17 @@ bool is_one_place(const Effect& e, const std::vector<double>& a, const std::vect
   return p.away_m2 < near_m * near_m;
 }
 
-// Patches about one, larger and smaller: rims are sharp, so that a climb may come to rest beside the summit.
-std::vector<std::vector<double>> patches_about(const std::vector<double>& patch) {
+// Patches about one, by such a share of its radius, larger and smaller: rims are sharp, so that a climb may come to
+// rest beside the summit.
+std::vector<std::vector<double>> patches_about(const std::vector<double>& patch, double share) {
   std::vector<std::vector<double>> about;
-  for (const double size : {0.7, 1.0, 1.4})
+  for (const double size : {1.0 / (1.0 + 0.8 * share), 1.0, 1.0 + 0.8 * share})
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y) {
         if (size == 1.0 && x == 0 && y == 0) continue;
         about.push_back(patch);
-        about.back()[0] += 0.5 * x * patch[2];
-        about.back()[1] += 0.5 * y * patch[2];
+        about.back()[0] += share * x * patch[2];
+        about.back()[1] += share * y * patch[2];
         about.back()[2] *= size;
       }
   return about;
@@ -161,7 +162,8 @@ class ShapeSearch {
     climb();
     if (forms_ > 1 && !places_.empty()) try_other_forms(), climb(), climb_in_each_form(begun);
     climb_from_other_places();
-    if (is_a_patch(e_) && best().statistic > kWorthAnotherStart) climb_from_patches_about();
+    if (is_a_patch(e_) && best().statistic > kWorthAnotherStart)
+      for (const double share : {0.5, 0.15}) climb_from_patches_about(share);
     if (forms_ > 1) try_other_forms();
   }
 
@@ -198,11 +200,11 @@ class ShapeSearch {
       climb_from(out_.shapes[starts[n]]);
   }
 
-  void climb_from_patches_about() {
+  void climb_from_patches_about(double share) {
     constexpr std::size_t kStarts = 4;
     std::vector<std::vector<double>> about;
     for (std::size_t form = 0; form < forms_; ++form)
-      for (std::vector<double>& patch : patches_about(best().shape)) {
+      for (std::vector<double>& patch : patches_about(best().shape, share)) {
         if (forms_ > 1) patch.back() = static_cast<double>(form);
         about.push_back(std::move(patch));
       }

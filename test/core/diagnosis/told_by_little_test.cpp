@@ -84,7 +84,8 @@ TEST(CalibrateStraightsAlone, LeavesWhatShowsInTurnsAsTheFileHasIt) {
     const bool shows_in_turns =
         p.name == "wheelbase_m" || p.name == "truth_mounting.x_m" || p.name == "truth_mounting.y_m";
     EXPECT_EQ(p.determined, !shows_in_turns) << p.name;
-    if (shows_in_turns) EXPECT_EQ(p.value, p.nominal) << p.name;
+    if (!shows_in_turns) continue;
+    EXPECT_EQ(p.value, p.nominal) << p.name;
   }
 }
 
