@@ -15,6 +15,7 @@
 #include "core/calibration/recording_fault.h"
 #include "core/calibration/restamped.h"
 #include "core/calibration/shape_guess.h"
+#include "core/geometry/heading_range.h"
 
 namespace odolab {
 
@@ -61,15 +62,8 @@ bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialD
 // nearly all, and what shows in turns alone would come out as small as they are large (errors in variables).
 bool any_turns(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
   constexpr double kLeast_rad = 0.1;
-  return std::any_of(runs.begin(), runs.end(), [&](const InnovationRun& run) {
-    double turned_rad = 0.0, least_rad = 0.0, most_rad = 0.0;
-    for (const DriveStep& step : drive_steps(run, drive)) {
-      turned_rad += (step.right_m - step.left_m) / drive.wheelbase_m;
-      least_rad = std::min(least_rad, turned_rad);
-      most_rad = std::max(most_rad, turned_rad);
-    }
-    return most_rad - least_rad > kLeast_rad;
-  });
+  return std::any_of(runs.begin(), runs.end(),
+                     [&](const InnovationRun& run) { return heading_range_rad(drive_steps(run, drive)) > kLeast_rad; });
 }
 
 // So far from each other that the likelihood may have another minimum in between.

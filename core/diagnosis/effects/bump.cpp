@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/floor.h"
 
 namespace odolab::effects {
 
@@ -207,12 +208,8 @@ std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& 
         const Vec2 at = contact(wheel, s, view.drive.wheelbase_m);
         if (length(at - last) < 0.3 * kGrid_m) continue;
         last = at;
-        const auto low = [&](double m) { return static_cast<int>(std::ceil((m - kNear_m) / kGrid_m)); };
-        const auto high = [&](double m) { return static_cast<int>(std::floor((m + kNear_m) / kGrid_m)); };
         std::set<Cell> now;
-        for (int x = low(at.x_m); x <= high(at.x_m); ++x)
-          for (int y = low(at.y_m); y <= high(at.y_m); ++y)
-            if (length(Vec2{x * kGrid_m, y * kGrid_m} - at) < kNear_m) now.emplace(x, y);
+        grid_points_near(at, kGrid_m, kNear_m, [&](int x, int y) { now.emplace(x, y); });
         for (const Cell& c : now)
           if (!before.contains(c)) ++visits[c];
         before = std::move(now);

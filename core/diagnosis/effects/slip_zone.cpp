@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/floor.h"
 
 namespace odolab::effects {
 
@@ -12,24 +13,11 @@ namespace {
 // A patch that a wheel does no more than graze is told from a bump by nothing.
 constexpr double kLeastWay_m = 0.15;
 
-struct Room {
-  Vec2 low, high;
-};
-
-Room room_of(const std::vector<DriveView>& views) {
-  Room room{{1e9, 1e9}, {-1e9, -1e9}};
-  for (const DriveView& v : views)
-    for (const EffectStep& s : v.steps) {
-      room.low = {std::min(room.low.x_m, s.position.x_m), std::min(room.low.y_m, s.position.y_m)};
-      room.high = {std::max(room.high.x_m, s.position.x_m), std::max(room.high.y_m, s.position.y_m)};
-    }
-  return room;
-}
-
-// The points of a grid over the room about which a patch of that radius would be met.
-std::vector<Vec2> points_met(const std::vector<DriveView>& views, const Room& room, double stride_m, double radius_m) {
+// The points of a grid over the floor about which a patch of that radius would be met.
+std::vector<Vec2> points_met(const std::vector<DriveView>& views, const Floor& floor, double stride_m,
+                             double radius_m) {
   const auto steps = [&](double m) { return static_cast<int>(m / stride_m + 0.5); };
-  const int last_x = steps(room.high.x_m - room.low.x_m), last_y = steps(room.high.y_m - room.low.y_m);
+  const int last_x = steps(floor.width_m()), last_y = steps(floor.height_m());
   using Cell = std::pair<int, int>;
   std::set<Cell> met;
   for (const DriveView& view : views) {
@@ -38,31 +26,27 @@ std::vector<Vec2> points_met(const std::vector<DriveView>& views, const Room& ro
     for (const EffectStep& s : view.steps) {
       if (length(s.position - last) < 0.1 * radius_m) continue;
       last = s.position;
-      const Vec2 at = s.position - room.low;
-      const auto low = [&](double m) { return std::max(0, static_cast<int>(std::ceil((m - reach_m) / stride_m))); };
-      const auto high = [&](double m, int last) {
-        return std::min(last, static_cast<int>(std::floor((m + reach_m) / stride_m)));
-      };
-      for (int x = low(at.x_m); x <= high(at.x_m, last_x); ++x)
-        for (int y = low(at.y_m); y <= high(at.y_m, last_y); ++y)
-          if (length(Vec2{x * stride_m, y * stride_m} - at) < reach_m) met.emplace(x, y);
+      grid_points_near(s.position - floor.low, stride_m, reach_m, [&](int x, int y) {
+        if (x >= 0 && x <= last_x && y >= 0 && y <= last_y) met.emplace(x, y);
+      });
     }
   }
   std::vector<Vec2> points;
-  for (const auto& [x, y] : met) points.push_back(room.low + Vec2{x * stride_m, y * stride_m});
+  for (const auto& [x, y] : met) points.push_back(floor.low + Vec2{x * stride_m, y * stride_m});
   return points;
 }
 
 // So many of each size at most, wherever the vehicle went: one run across a hall leaves the grid of the others as fine.
 std::vector<std::vector<double>> patches_met(const std::vector<DriveView>& views) {
-  const Room room = room_of(views);
+  const Floor floor = floor_of(views);
   std::vector<std::vector<double>> patches;
+  if (floor.width_m() < 0.0) return patches;
   for (const auto& [radius_m, most] : {std::pair{0.25, 600.0}, {0.5, 200.0}, {0.9, 70.0}}) {
     double stride_m = 0.8 * radius_m;
-    std::vector<Vec2> points = points_met(views, room, stride_m, radius_m);
+    std::vector<Vec2> points = points_met(views, floor, stride_m, radius_m);
     while (static_cast<double>(points.size()) > most) {
       stride_m *= std::max(1.05, std::sqrt(static_cast<double>(points.size()) / most));
-      points = points_met(views, room, stride_m, radius_m);
+      points = points_met(views, floor, stride_m, radius_m);
     }
     for (const Vec2& p : points) patches.push_back({p.x_m, p.y_m, radius_m});
   }

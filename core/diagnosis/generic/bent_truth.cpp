@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/effects/floor.h"
 
 namespace odolab {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/effects/floor.h"
 #include "core/diagnosis/generic/hats.h"
 
 namespace odolab {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/effects/floor.h"
 #include "core/diagnosis/generic/hats.h"
 
 namespace odolab {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/geometry/heading_range.h"
 
 namespace odolab {
 
@@ -58,13 +59,7 @@ void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
 // Who hardly turns tells where the point sits by nothing but the rounding of counts and the noise.
 bool turns(const DriveView& view) {
   constexpr double kLeast_rad = 0.3;
-  double turned_rad = 0.0, least_rad = 0.0, most_rad = 0.0;
-  for (const EffectStep& s : view.steps) {
-    turned_rad += s.turn_rad;
-    least_rad = std::min(least_rad, turned_rad);
-    most_rad = std::max(most_rad, turned_rad);
-  }
-  return most_rad - least_rad > kLeast_rad;
+  return heading_range_rad(view.steps) > kLeast_rad;
 }
 
 // Ahead and to the left, in each recording that turns but the first of these; turned, in each but the first.

@@ -1,6 +1,6 @@
 #include "core/diagnosis/generic/uneven_floor.h"
 
-#include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/effects/floor.h"
 
 namespace odolab {
 

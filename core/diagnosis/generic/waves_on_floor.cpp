@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "core/base/parallel.h"
-#include "core/diagnosis/generic/floor.h"
+#include "core/diagnosis/effects/floor.h"
 
 namespace odolab {
 

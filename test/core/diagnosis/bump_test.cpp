@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/model/joint_model.h"
 #include "test/support/missing_physics.h"
+#include "test/support/uncalibrated_model.h"
 
 namespace odolab::test {
 namespace {
@@ -119,11 +118,7 @@ TEST(Bump, IsSoughtWhereverAWheelComesTwiceHoweverLongTheWay) {
       random);
   Vehicle nominal;
   nominal.kind = drive;
-  LeastSquaresCalibration as_it_is;
-  as_it_is.vehicle = nominal;
-  as_it_is.noise = {2e-4, 1e-3, 2e-3};
-  JointModel joint({innovation_run(twice_round, nominal).value()}, {0}, as_it_is, nominal);
-  joint.linearise();
+  const JointModel joint = uncalibrated_model({twice_round}, nominal);
   for (const Effect& e : catalogue()) {
     if (e.name != "bump" || e.of_one_recording || e.component != "left_wheel") continue;
     const std::vector<std::vector<double>> places = e.scan(joint.views());

@@ -5,10 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/model/joint_model.h"
 #include "test/support/missing_physics.h"
+#include "test/support/uncalibrated_model.h"
 
 namespace odolab::test {
 namespace {
@@ -76,13 +75,7 @@ TEST(SlipZone, IsSoughtAsCloselyHoweverFarOneOfTheRunsGoes) {
       random));
   Vehicle nominal;
   nominal.kind = drive;
-  std::vector<InnovationRun> runs;
-  for (const Recording& r : recordings) runs.push_back(innovation_run(r, nominal).value());
-  LeastSquaresCalibration as_it_is;
-  as_it_is.vehicle = nominal;
-  as_it_is.noise = {2e-4, 1e-3, 2e-3};
-  JointModel joint(std::move(runs), {0, 0}, as_it_is, nominal);
-  joint.linearise();
+  const JointModel joint = uncalibrated_model(recordings, nominal);
   for (const Effect& e : catalogue()) {
     if (e.name != "slip_zone") continue;
     const std::vector<std::vector<double>> patches = e.scan(joint.views());

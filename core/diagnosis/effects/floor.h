@@ -1,7 +1,8 @@
-// How far the floor reaches on which the vehicle was seen.
+// The floor on which the vehicle was seen: how far it reaches, and the points of a grid on it.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/diagnosis/effects/effect.h"
@@ -22,6 +23,17 @@ inline Floor floor_of(const std::vector<DriveView>& views) {
       f.high = {std::max(f.high.x_m, s.position.x_m), std::max(f.high.y_m, s.position.y_m)};
     }
   return f;
+}
+
+// Calls `visit(x, y)` for each point of a grid, by its numbers along both axes, that lies nearer to a place than
+// `within_m`.
+template <typename Visit>
+void grid_points_near(const Vec2& place, double stride_m, double within_m, Visit&& visit) {
+  const auto first = [&](double m) { return static_cast<int>(std::ceil((m - within_m) / stride_m)); };
+  const auto last = [&](double m) { return static_cast<int>(std::floor((m + within_m) / stride_m)); };
+  for (int x = first(place.x_m); x <= last(place.x_m); ++x)
+    for (int y = first(place.y_m); y <= last(place.y_m); ++y)
+      if (length(Vec2{x * stride_m, y * stride_m} - place) < within_m) visit(x, y);
 }
 
 // As far each way as the floor reaches, so that what grows with the place is of one size along x and along y.
