@@ -149,7 +149,7 @@ Feigned CountedAgain::feigned(const Effect& effect, const std::vector<double>& s
 
 void widen_by_counts(CandidateTest& test, const JointModel& joint, const Effect& entry,
                      const std::vector<double>& shape) {
-  if (joint.counted_again && !entry.local && entry.acts_on_motion())
+  if (joint.counted_again && !entry.local && !entry.of_the_truth)
     test.widen(joint.counted_again->feigned(entry, shape));
 }
 

@@ -27,7 +27,7 @@ class CountedAgain {
 };
 
 // Widens the test of an entry of the catalogue by what counts feign of it, where they are coarse: of what acts on the
-// motion all along; what happens once, or in one place, is held against whole counts as it is found.
+// motion or on the clocks all along; what happens once, or in one place, is held against whole counts as it is found.
 void widen_by_counts(CandidateTest& test, const JointModel& joint, const Effect& entry,
                      const std::vector<double>& shape);
 

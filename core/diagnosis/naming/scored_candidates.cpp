@@ -140,10 +140,10 @@ void judge(ScoredCandidate& c) {
 }
 
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
-                                 int tests) {
+                                 int tests, const std::vector<std::vector<double>>& also_from) {
   ScoredCandidate best;
   best.effect = &e;
-  SearchedShapes searched = best_shape(joint.views(), scan, e);
+  SearchedShapes searched = best_shape(joint.views(), scan, e, also_from);
   best.test = std::move(searched.best);
   if (best.test.statistic <= 0.0) return best;
   const double log_tests = std::log(static_cast<double>(tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
@@ -200,6 +200,27 @@ bool is_finer(const Effect& own, const Effect& shared) {
 
 namespace {
 
+bool is_at_a_place(const Effect& e) { return e.local && !e.of_one_recording && e.scan; }
+
+// What is small, and is climbed otherwise than the scan asks, is missed by all its points: it is looked for as well
+// where something else that lies on the floor says more.
+void look_where_others_lie(const JointModel& joint, const CandidateScan& scan, int without, int tests,
+                           std::vector<ScoredCandidate>& scored) {
+  constexpr double kWorthAsking = 0.05;
+  std::vector<std::vector<std::vector<double>>> also_from(scored.size());
+  for (std::size_t i = 0; i < scored.size(); ++i)
+    for (const ScoredCandidate& other : scored)
+      if (is_at_a_place(*scored[i].effect) && !is_a_patch(*scored[i].effect) && is_at_a_place(*other.effect) &&
+          other.p_value < kWorthAsking && other.test.statistic > scored[i].test.statistic)
+        also_from[i].push_back({other.test.shape[0], other.test.shape[1]});
+  parallel_for(static_cast<int>(scored.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (also_from[k].empty()) return;
+    ScoredCandidate again = scored_candidate(joint, scan, *scored[k].effect, without, tests, also_from[k]);
+    if (again.test.statistic > scored[k].test.statistic) scored[k] = std::move(again);
+  });
+}
+
 // What is over in a moment, so that a truth that jumps looks like it.
 bool is_short(const Effect& e) { return e.local && (e.of_one_recording || e.name == "bump"); }
 
@@ -229,6 +250,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
     scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
+  look_where_others_lie(joint, scan, without, entries[1], scored);
   std::vector<char> in_vain(scored.size(), 0);
   for (std::size_t i = 0; i < scored.size(); ++i)
     in_vain[i] = std::any_of(scored.begin(), scored.end(),

@@ -19,9 +19,10 @@ struct ScoredCandidate {
 // Best first. `without`: an accepted effect that is taken out for the question.
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int without = -1);
 
-// The best shape of one entry, which is one of so many `tests`; `scan` is of the same question.
+// The best shape of one entry, which is one of so many `tests`; `scan` is of the same question. `also_from`: see
+// best_shape.
 ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& effect, int without,
-                                 int tests);
+                                 int tests, const std::vector<std::vector<double>>& also_from = {});
 
 // Places and times were found under the noise that they made themselves: each is sought once more beside the others,
 // and all is fitted anew where another says more.

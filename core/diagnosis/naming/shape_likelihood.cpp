@@ -160,8 +160,13 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
         if (samples[i].misfit >= kWorst) weight[i] = -1e300;
         most = std::max(most, weight[i]);
       }
+      // No one sample may count for many: far out, where hardly any were proposed, one may lie on the same step
+      // (truncated importance sampling: E. L. Ionides, J. Comput. Graph. Stat. 17 (2008) 295).
       double sum = 0.0, squares = 0.0;
-      for (double& w : weight) w = std::exp(w - most), sum += w, squares += w * w;
+      for (double& w : weight) sum += w = std::exp(w - most);
+      const double largest = sum / std::sqrt(static_cast<double>(weight.size()));
+      sum = 0.0;
+      for (double& w : weight) w = std::min(w, largest), sum += w, squares += w * w;
       for (double& w : weight) w /= sum;
       if (sum * sum > 6.0 * (m + 1) * squares) break;
     }

@@ -72,8 +72,8 @@ std::vector<std::vector<double>> patches_about(const std::vector<double>& patch,
 
 class ShapeSearch {
  public:
-  ShapeSearch(const CandidateScan& scan, const Effect& effect)
-      : scan_(scan), e_(effect), forms_(std::max<std::size_t>(1, effect.forms.size())) {}
+  ShapeSearch(const CandidateScan& scan, const Effect& effect, const std::vector<std::vector<double>>& also_from)
+      : scan_(scan), e_(effect), also_from_(also_from), forms_(std::max<std::size_t>(1, effect.forms.size())) {}
 
   SearchedShapes run(const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
@@ -86,6 +86,7 @@ class ShapeSearch {
     const bool in_every_form = forms_ > 1 && shapes.size() <= kFew;
     out_.shapes = forms_ > 1 ? with_forms(shapes, in_every_form) : std::move(shapes);
     look_at_all();
+    climb_from_given_places();
     if (best().statistic <= 0.0) return std::move(out_);
     // At a place that is only near another form may fit because it is longer.
     if (forms_ > 1 && !in_every_form && places_.empty()) try_other_forms();
@@ -181,6 +182,13 @@ class ShapeSearch {
     best() = summit;
   }
 
+  void climb_from_given_places() {
+    for (std::vector<double> start : also_from_) {
+      if (forms_ > 1) start.push_back(0.0);
+      climb_in_each_form(start);
+    }
+  }
+
   // A place is looked for from several starts.
   void climb_from_other_places() {
     constexpr std::size_t kStarts = 4;
@@ -238,6 +246,7 @@ class ShapeSearch {
 
   const CandidateScan& scan_;
   const Effect& e_;
+  const std::vector<std::vector<double>>& also_from_;
   std::size_t forms_;
   SearchedShapes out_;
   std::vector<std::pair<double, std::size_t>> places_;  // minus the statistic, shape
@@ -272,8 +281,9 @@ Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<dou
   return p;
 }
 
-SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect) {
-  return ShapeSearch(scan, effect).run(views);
+SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect,
+                          const std::vector<std::vector<double>>& also_from) {
+  return ShapeSearch(scan, effect, also_from).run(views);
 }
 
 }  // namespace odolab

@@ -16,7 +16,9 @@ struct SearchedShapes {
   std::vector<std::size_t> of_shape;
 };
 
-SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect);
+// `also_from`: places, without a form, from which it is looked for too, whatever the scan says of them.
+SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect,
+                          const std::vector<std::vector<double>>& also_from = {});
 
 bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radius
 

@@ -116,5 +116,18 @@ TEST(ConcealedCase, ATractionSlipThatHoldsTheVehicleBackNeedsNoSecondName) {
   EXPECT_TRUE(j.parameters.front().held()) << j.line();
 }
 
+// A wheel that climbs 16 mm further than it travels, in squares: what the scan asks says next to nothing of it, since
+// the truth contradicts the wheels for so long that nobody hears of the moments at which it is met.
+TEST(ConcealedCase, ALargeBumpIsFoundWhereThePatchInItsPlaceIs) {
+  Wish wish;
+  wish.kind = Kind::one;
+  wish.level = Level::strong;
+  wish.poor = true;
+  const Judged j = judged(drawn_case(3060, 13, wish));
+  ASSERT_EQ(j.truth, std::vector<std::string>{"bump.right_wheel"});
+  EXPECT_TRUE(j.named_all && j.only_those) << j.line();
+  for (const JudgedParameter& p : j.parameters) EXPECT_NEAR(p.found, p.truth, 3.0 * p.stderr_value) << p.name;
+}
+
 }  // namespace
 }  // namespace odolab::concealed
