@@ -9,6 +9,7 @@
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/calibration/cannot_be_told.h"
+#include "core/calibration/column_names.h"
 #include "core/calibration/first_guess.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/likelihood_fit.h"
@@ -26,17 +27,6 @@ using Eigen::VectorXd;
 
 constexpr int kColumns = column::first_extra;
 
-struct ColumnName {
-  const char* key;
-  const char* unit;
-};
-constexpr std::array<ColumnName, kColumns> kNames = {{{"wheel_radius_left_m", "m"},
-                                                      {"wheel_radius_right_m", "m"},
-                                                      {"wheelbase_m", "m"},
-                                                      {"truth_mounting.x_m", "m"},
-                                                      {"truth_mounting.y_m", "m"},
-                                                      {"truth_mounting.heading_rad", "rad"},
-                                                      {"truth_mounting.time_offset_s", "s"}}};
 // What wheels and body err along the way together, per root metre: how much of it is whose is often hard to tell.
 double along_in_all(const FittedNoise& noise) {
   return std::hypot(noise.wheel_m_per_sqrt_m / std::sqrt(2.0), noise.along_m_per_sqrt_m);
@@ -323,8 +313,8 @@ class FitOfAll {
       const bool is_clock = c == column::truth_clock;
       const auto at = std::find(active_.begin(), active_.end(), c);
       ParameterEstimate p;
-      p.name = kNames[c].key;
-      p.unit = kNames[c].unit;
+      p.name = column::names[c].key;
+      p.unit = column::names[c].unit;
       p.nominal = is_clock ? nominal_.truth.time_offset_s : LikelihoodFit::value(start_, c);
       p.value = is_clock ? clock.offset_s : LikelihoodFit::value(fit_->now(), c);
       p.determined = is_clock ? clock.is_determined : determined_[c] != 0;

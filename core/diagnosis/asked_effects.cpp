@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "core/calibration/column_names.h"
+
 namespace odolab {
 
 namespace {
-
-// Parameters of the calibration by the model's columns.
-constexpr const char* kColumns[6][2] = {{"wheel_radius_left_m", "m"}, {"wheel_radius_right_m", "m"},
-                                        {"wheelbase_m", "m"},         {"truth_mounting.x_m", "m"},
-                                        {"truth_mounting.y_m", "m"},  {"truth_mounting.heading_rad", "rad"}};
 
 bool is_likelier(const ScoredCandidate& a, const ScoredCandidate& b) {
   return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
@@ -23,14 +20,17 @@ const ScoredCandidate* likeliest(const std::vector<ScoredCandidate>& scored, con
   return best;
 }
 
+FoundParameter bent(int column, double by) {
+  const column::Name& name = column::names[static_cast<std::size_t>(column)];
+  return {name.key, by, 0.0, name.unit};
+}
+
 void add_visible(AskedEffect& asked, const JointModel& joint, const Visible& v) {
   if (!v.excited) return;
   asked.survives = v.survives;
   const auto clocks = static_cast<int>(joint.runs().size());
-  if (v.bends >= 0 && v.bends < 6)
-    asked.bends = FoundParameter{kColumns[v.bends][0], v.bends_by, 0.0, kColumns[v.bends][1]};
-  else if (v.bends >= 6 && v.bends < 6 + clocks)
-    asked.bends = FoundParameter{"truth_mounting.time_offset_s", v.bends_by, 0.0, "s"};
+  if (v.bends >= 0 && v.bends < column::truth_clock + clocks)
+    asked.bends = bent(std::min(v.bends, column::truth_clock), v.bends_by);
   asked.least_seen = least_seen(v);
 }
 
@@ -63,7 +63,7 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
       if (v.effect->name == name) add_visible(asked, joint, v);
     if (name == "wheel_toe" && !asked.named) {  // to the last digit a mounting turned the other way
       asked.survives = 0.0;
-      asked.bends = FoundParameter{kColumns[5][0], -best->effect->amplitudes[0].medium, 0.0, kColumns[5][1]};
+      asked.bends = bent(column::mounting_heading, -best->effect->amplitudes[0].medium);
     }
     all.push_back(std::move(asked));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/chi_square.h"
+#include "core/calibration/column_names.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 
 namespace odolab {
@@ -23,7 +24,6 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
       if (p.name == name && p.determined) return &p;
     return nullptr;
   };
-  const char* const keys[3] = {"truth_mounting.x_m", "truth_mounting.y_m", "truth_mounting.heading_rad"};
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
@@ -33,11 +33,12 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   double gain = 0.0;
   bool material = false, moved = false;
   for (int k = 0; k < 3; ++k) {
-    const ParameterEstimate* p = determined(keys[k]);
+    const column::Name& name = column::names[static_cast<std::size_t>(column::mounting_x + k)];
+    const ParameterEstimate* p = determined(name.key);
     if (!p) continue;
-    const double se = intervals.stderr_of_nuisance(3 + k);
+    const double se = intervals.stderr_of_nuisance(column::mounting_x + k);
     const double z = by[k] / std::max(p->stderr_value, se);
-    mounting.parameters.push_back({std::string(keys[k]).substr(15), value[k], se, k < 2 ? "m" : "rad"});
+    mounting.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
     if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
       material = true, gain += 0.5 * z * z;
       moved = moved || k < 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/calibration/column_names.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/noise_fit.h"
 #include "core/calibration/restamped.h"
@@ -10,13 +11,6 @@
 #include "core/diagnosis/model/counts_at_rest.h"
 
 namespace odolab {
-
-namespace {
-
-constexpr const char* kNuisances[6] = {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m",
-                                       "truth_mounting.x_m",  "truth_mounting.y_m",   "truth_mounting.heading_rad"};
-
-}  // namespace
 
 double& JointModel::nuisance(InnovationModel& m, int c) {
   switch (c) {
@@ -58,7 +52,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   const std::array<double, 6> prior = sizes_of_priors();
   for (const ParameterEstimate& p : start.parameters)
     for (std::size_t c = 0; c < prior.size(); ++c)
-      if (p.name == kNuisances[c] && !p.determined) untold_[c] = p.stderr_value > kNextToNothing * prior[c];
+      if (p.name == column::names[c].key && !p.determined) untold_[c] = p.stderr_value > kNextToNothing * prior[c];
 }
 
 void JointModel::cut() {

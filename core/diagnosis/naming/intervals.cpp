@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/column_names.h"
 #include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/shape_likelihood.h"
@@ -270,30 +271,29 @@ LeastSquaresCalibration calibration_with(const JointModel& joint, const Interval
   const SharedClock clock = intervals.shared_clock(joint);
   out.vehicle.truth.time_offset_s = clock.offset_s;
   out.noise = joint.noise_as_recorded();
-  const TruthMounting& truth = out.vehicle.truth;
-  const struct {
-    const char* name;
-    double value;
-  } known[7] = {{"wheel_radius_left_m", joint.model.drive.wheel_radius_left_m},
-                {"wheel_radius_right_m", joint.model.drive.wheel_radius_right_m},
-                {"wheelbase_m", joint.model.drive.wheelbase_m},
-                {"truth_mounting.x_m", truth.axle_T_tracked.x_m},
-                {"truth_mounting.y_m", truth.axle_T_tracked.y_m},
-                {"truth_mounting.heading_rad", truth.axle_T_tracked.heading_rad},
-                {"truth_mounting.time_offset_s", truth.time_offset_s}};
+  const DifferentialDrive& drive = joint.model.drive;
+  const Pose& tracked = out.vehicle.truth.axle_T_tracked;
+  const double now[column::first_extra] = {drive.wheel_radius_left_m,
+                                           drive.wheel_radius_right_m,
+                                           drive.wheelbase_m,
+                                           tracked.x_m,
+                                           tracked.y_m,
+                                           tracked.heading_rad,
+                                           clock.offset_s};
   std::vector<VectorXd> rows;  // the determined parameters by the model's columns
-  for (ParameterEstimate& p : out.parameters)
-    for (int c = 0; c < 7; ++c) {
-      if (p.name != known[c].name || !p.determined) continue;
-      VectorXd row = VectorXd::Zero(intervals.columns.rows());
-      if (c < 6)
-        row(c) = 1.0;
-      else
-        row.segment(6, clock.weights.size()) = clock.weights;
-      p.value = known[c].value;
-      p.stderr_value = c < 6 ? std::sqrt(std::max(0.0, row.dot(intervals.columns * row))) : clock.stderr_s;
-      rows.push_back(row);
-    }
+  for (ParameterEstimate& p : out.parameters) {
+    const int c = column::of_key(p.name);
+    if (c < 0 || !p.determined) continue;
+    const bool is_clock = c == column::truth_clock;
+    VectorXd row = VectorXd::Zero(intervals.columns.rows());
+    if (is_clock)
+      row.segment(c, clock.weights.size()) = clock.weights;
+    else
+      row(c) = 1.0;
+    p.value = now[c];
+    p.stderr_value = is_clock ? clock.stderr_s : std::sqrt(std::max(0.0, row.dot(intervals.columns * row)));
+    rows.push_back(row);
+  }
   out.covariance.clear();
   for (const VectorXd& a : rows)
     for (const VectorXd& b : rows) out.covariance.push_back(a.dot(intervals.columns * b));

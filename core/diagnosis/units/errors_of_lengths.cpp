@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/calibration/column_names.h"
 #include "core/calibration/innovations.h"
 #include "core/diagnosis/units/axle_put_off.h"
 
@@ -55,11 +56,16 @@ MatrixXd information_of(const std::vector<Recording>& own, const std::vector<std
 
 // By the calibration's name for it; empty where it is no such.
 Length place_of_truth(const std::string& name) {
-  if (name == "truth_mounting.x_m") return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.x_m; };
-  if (name == "truth_mounting.y_m") return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.y_m; };
-  if (name == "truth_mounting.heading_rad")
-    return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.heading_rad; };
-  return {};
+  switch (column::of_key(name)) {
+    case column::mounting_x:
+      return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.x_m; };
+    case column::mounting_y:
+      return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.y_m; };
+    case column::mounting_heading:
+      return [](Vehicle& v) -> double& { return v.truth.axle_T_tracked.heading_rad; };
+    default:
+      return {};
+  }
 }
 
 }  // namespace
@@ -98,11 +104,9 @@ void add_errors_of_lengths(const std::vector<Recording>& own, const std::vector<
   std::vector<int> fitted;
   std::vector<ParameterEstimate*> estimates;
   for (ParameterEstimate& p : calibration.parameters) {
-    constexpr const char* kNames[] = {"wheel_radius_left_m", "wheel_radius_right_m", "wheelbase_m",
-                                      "truth_mounting.x_m",  "truth_mounting.y_m",   "truth_mounting.heading_rad"};
-    const auto at = std::find(std::begin(kNames), std::end(kNames), p.name);
-    if (!p.determined || at == std::end(kNames)) continue;
-    fitted.push_back(static_cast<int>(at - std::begin(kNames)));
+    const int at = column::of_key(p.name);
+    if (!p.determined || at < 0 || at >= column::truth_clock) continue;
+    fitted.push_back(at);
     estimates.push_back(&p);
   }
   if (fitted.empty() || lengths.of.empty() || calibration.time_offset_s.size() != own.size()) return;
