@@ -19,6 +19,7 @@ namespace {
 // unexplained is more than any floor does.
 constexpr double kContradicted = 0.7, kAgreed = 0.9;
 constexpr double kLeastWay = 0.2, kMostWay = 5.0, kLeastTurn = 0.1;
+constexpr double kSigmas = 3.0;  // beyond which a way is not that long
 constexpr double kAgreedWay = 2.0, kAgreedTurn = 2.5;
 
 void scale(Recording& r, std::initializer_list<const char*> names, double by) {
@@ -84,7 +85,10 @@ const Mend kMends[] = {
 
 // Far from any agreement.
 bool contradicts(const RunFit& f) {
-  if (f.drives && (f.way_explained < kContradicted || f.way_ratio < kLeastWay || f.way_ratio > kMostWay)) return true;
+  const double may_be_off = kSigmas * f.way_stderr;
+  if (f.drives &&
+      (f.way_explained < kContradicted || f.way_ratio + may_be_off < kLeastWay || f.way_ratio - may_be_off > kMostWay))
+    return true;
   return f.turns && (f.turn_explained < kContradicted || f.turn_ratio < kLeastTurn);
 }
 

@@ -185,12 +185,12 @@ void fit_way(const std::vector<Stretch>& stretches, RunFit& fit) {
   const Solution found = solved(rows, y, 2, {0.0, 0.0, 0.0, 0.0, kSlip_s, kLost_m, kCreep_mps, kCreep_mps}, rolls);
   fit.way_explained = found.explained;
   fit.way_ratio = std::hypot(found.x[0], found.x[1]);
+  fit.way_stderr = std::max(found.stderrs[0], found.stderrs[1]);
   const double heading_rad = -std::atan2(found.x[1], found.x[0]);
   const Vec2 m = rotated({found.x[3], -found.x[2]}, heading_rad);
   fit.axle_T_tracked = {m.x_m, m.y_m, heading_rad};
   const double place_m = std::max(found.stderrs[2], found.stderrs[3]);
-  fit.mounting_stderr = {place_m, place_m,
-                         std::max(found.stderrs[0], found.stderrs[1]) / std::max(1e-9, fit.way_ratio)};
+  fit.mounting_stderr = {place_m, place_m, fit.way_stderr / std::max(1e-9, fit.way_ratio)};
 }
 
 // Without headings: the median of chord over way, of stretches that hardly turn.

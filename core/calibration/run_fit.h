@@ -14,6 +14,7 @@ struct RunFit {
   bool drives = false;          // far enough for `way_ratio`; without headings the only number here
   bool turns = false;           // far enough for `turn_ratio`
   double way_ratio = 1.0;       // the truth's way by that of the vehicle file's wheels
+  double way_stderr = 0.0;      // of that: on one circle a longer way is a tracked point further out
   double turn_ratio = 1.0;      // the truth's turn by that of the vehicle file's wheels
   double way_explained = 1.0;   // share of the squares of the tracked point's motion that way and turn explain
   double turn_explained = 1.0;  // the same of its turns

@@ -13,7 +13,7 @@
 #include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/model/coarse_counts.h"
-#include "core/diagnosis/model/counted_again.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/place_response.h"
@@ -163,7 +163,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   const auto are_sought = [&](const JointModel& from) {
     calibrated = from;
     calibrated.truth_errors = options.truth_errors;
-    if (counts_may_feign(calibrated)) calibrated.counted_again = std::make_shared<const CountedAgain>(calibrated);
+    calibrated.driven_again = std::make_shared<const DrivenAgain>(calibrated, counts_may_feign(calibrated));
     calibrated.truth_feigns_m = options.truth_step_m + 0.5 * drive->wheelbase_m * options.truth_step_rad;
     of_undone.clear();
     // A truth that is somewhere else for a while shows nothing of the vehicle. What does so time and again is no

@@ -10,6 +10,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
 
@@ -47,8 +48,11 @@ void look_again(const JointModel& joint, std::vector<GenericTest>& generic, doub
     GenericTest& g = *nearest[static_cast<std::size_t>(i)];
     JointModel with = joint;
     let_in(with, g);
-    const CandidateTest again = tested_under_own_noise(joint, with, true, kAskedOfGeneric);
-    if (again.freedom != g.test.freedom || again.statistic < g.test.statistic) return;
+    CandidateTest again = tested_under_own_noise(joint, with, true, kAskedOfGeneric);
+    if (again.freedom != g.test.freedom) return;
+    if (joint.driven_again)
+      again.widen(joint.driven_again->feigned(*g.as_effect, {}, with.model.noise, kAskedOfGeneric));
+    if (again.judged() < g.test.judged()) return;
     g.under_own_noise = again.statistic / g.test.statistic;
     g.test = again;
     g.p_value = g.p_value_of(g.test);
@@ -330,7 +334,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   int stretches = joint.gathered_error().windows;
   if (stretches == 0) stretches = joint.path_error().windows;
   const bool many = 3 * stretches > kFewestInnovations;
-  const double of_what_is_left = names == 0 && !commands && many && !joint.counted_again ? kShared * error : error;
+  const bool counts_feign = joint.driven_again && joint.driven_again->is_counted();
+  const double of_what_is_left = names == 0 && !commands && many && !counts_feign ? kShared * error : error;
   Adequacy out;
   out.generic = generic_tests(joint);
   look_again(joint, out.generic, of_what_is_left);

@@ -177,12 +177,18 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   constexpr double kMost_m_per_sqrt_m = 0.02;  // ten times what a rough floor does
   constexpr double kFewest_m = 1.0;            // that wheels must have rolled to show how they scatter
+  constexpr double kTold_rad = 1.0;            // from half a turn
   const double scatter = joint.model.noise.wheel_m_per_sqrt_m;
   if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
-  double rolled_m = 0.0;
+  double rolled_m = 0.0, samples = 0.0;
   for (const DriveView& view : joint.views())
     for (const EffectStep& s : view.steps) rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+  for (const InnovationRun& run : joint.runs()) samples += static_cast<double>(run.truth.size() - 1);
   if (rolled_m < kFewest_m) return std::nullopt;
+  // Where headings are that uncertain from one sample to the next they may be off by whole turns, and their scatter is
+  // no wheel's.
+  const double heading_rad = scatter * std::sqrt(2.0 * rolled_m / samples) / joint.model.drive.wheelbase_m;
+  if (heading_rad > kTold_rad) return std::nullopt;
   Unnamed u;
   u.where.regime = formatted(
       "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls", 1e3 * scatter);

@@ -22,7 +22,7 @@
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
 #include "core/diagnosis/model/coarse_counts.h"
-#include "core/diagnosis/model/counted_again.h"
+#include "core/diagnosis/model/driven_again.h"
 
 namespace odolab {
 
@@ -63,9 +63,10 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   t.as_effect = std::move(term);
   if (asked.counts_are_coarse) leave_displaced_to_counting(t, asked.joint);
   constexpr double kWorthAsking = 0.05;
-  if (!asked.joint.counted_again || t.p_value >= kWorthAsking) return;
-  const Feigned by_counts = asked.joint.counted_again->feigned(*t.as_effect, {}, kAskedOfGeneric);
-  for (CandidateTest* of : {&t.test, &t.instead}) of->widen(by_counts);
+  if (!asked.joint.driven_again || t.p_value >= kWorthAsking) return;
+  const Feigned by_readings =
+      asked.joint.driven_again->feigned(*t.as_effect, {}, asked.joint.model.noise, kAskedOfGeneric);
+  for (CandidateTest* of : {&t.test, &t.instead}) of->widen(by_readings);
   t.p_value = t.p_value_of(t.test);
 }
 

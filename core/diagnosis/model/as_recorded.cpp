@@ -39,6 +39,8 @@ JointModel JointModel::under(const FittedNoise& noise) const {
 JointModel JointModel::with_runs(std::vector<InnovationRun> runs) const {
   JointModel other = *this;
   other.runs_ = std::move(runs);
+  other.nominal_.kind = model.drive;
+  other.nominal_.truth.axle_T_tracked = model.truth.axle_T_tracked;
   for (std::size_t r = 0; r < other.runs_.size(); ++r) other.masked_[r] = other.runs_[r].set_aside;
   other.now_.reset();
   other.linearised_at_.reset();

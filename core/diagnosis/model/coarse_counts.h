@@ -17,7 +17,7 @@ double largest_count_m(const JointModel& joint);
 bool counts_are_coarse(const JointModel& joint);
 
 // The same by more than half of that, and by fewer than sixteen: what they feign is asked of the same drives, counted
-// again (counted_again.h).
+// again (driven_again.h).
 bool counts_may_feign(const JointModel& joint);
 
 // Whether a term with such amplitudes displaces a rim by less than 0.6 counts for nine tenths of the time, 1.5 where

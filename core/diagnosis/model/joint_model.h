@@ -27,8 +27,8 @@ struct AcceptedEffect {
   bool acts_on_motion() const { return effect->acts_on_motion(); }
 };
 
-// By how much a score scatters more than the model says by the rounding of whole counts alone, and from how many
-// squares that is known (counted_again.h).
+// By how much a score scatters more than the model says by what readings err by alone, and from how many squares that is
+// known (driven_again.h).
 struct Feigned {
   double more = 0.0, squares = 1e9;
 };
@@ -39,7 +39,7 @@ struct CandidateTest {
   int freedom = 0;
   double inflation = 1.0;  // 1 or more: how much wider than the model says its score scatters
   double batches = 1e9;    // from so many it was found how the score scatters
-  Feigned feigned;         // what of the inflation whole counts make
+  Feigned feigned;         // what of the inflation readings make
   double survives = 0.0;   // share of the signature's information that the projection leaves
   std::vector<double> value, stderr_value;
   // The same without directions that are mostly calibration's and in which nothing is seen: what can be drawn. Only
@@ -81,7 +81,7 @@ struct CandidateProducts {
   Eigen::VectorXd with_residual;
 };
 
-class CountedAgain;
+class DrivenAgain;
 class ScannedProducts;
 
 class JointModel {
@@ -128,7 +128,7 @@ class JointModel {
   // Whether the first fit of the noise asks after how long the truth's frame comes back.
   bool truth_may_come_back = true;
   std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else it may err by; null: nothing
-  std::shared_ptr<const CountedAgain> counted_again;            // where counts are coarse; null: nowhere
+  std::shared_ptr<const DrivenAgain> driven_again;              // what readings feign; null: nothing
   double truth_feigns_m = 0.0;  // of a wheel's way at a place or moment, by the steps that the truth has
   bool truth_jumps = false;     // time and again, so that what happens at one moment is not told from these
 
@@ -215,7 +215,8 @@ class JointModel {
   FittedNoise noise_as_recorded() const;
   JointModel as_recorded() const;  // all that was recorded, with what the model leaves of it; without columns
   JointModel under(const FittedNoise& noise) const;             // to be linearised
-  JointModel with_runs(std::vector<InnovationRun> runs) const;  // the same
+  // Of drives of which all that was assumed is true: priors say what the model does. To be linearised.
+  JointModel with_runs(std::vector<InnovationRun> runs) const;
 
  private:
   friend class CandidateScan;

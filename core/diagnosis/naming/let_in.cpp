@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/one_cause.h"
 #include "core/diagnosis/naming/own_noise.h"
@@ -64,7 +65,9 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
     const CandidateTest again = scored_under_own_noise(with, !c.effect->local);
     c.test.statistic = again.statistic / kGivenToAnyTerm;
     if (!c.effect->local) {
-      c.test.inflation = again.inflation + c.test.feigned.more;
+      c.test.inflation = again.inflation;
+      if (c.test.feigned.more > 0.0)
+        c.test.widen(joint.driven_again->feigned(*c.effect, c.test.shape, with.model.noise));
       c.test.cross_validated = again.cross_validated;
     }
     judge(c);

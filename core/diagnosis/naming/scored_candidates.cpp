@@ -5,7 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
-#include "core/diagnosis/model/counted_again.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/model/score_by_batches.h"
 #include "core/diagnosis/naming/shape_search.h"
 
@@ -187,7 +187,7 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   judge(best);
   constexpr double kWorthAsking = 0.05;
   if (best.p_value < kWorthAsking) {
-    widen_by_counts(best.test, joint, e, shape);
+    widen_by_readings(best.test, joint, e, shape);
     judge(best);
   }
   return best;

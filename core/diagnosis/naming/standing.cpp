@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diagnosis/model/counted_again.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/naming/compared_names.h"
 #include "core/diagnosis/naming/one_cause.h"
 
@@ -31,7 +31,7 @@ ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted) {
   c.effect = a.effect;
   c.test = joint.test(joint.columns_of(*a.effect, a.shape), static_cast<int>(accepted), true);
   c.test.shape = a.shape;
-  widen_by_counts(c.test, joint, *a.effect, a.shape);
+  widen_by_readings(c.test, joint, *a.effect, a.shape);
   judge(c);
   return c;
 }

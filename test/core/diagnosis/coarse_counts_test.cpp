@@ -8,7 +8,7 @@
 
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/model/counted_again.h"
+#include "core/diagnosis/model/driven_again.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -82,10 +82,10 @@ TEST(CoarseCounts, FeignClocksThatDiffer) {
     JointModel joint(std::move(runs), {0, 0, 0}, *calibrate_least_squares(recordings, vehicle), vehicle);
     joint.fit(4);
     joint.fit_noise_and_all();
-    joint.counted_again = std::make_shared<const CountedAgain>(joint);
+    joint.driven_again = std::make_shared<const DrivenAgain>(joint, true);
     CandidateTest t = joint.test(joint.columns_of(*clock_rate, {}));
     const double by_noise = t.inflation;
-    widen_by_counts(t, joint, *clock_rate, {});
+    widen_by_readings(t, joint, *clock_rate, {});
     EXPECT_GT(t.inflation, 2.0 * by_noise);
   }
 }

@@ -1,0 +1,60 @@
+#include "core/diagnosis/model/driven_again.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/calibration/least_squares.h"
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+// A vehicle goes where it goes, and its wheels turn unevenly beside it: by 2 mm per root metre. Its readings have then
+// what the truth has not, as if that were smoothed.
+std::vector<Recording> beside_uneven_wheels(const DifferentialDrive& drive, std::uint64_t seed) {
+  constexpr double kUneven_m_per_sqrt_m = 0.002;
+  Random random(seed);
+  GeneratorSettings g = under_motion_capture(drive, 0.0, 0.01);
+  g.duration_s = 90.0;
+  g.wheel_period_s = 0.025;
+  g.truth_position_noise_m = 0.0007;
+  g.truth_heading_noise_rad = 0.0014;
+  return three_runs(
+      g, random, [&](int) { return varied_driving(random, g.duration_s); },
+      [&](int) {
+        return [&](InjectedStep& s) {
+          s.left_read_rad +=
+              kUneven_m_per_sqrt_m / drive.wheel_radius_left_m * std::sqrt(std::abs(s.left_m)) * random.normal();
+          s.right_read_rad +=
+              kUneven_m_per_sqrt_m / drive.wheel_radius_right_m * std::sqrt(std::abs(s.right_m)) * random.normal();
+        };
+      });
+}
+
+TEST(DrivenAgain, WheelsThatTurnUnevenlyFeignATruthThatIsSmoothed) {
+  DifferentialDrive drive{0.029, 0.029, 0.23};
+  drive.encoder_counts_per_revolution = 2000.0;
+  Vehicle vehicle;
+  vehicle.kind = drive;
+  const Effect* smoothing = catalogue_entry({"truth_smoothing", "truth", {}});
+  ASSERT_TRUE(smoothing);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const std::vector<Recording> recordings = beside_uneven_wheels(drive, seed);
+    std::vector<InnovationRun> runs;
+    for (const Recording& r : recordings) runs.push_back(innovation_run(r, vehicle).value());
+    JointModel joint(std::move(runs), {0, 0, 0}, *calibrate_least_squares(recordings, vehicle), vehicle);
+    joint.fit(4);
+    joint.fit_noise_and_all();
+    joint.driven_again = std::make_shared<const DrivenAgain>(joint, false);
+    CandidateTest t = joint.test(joint.columns_of(*smoothing, {}));
+    EXPECT_GT(t.judged(), 20.0);  // beyond all chance
+    widen_by_readings(t, joint, *smoothing, {});
+    EXPECT_LT(t.judged(), 6.6);  // chi-square of one number, one time in a hundred
+  }
+}
+
+}  // namespace
+}  // namespace odolab::test
