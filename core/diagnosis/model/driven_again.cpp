@@ -155,13 +155,13 @@ std::vector<JointModel> driven(const JointModel& calibrated, int times, std::uin
   return again;
 }
 
-// The mean of so many squares that lies beyond where it lies once in twenty times, to that side (Wilson, Hilferty,
-// 1931).
-double mean_of_squares(int n, double side) {
-  constexpr double kOnceInTwenty = 1.645;
+// The mean of so many squares, so many standard deviations off (Wilson, Hilferty, 1931).
+double mean_of_squares(int n, double deviations) {
   const double spread = 2.0 / (9.0 * n);
-  return std::pow(std::max(0.1, 1.0 - spread + side * kOnceInTwenty * std::sqrt(spread)), 3);
+  return std::pow(std::max(0.1, 1.0 - spread + deviations * std::sqrt(spread)), 3);
 }
+
+constexpr double kOnceInTwenty = 1.645, kOnceInAThousand = 3.09;  // standard deviations, to one side
 
 struct Squares {
   double mean = 0.0;
@@ -205,11 +205,12 @@ Feigned DrivenAgain::feigned(const Effect& effect, const std::vector<double>& sh
   Feigned most;
   if (!effect.of_the_truth)
     if (const Squares of = squares_of(counted_, effect, shape, how); of.numbers > 0)
-      most = {std::max(0.0, of.mean / mean_of_squares(of.numbers, -1.0) - 1.0), static_cast<double>(of.numbers)};
+      most = {std::max(0.0, of.mean / mean_of_squares(of.numbers, -kOnceInTwenty) - 1.0),
+              static_cast<double>(of.numbers)};
   if (const Squares of = squares_of(rolled_, effect, shape, how);
-      of.numbers > 0 && of.mean > mean_of_squares(of.numbers, 1.0)) {
+      of.numbers > 0 && of.mean > mean_of_squares(of.numbers, kOnceInAThousand)) {
     const double more = (of.mean - 1.0) * std::pow(noise.wheel_m_per_sqrt_m / rolled_with_m_per_sqrt_m_, 2);
-    if (more > most.more) most = {more, static_cast<double>(of.numbers)};
+    if (more > most.more) most.more = more;
   }
   return most;
 }

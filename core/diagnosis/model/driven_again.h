@@ -26,9 +26,9 @@ class DrivenAgain {
 
   // By how much a candidate's score scatters more than the model says where such readings are the whole of the error:
   // the mean of its statistic for each number, beyond the one that the model reckons with. Of counts at the upper end
-  // of what that many drives leave open (19 of 20); of noise where it is beyond that end, so that nothing is added by
-  // chance. `noise`: the model's now, since what is missing in a model looks like noise to it, and what that feigns
-  // goes by its square.
+  // of what that many drives leave open (19 of 20); of noise where it is more than chance makes one time in a thousand.
+  // `noise`: the model's now, since what is missing in a model looks like noise to it, and what that feigns goes by its
+  // square.
   Feigned feigned(const Effect& effect, const std::vector<double>& shape, const FittedNoise& noise,
                   const AskedHow& how = {}) const;
 

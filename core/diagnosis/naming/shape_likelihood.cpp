@@ -153,22 +153,31 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
       log_proposed[i] = std::log(std::max(sum, 1e-300));
     }
     std::vector<double> weight(samples.size());
-    for (double temper = 1.0; temper > 0.02; temper *= 0.6) {
-      double most = -1e300;
+    const auto weigh = [&](double temper) {
+      double most = -1e300, sum = 0.0;
       for (std::size_t i = 0; i < samples.size(); ++i) {
         weight[i] = temper * (-0.5 * (samples[i].misfit - best) / inflation) - log_proposed[i];
         if (samples[i].misfit >= kWorst) weight[i] = -1e300;
         most = std::max(most, weight[i]);
       }
-      // No one sample may count for many: far out, where hardly any were proposed, one may lie on the same step
-      // (truncated importance sampling: E. L. Ionides, J. Comput. Graph. Stat. 17 (2008) 295).
-      double sum = 0.0, squares = 0.0;
       for (double& w : weight) sum += w = std::exp(w - most);
-      const double largest = sum / std::sqrt(static_cast<double>(weight.size()));
-      sum = 0.0;
-      for (double& w : weight) w = std::min(w, largest), sum += w, squares += w * w;
       for (double& w : weight) w /= sum;
-      if (sum * sum > 6.0 * (m + 1) * squares) break;
+    };
+    const auto several_count = [&] {
+      double squares = 0.0;
+      for (double w : weight) squares += w * w;
+      return 1.0 > 6.0 * (m + 1) * squares;
+    };
+    double temper = 1.0;
+    for (weigh(temper); !several_count() && temper > 0.03; weigh(temper)) temper *= 0.6;
+    // Where none is wide enough one sample far out, where hardly any were proposed, lies on the same step: it may not
+    // count for many (truncated importance sampling: E. L. Ionides, J. Comput. Graph. Stat. 17 (2008) 295).
+    if (!several_count()) {
+      weigh(1.0);
+      const double largest = 1.0 / std::sqrt(static_cast<double>(weight.size()));
+      double sum = 0.0;
+      for (double& w : weight) sum += w = std::min(w, largest);
+      for (double& w : weight) w /= sum;
     }
     mean.setZero();
     for (std::size_t i = 0; i < samples.size(); ++i) mean += weight[i] * samples[i].at;
