@@ -17,15 +17,16 @@ namespace odolab {
 
 namespace {
 
-// So often; a drive of hours, each of whose models is large, less often.
-constexpr int kFewestTimes = 6;
-
-int times_of(const JointModel& joint) {
-  constexpr std::size_t kMost = 20, kFewest = kFewestTimes, kSamples = 400000;
-  std::size_t samples = 1;
-  for (const InnovationRun& run : joint.runs()) samples += run.truth.size();
-  return static_cast<int>(std::clamp(kSamples / samples, kFewest, kMost));
-}
+// How often drives are driven again: those of hours, each of whose models is large, less often.
+struct Times {
+  std::size_t fewest, most, samples;  // of the truth, in all
+  int of(const JointModel& joint) const {
+    std::size_t each = 1;
+    for (const InnovationRun& run : joint.runs()) each += run.truth.size();
+    return static_cast<int>(std::clamp(samples / each, fewest, most));
+  }
+};
+constexpr Times kCounted{6, 20, 400000}, kRolled{2, 6, 100000};
 
 // Within a count, where wheels rest: nobody knows, so each is tried in turn.
 enum class Where { as_read, anywhere, further };
@@ -186,17 +187,17 @@ Squares squares_of(const std::vector<JointModel>& again, const Effect& effect, c
 
 DrivenAgain::DrivenAgain(const JointModel& joint, bool counts_may_feign)
     : rolled_with_m_per_sqrt_m_(joint.model.noise.wheel_m_per_sqrt_m) {
-  constexpr std::uint64_t kRolled = 1000;  // seeds of its own
+  constexpr std::uint64_t kRolledFrom = 1000;  // seeds of its own
   JointModel calibrated = joint;
   calibrated.accepted.clear();
   calibrated.half_counts = {};
   const auto run = [&](int r) -> const InnovationRun& { return joint.runs()[static_cast<std::size_t>(r)]; };
   if (counts_may_feign)
-    counted_ = driven(calibrated, times_of(joint), 0, [&](int r, int k, Random& random) {
+    counted_ = driven(calibrated, kCounted.of(joint), 0, [&](int r, int k, Random& random) {
       return counted(run(r), calibrated.model_of(r), static_cast<Where>(k % 3), random);
     });
   if (std::none_of(joint.runs().begin(), joint.runs().end(), std::mem_fn(&InnovationRun::speeds_are_held)))
-    rolled_ = driven(calibrated, kFewestTimes, kRolled,
+    rolled_ = driven(calibrated, kRolled.of(joint), kRolledFrom,
                      [&](int r, int, Random& random) { return rolled(run(r), calibrated.model_of(r), random); });
 }
 
