@@ -124,7 +124,6 @@ InnovationRun counted(const InnovationRun& run, const InnovationModel& model, Wh
 
 InnovationRun rolled(const InnovationRun& run, const InnovationModel& model, Random& random) {
   InnovationRun again = as_smoothed(run);
-  if (again.smooth.empty()) return again;
   follow(again, model);
   std::vector<WheelSample> wheels = again.wheels;
   const auto roll = [&](double WheelSample::*wheel, double radius_m) {

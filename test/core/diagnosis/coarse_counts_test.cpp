@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model/driven_again.h"
+#include "test/support/calibrated_model.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -77,10 +77,7 @@ TEST(CoarseCounts, FeignClocksThatDiffer) {
     Vehicle vehicle;
     vehicle.kind = drive;
     const std::vector<Recording> recordings = by_slots(drive, seed, 0.1);
-    std::vector<InnovationRun> runs;
-    for (const Recording& r : recordings) runs.push_back(innovation_run(r, vehicle).value());
-    JointModel joint(std::move(runs), {0, 0, 0}, *calibrate_least_squares(recordings, vehicle), vehicle);
-    joint.fit(4);
+    JointModel joint = calibrated_model(recordings, vehicle);
     joint.fit_noise_and_all();
     joint.driven_again = std::make_shared<const DrivenAgain>(joint, true);
     CandidateTest t = joint.test(joint.columns_of(*clock_rate, {}));

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
+#include "test/support/calibrated_model.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -43,10 +43,7 @@ TEST(DrivenAgain, WheelsThatTurnUnevenlyFeignATruthThatIsSmoothed) {
   ASSERT_TRUE(smoothing);
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const std::vector<Recording> recordings = beside_uneven_wheels(drive, seed);
-    std::vector<InnovationRun> runs;
-    for (const Recording& r : recordings) runs.push_back(innovation_run(r, vehicle).value());
-    JointModel joint(std::move(runs), {0, 0, 0}, *calibrate_least_squares(recordings, vehicle), vehicle);
-    joint.fit(4);
+    JointModel joint = calibrated_model(recordings, vehicle);
     joint.fit_noise_and_all();
     joint.driven_again = std::make_shared<const DrivenAgain>(joint, false);
     CandidateTest t = joint.test(joint.columns_of(*smoothing, {}));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "test/support/calibrated_model.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -16,11 +17,7 @@ TEST(ScoredCandidate, OfOneSignIsLookedForHalfAsOften) {
   settings.runs = 2;
   settings.duration_s = 30.0;
   const Case c = generated_case(settings, 12);
-  std::vector<InnovationRun> runs;
-  for (const Recording& r : c.recordings) runs.push_back(*innovation_run(r, c.nominal));
-  JointModel joint(std::move(runs), std::vector<char>(c.recordings.size(), 0),
-                   *calibrate_least_squares(c.recordings, c.nominal), c.nominal);
-  joint.fit(4);
+  const JointModel joint = calibrated_model(c.recordings, c.nominal);
   const CandidateScan scan(joint, JointModel::kNone);
   int seen = 0;
   for (const Effect& e : catalogue()) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "test/support/calibrated_model.h"
 #include "test/support/missing_physics.h"
 #include "test/support/other_room.h"
 
@@ -27,14 +28,8 @@ TEST(ShapeSearch, FindsAPatchAsWellHoweverTheRoomIsTurned) {
   double least = 1e300, most = 0.0;
   for (const double by_rad : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4}) {
     std::vector<Recording> turned = c.recordings;
-    std::vector<InnovationRun> runs;
-    for (Recording& r : turned) {
-      r = in_room(std::move(r), {0.0, 0.0, by_rad});
-      runs.push_back(*innovation_run(r, c.nominal));
-    }
-    JointModel joint(std::move(runs), std::vector<char>(turned.size(), 0), *calibrate_least_squares(turned, c.nominal),
-                     c.nominal);
-    joint.fit(4);
+    for (Recording& r : turned) r = in_room(std::move(r), {0.0, 0.0, by_rad});
+    const JointModel joint = calibrated_model(turned, c.nominal);
     const CandidateScan scan(joint, JointModel::kNone);
     const double found = best_shape(joint.views(), scan, patch()).best.statistic;
     least = std::min(least, found), most = std::max(most, found);
