@@ -31,7 +31,8 @@ double let_in(JointModel& joint, const GenericTest& group) {
   return joint.fit(2);
 }
 
-// What comes nearest to being said is asked once more under the noise that it leaves.
+// What comes nearest to being said is asked once more under the noise that it leaves: of what chance would make one of
+// all that is asked, anyway, that never made a name.
 void look_again(const JointModel& joint, std::vector<GenericTest>& generic, double error) {
   constexpr std::size_t kMost = 2;
   constexpr double kWorthALook = 1.0;  // standard errors of the statistic, beyond chance
@@ -41,9 +42,10 @@ void look_again(const JointModel& joint, std::vector<GenericTest>& generic, doub
   };
   std::vector<GenericTest*> nearest;
   for (GenericTest& g : generic)
-    if (g.test.freedom > 0 && g.p_value >= error && beyond(&g) > kWorthALook) nearest.push_back(&g);
+    if (g.test.freedom > 0 && g.p_value >= error && g.p_value < 1.0 && beyond(&g) > kWorthALook) nearest.push_back(&g);
   std::stable_sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) { return beyond(a) > beyond(b); });
   if (nearest.size() > kMost) nearest.resize(kMost);
+  if (joint.driven_again && !nearest.empty()) joint.driven_again->drive();
   parallel_for(static_cast<int>(nearest.size()), [&](int i) {
     GenericTest& g = *nearest[static_cast<std::size_t>(i)];
     JointModel with = joint;

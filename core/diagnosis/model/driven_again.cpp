@@ -185,31 +185,39 @@ Squares squares_of(const std::vector<JointModel>& again, const Effect& effect, c
 }  // namespace
 
 DrivenAgain::DrivenAgain(const JointModel& joint, bool counts_may_feign)
-    : rolled_with_m_per_sqrt_m_(joint.model.noise.wheel_m_per_sqrt_m) {
+    : calibrated_(joint), counts_may_feign_(counts_may_feign) {
+  calibrated_.accepted.clear();
+  calibrated_.half_counts = {};
+}
+
+void DrivenAgain::drive() const {
+  if (drives_) return;
   constexpr std::uint64_t kRolledFrom = 1000;  // seeds of its own
-  JointModel calibrated = joint;
-  calibrated.accepted.clear();
-  calibrated.half_counts = {};
-  const auto run = [&](int r) -> const InnovationRun& { return joint.runs()[static_cast<std::size_t>(r)]; };
-  if (counts_may_feign)
-    counted_ = driven(calibrated, kCounted.of(joint), 0, [&](int r, int k, Random& random) {
-      return counted(run(r), calibrated.model_of(r), static_cast<Where>(k % 3), random);
+  const std::vector<InnovationRun>& runs = calibrated_.runs();
+  const auto run = [&](int r) -> const InnovationRun& { return runs[static_cast<std::size_t>(r)]; };
+  drives_.emplace();
+  if (counts_may_feign_)
+    drives_->counted = driven(calibrated_, kCounted.of(calibrated_), 0, [&](int r, int k, Random& random) {
+      return counted(run(r), calibrated_.model_of(r), static_cast<Where>(k % 3), random);
     });
-  if (std::none_of(joint.runs().begin(), joint.runs().end(), std::mem_fn(&InnovationRun::speeds_are_held)))
-    rolled_ = driven(calibrated, kRolled.of(joint), kRolledFrom,
-                     [&](int r, int, Random& random) { return rolled(run(r), calibrated.model_of(r), random); });
+  if (std::none_of(runs.begin(), runs.end(), std::mem_fn(&InnovationRun::speeds_are_held)))
+    drives_->rolled = driven(calibrated_, kRolled.of(calibrated_), kRolledFrom, [&](int r, int, Random& random) {
+      return rolled(run(r), calibrated_.model_of(r), random);
+    });
 }
 
 Feigned DrivenAgain::feigned(const Effect& effect, const std::vector<double>& shape, const FittedNoise& noise,
                              const AskedHow& how) const {
+  drive();
   Feigned most;
   if (!effect.of_the_truth)
-    if (const Squares of = squares_of(counted_, effect, shape, how); of.numbers > 0)
+    if (const Squares of = squares_of(drives_->counted, effect, shape, how); of.numbers > 0)
       most = {std::max(0.0, of.mean / mean_of_squares(of.numbers, -kOnceInTwenty) - 1.0),
               static_cast<double>(of.numbers)};
-  if (const Squares of = squares_of(rolled_, effect, shape, how);
+  if (const Squares of = squares_of(drives_->rolled, effect, shape, how);
       of.numbers > 0 && of.mean > mean_of_squares(of.numbers, kOnceInAThousand)) {
-    const double more = (of.mean - 1.0) * std::pow(noise.wheel_m_per_sqrt_m / rolled_with_m_per_sqrt_m_, 2);
+    const double more =
+        (of.mean - 1.0) * std::pow(noise.wheel_m_per_sqrt_m / calibrated_.model.noise.wheel_m_per_sqrt_m, 2);
     if (more > most.more) most.more = more;
   }
   return most;

@@ -1,6 +1,7 @@
 // What readings feign: the same drives once more, their wheels read with other errors.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/diagnosis/model/joint_model.h"
@@ -22,7 +23,10 @@ class DrivenAgain {
  public:
   DrivenAgain(const JointModel& joint, bool counts_may_feign);
 
-  bool is_counted() const { return !counted_.empty(); }
+  bool is_counted() const { return counts_may_feign_; }
+
+  // Drives, where nobody has asked yet: by whoever is about to ask from several threads.
+  void drive() const;
 
   // By how much a candidate's score scatters more than the model says where such readings are the whole of the error:
   // the mean of its statistic for each number, beyond the one that the model reckons with. Of counts at the upper end
@@ -33,8 +37,13 @@ class DrivenAgain {
                   const AskedHow& how = {}) const;
 
  private:
-  std::vector<JointModel> counted_, rolled_;
-  double rolled_with_m_per_sqrt_m_;
+  struct Drives {
+    std::vector<JointModel> counted, rolled;
+  };
+  JointModel calibrated_;
+  bool counts_may_feign_;
+  mutable std::optional<Drives>
+      drives_;  // made when the first asks: they are large, and where nothing shows nobody does
 };
 
 // Widens the test of an entry of the catalogue by what readings feign of it: of what acts all along; what happens once,

@@ -77,17 +77,25 @@ void JointModel::linearise(bool with_columns) {
   const int q = columns();
   parallel_for(n, [&](int r) {
     const InnovationModel m = model_of(r);
-    if (track[r].empty()) {  // the places come from the filter itself
-      LinearisedRun first(runs_[r], m);
-      for (const FilterStep& s : first.steps())
+    const auto places_from = [&](const LinearisedRun& of) {
+      if (!track[r].empty()) return;
+      for (const FilterStep& s : of.steps())
         if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
+    };
+    if (accepted.empty()) {  // nothing asks where it is
+      made[r].emplace_back(prepared(r, runs_[r], {}), m, with_columns);
+      places_from(made[r][0]);
+    } else if (track[r].empty()) {
+      places_from(LinearisedRun(runs_[r], m, false));
     }
     const auto view = [&](Way way) {
       return as_it_goes(drive_view(numbers_[r], runs_[r], m.drive, from_commands_[r] != 0, track[r], way));
     };
     if (with_columns) next->views[r] = view(Way::smoothed);
-    if (!accepted.empty()) next->read_views[r] = with_columns ? as_read(next->views[r], runs_[r]) : view(Way::as_read);
-    made[r].emplace_back(prepared(r, runs_[r], next->read_views[r]), m);
+    if (!accepted.empty()) {
+      next->read_views[r] = with_columns ? as_read(next->views[r], runs_[r]) : view(Way::as_read);
+      made[r].emplace_back(prepared(r, runs_[r], next->read_views[r]), m, with_columns);
+    }
     const LinearisedRun& linear = made[r][0];
     const int rows = 3 * linear.samples();
     residual_[r] = Eigen::Map<const VectorXd>(linear.residual().data(), rows);

@@ -32,7 +32,7 @@ void whitener_of(const FilterStep& step, const Turn& here, double* out) {
 
 }  // namespace
 
-LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
+LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model, bool with_columns)
     : run_(std::make_shared<const InnovationRun>(std::move(given))), model_(model) {
   const InnovationRun& run = *run_;
   summed_ = summed_up(run, model);
@@ -55,7 +55,7 @@ LinearisedRun::LinearisedRun(InnovationRun given, const InnovationModel& model)
       residual_[3 * k + r] = (w[3 * r] * steps_[k].residual[0] + w[3 * r + 1] * steps_[k].residual[1] +
                               w[3 * r + 2] * steps_[k].residual[2]);
   }
-
+  if (!with_columns) return;
   prepare_carry();
   cut_into_pieces();
 }

@@ -26,7 +26,8 @@ struct Stretch {
 
 class LinearisedRun {
  public:
-  LinearisedRun(InnovationRun run, const InnovationModel& model);
+  // `with_columns` false: what the model leaves, and where the filter was; of no column anything may be asked.
+  LinearisedRun(InnovationRun run, const InnovationModel& model, bool with_columns = true);
 
   int samples() const { return static_cast<int>(steps_.size()); }
   const Whitened& residual() const { return residual_; }

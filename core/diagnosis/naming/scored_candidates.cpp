@@ -185,11 +185,6 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   if (!best.test.value.empty()) best.beyond_counts = beyond_counts(joint, e, best.test);
   best.log_tests = log_tests;
   judge(best);
-  constexpr double kWorthAsking = 0.05;
-  if (best.p_value < kWorthAsking) {
-    widen_by_readings(best.test, joint, e, shape);
-    judge(best);
-  }
   return best;
 }
 
@@ -200,13 +195,14 @@ bool is_finer(const Effect& own, const Effect& shared) {
 
 namespace {
 
+constexpr double kWorthAsking = 0.05;  // of a p value
+
 bool is_at_a_place(const Effect& e) { return e.local && !e.of_one_recording && e.scan; }
 
 // What is small, and is climbed otherwise than the scan asks, is missed by all its points: it is looked for as well
 // where something else that lies on the floor says more.
 void look_where_others_lie(const JointModel& joint, const CandidateScan& scan, int without, int tests,
                            std::vector<ScoredCandidate>& scored) {
-  constexpr double kWorthAsking = 0.05;
   std::vector<std::vector<std::vector<double>>> also_from(scored.size());
   for (std::size_t i = 0; i < scored.size(); ++i)
     for (const ScoredCandidate& other : scored)
@@ -218,6 +214,19 @@ void look_where_others_lie(const JointModel& joint, const CandidateScan& scan, i
     if (also_from[k].empty()) return;
     ScoredCandidate again = scored_candidate(joint, scan, *scored[k].effect, without, tests, also_from[k]);
     if (again.test.statistic > scored[k].test.statistic) scored[k] = std::move(again);
+  });
+}
+
+void hold_against_readings(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
+  std::vector<ScoredCandidate*> worth;
+  for (ScoredCandidate& c : scored)
+    if (!c.effect->local && c.p_value < kWorthAsking) worth.push_back(&c);
+  if (!joint.driven_again || worth.empty()) return;
+  joint.driven_again->drive();
+  parallel_for(static_cast<int>(worth.size()), [&](int i) {
+    ScoredCandidate& c = *worth[static_cast<std::size_t>(i)];
+    widen_by_readings(c.test, joint, *c.effect, c.test.shape);
+    judge(c);
   });
 }
 
@@ -251,6 +260,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
   });
   look_where_others_lie(joint, scan, without, entries[1], scored);
+  hold_against_readings(joint, scored);
   std::vector<char> in_vain(scored.size(), 0);
   for (std::size_t i = 0; i < scored.size(); ++i)
     in_vain[i] = std::any_of(scored.begin(), scored.end(),
