@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kWidestBump_m = 0.2;
 
+// Of a bump that is met each time.
+bool is_lying(const Effect& e) { return e.name == "bump" && !e.of_one_recording; }
+
 // Whether the vehicle is on a patch about a moment.
 bool happens_on(const JointModel& joint, const std::vector<double>& moment, const std::vector<double>& patch) {
   constexpr double kAbout_s = 0.5;
@@ -36,7 +39,7 @@ bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
 }
 
 bool of_one_small_place(const ScoredCandidate& bump, const ScoredCandidate& patch) {
-  if (bump.effect->name != "bump" || bump.effect->of_one_recording || patch.effect->name != "slip_zone") return false;
+  if (!is_lying(*bump.effect) || patch.effect->name != "slip_zone") return false;
   const Vec2 apart{bump.test.shape[0] - patch.test.shape[0], bump.test.shape[1] - patch.test.shape[1]};
   return patch.test.shape[2] < kWidestBump_m && length(apart) < kWidestBump_m;
 }
@@ -55,8 +58,12 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
     if (c.effect->name == "slip_zone" && a.effect->local && a.effect->of_one_recording &&
         happens_on(joint, a.shape, c.test.shape))
       return true;
+    // What lies on the floor is met by one wheel or the other, more in its middle than at its edge.
+    if (is_lying(*c.effect) && is_lying(*a.effect) &&
+        length(Vec2{c.test.shape[0] - a.shape[0], c.test.shape[1] - a.shape[1]}) < kWidestBump_m)
+      return true;
     // A bump that is met now and then by its edge is met less, or more, at some moment.
-    if (c.effect->of_one_recording && a.effect->name == "bump" && !a.effect->of_one_recording &&
+    if (c.effect->of_one_recording && is_lying(*a.effect) &&
         happens_on(joint, c.test.shape, {a.shape[0], a.shape[1], kWidestBump_m}))
       return true;
     if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&

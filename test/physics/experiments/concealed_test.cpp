@@ -129,5 +129,14 @@ TEST(ConcealedCase, ALargeBumpIsFoundWhereThePatchInItsPlaceIs) {
   for (const JudgedParameter& p : j.parameters) EXPECT_NEAR(p.found, p.truth, 3.0 * p.stderr_value) << p.name;
 }
 
+TEST(ConcealedCase, ABumpIsOneThingThoughAWheelAlsoMeetsItsEdge) {
+  Wish wish;
+  wish.kind = Kind::one;
+  const Judged j = judged(drawn_case(5, 0, wish));
+  ASSERT_EQ(j.truth, std::vector<std::string>{"bump.right_wheel"});
+  EXPECT_TRUE(j.named_first) << j.line();
+  for (const JudgedParameter& p : j.parameters) EXPECT_NEAR(p.found, p.truth, 3.0 * p.stderr_value) << p.name;
+}
+
 }  // namespace
 }  // namespace odolab::concealed
