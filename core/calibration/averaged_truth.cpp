@@ -25,6 +25,13 @@ std::vector<Pose> poses_by_filter(const InnovationRun& run, const SummedRun& sum
   return poses;
 }
 
+// Whether the wheels' rounding is no small part of what a truth sample errs by.
+bool rounding_shows(const InnovationRun& run, const InnovationModel& model) {
+  constexpr double kOfTheTruth = 0.2;
+  const double count_m = count_rad(run, model.drive) * model.drive.wheel_radius_left_m;
+  return !run.smooth.empty() && count_m / std::sqrt(12.0) > kOfTheTruth * model.noise.truth_position_m;
+}
+
 }  // namespace
 
 double averaging_s(const InnovationRun& run) {
@@ -43,8 +50,11 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
   const double interval_s = usual_interval_s(run.truth);
   const auto most = static_cast<std::size_t>(longest_s / interval_s + 0.01);
   if (most < 2) return run;
-  const SummedRun summed = summed_up(run, model);
-  const std::vector<Pose> poses = poses_by_filter(run, summed, model);
+  InnovationRun carries = run;
+  const bool smoothed = rounding_shows(run, model);
+  if (smoothed) carries.wheels = run.smooth;
+  const SummedRun summed = summed_up(carries, model);
+  const std::vector<Pose> poses = poses_by_filter(carries, summed, model);
   InnovationRun out = run;
   out.truth.clear();
   out.set_aside.clear();
@@ -89,7 +99,8 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
   const double readings_s =
       (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1);
   out.samples_averaged = static_cast<double>(most);
-  out.readings_averaged = std::clamp(out.samples_averaged * interval_s / readings_s, 1.0, out.samples_averaged);
+  if (!smoothed)
+    out.readings_averaged = std::clamp(out.samples_averaged * interval_s / readings_s, 1.0, out.samples_averaged);
   return out;
 }
 

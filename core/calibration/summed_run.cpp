@@ -22,6 +22,11 @@ struct Rotation {
   double left = 0.0, right = 0.0, left_smooth = 0.0, right_smooth = 0.0;
 };
 
+// How far both wheels turn, there and back, for what goes by it.
+struct Ways {
+  double left, right;
+};
+
 // Times are asked for in order; that at which one stretch ends begins the next, and is reckoned once.
 class Rotations {
  public:
@@ -43,6 +48,26 @@ class Rotations {
     const Rotation before = at(i, from_s), then = at(i, to_s);
     return {then.left - before.left, then.right - before.right, then.left_smooth - before.left_smooth,
             then.right_smooth - before.right_smooth};
+  }
+
+  // Of a part of interval i that lasts so long. Where readings are a few counts apart the mean of five: it ends at
+  // others than this one does. Noise that goes by what is read would believe those more that are a count too short, and
+  // radii come out large.
+  Ways ways(std::size_t i, const Rotation& read, double lasts_s, double count) const {
+    constexpr double kFewCounts = 16.0;
+    constexpr std::size_t kToEitherSide = 2;
+    Ways ways{std::abs(read.left), std::abs(read.right)};
+    if (run_.speeds_are_held) return ways;
+    const WheelSample &a = run_.wheels[i], &b = run_.wheels[i + 1];
+    const WheelSample &first = run_.wheels[i - std::min(i, kToEitherSide)],
+                      &last = run_.wheels[std::min(i + 1 + kToEitherSide, run_.wheels.size() - 1)];
+    const double share = lasts_s / (last.time_s - first.time_s);
+    const auto put = [&](double& way, double WheelSample::*wheel) {
+      if (std::abs(b.*wheel - a.*wheel) < kFewCounts * count) way = share * std::abs(last.*wheel - first.*wheel);
+    };
+    put(ways.left, &WheelSample::left_rad);
+    put(ways.right, &WheelSample::right_rad);
+    return ways;
   }
 
   // At a time within interval i, for derivatives.
@@ -265,7 +290,8 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         d[2] += w;
       }
 
-      rolling_noise.add(std::abs(left_m), std::abs(right_m), middle, dx, dy, inverse_base);
+      const Ways ways = rotations.ways(i, rad, until_s - now_s, count);
+      rolling_noise.add(left_radius_m * ways.left, right_radius_m * ways.right, middle, dx, dy, inverse_base);
       if (counts_left_behind) count_noise = count_noise.carried(dx, dy);
       if (!run.settles.empty() && run.settles[i] && now_s == run.wheels[i].time_s) {
         for (const double side : {-1.0, 1.0}) {  // left, right

@@ -72,6 +72,8 @@ double chance_of(const std::vector<Burst>& bursts) {
 
 std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error) {
   if (is_nothing(joint.gathered_error()) || counts_are_coarse(joint)) return std::nullopt;
+  // Of a truth that is made up of several instruments place and heading err together, and each error would be a push.
+  if (joint.truth_errors) return std::nullopt;
   const auto push =
       std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
   const CandidateScan scan(joint, JointModel::kNone);

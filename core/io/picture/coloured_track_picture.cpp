@@ -24,12 +24,13 @@ std::size_t level_of(double value) { return static_cast<std::size_t>(mismatch_le
 // The line from point to point at one level; every stretch begins where the one before it ended.
 void draw_level(Svg& svg, const ColouredTrack& track, const FloorView& view, std::size_t level) {
   std::vector<Point> line;
+  Point last{};
+  bool has_last = false;
   const auto close = [&] {
+    if (!line.empty() && has_last) line.push_back(last);  // which may lie too near to be drawn before
     svg.polyline(line, {kLevels[level].colour, kLevels[level].width_px, ""});
     line.clear();
   };
-  Point last{};
-  bool has_last = false;
   for (std::size_t i = 0; i < track.x_m.size(); ++i) {
     if (!std::isfinite(track.x_m[i]) || !std::isfinite(track.y_m[i])) {
       close();

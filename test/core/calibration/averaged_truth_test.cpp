@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/calibration/smoothed_readings.h"
 
 namespace odolab {
 namespace {
@@ -88,6 +89,22 @@ TEST(AveragedTruth, KnowsNothingOfSamplesThatAreSetAside) {
   }
   const InnovationRun averaged = with_averaged_truth(run, model_of_the_circle(), 0.05);
   EXPECT_LT(furthest_off_m(averaged), 1e-9);
+}
+
+// Whole counts, of 5 mm: carried by these, samples would lie where the counts do.
+TEST(AveragedTruth, DoesNotTakeOnTheRoundingOfCoarseCounts) {
+  constexpr double kCounts = 125.0, kCount_rad = 2.0 * kPi / kCounts;
+  InnovationModel model = model_of_the_circle();
+  model.drive.encoder_counts_per_revolution = kCounts;
+  InnovationRun run = round_and_round();
+  run.counts_show = true;
+  for (WheelSample& w : run.wheels) {
+    w.left_rad = kCount_rad * std::floor(w.left_rad / kCount_rad);
+    w.right_rad = kCount_rad * std::floor(w.right_rad / kCount_rad);
+  }
+  run.smooth = smoothed(run.wheels);
+  const double rounding_m = kRadius_m * kCount_rad / std::sqrt(12.0);
+  EXPECT_LT(furthest_off_m(with_averaged_truth(run, model, 0.05)), 0.5 * rounding_m);
 }
 
 // A push carries the truth away for good: the samples behind it all contradict what was there before, and are no

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model/driven_again.h"
@@ -85,6 +87,50 @@ TEST(CoarseCounts, FeignClocksThatDiffer) {
     widen_by_readings(t, joint, *clock_rate, {});
     EXPECT_GT(t.inflation, 2.0 * by_noise);
   }
+}
+
+// Its truth stamped by a clock that is late and runs so many times as fast.
+Recording with_truth_on(const Recording& r, double times_as_fast, double late_s) {
+  const std::vector<double>& x = r.channel("truth_x_m")->values;
+  std::vector<std::pair<double, std::size_t>> rows;
+  for (std::size_t i = 0; i < r.time_s.size(); ++i)
+    rows.emplace_back(std::isnan(x[i]) ? r.time_s[i] : times_as_fast * r.time_s[i] + late_s, i);
+  std::sort(rows.begin(), rows.end());
+  Recording out = r;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    out.time_s[i] = rows[i].first;
+    for (std::size_t c = 0; c < r.channels.size(); ++c)
+      out.channels[c].values[i] = r.channels[c].values[rows[i].second];
+  }
+  return out;
+}
+
+// Truth at 75 Hz, three samples to a mean: carried to their middle by whole counts these would agree with the clock
+// that was assumed while they were carried, and with no other (half of this rate was found, and 20 ms of the offset too
+// much).
+TEST(CoarseCounts, HideNoClockThatRunsAtAnotherRate) {
+  constexpr double kRate = -4e-4, kOffset_s = 0.1;
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.0856;
+  drive.wheelbase_m = 0.28;
+  drive.encoder_counts_per_revolution = 128.0;
+  Random random(981);
+  GeneratorSettings g = under_motion_capture(drive, 0.0018, 1.0 / 75.0);
+  g.duration_s = 150.0;
+  g.wheel_period_s = 0.02;
+  std::vector<Recording> recordings = three_runs(
+      g, random, [&](int) { return lanes(random, g.duration_s); },
+      [](int) { return std::function<void(InjectedStep&)>(); });
+  for (Recording& r : recordings) r = with_truth_on(r, 1.0 - kRate, kOffset_s);
+  Vehicle vehicle;
+  vehicle.kind = drive;
+  const Result<Diagnosis> d = diagnose(recordings, {}, vehicle);
+  ASSERT_TRUE(d);
+  const auto rate =
+      std::find_if(d->findings.begin(), d->findings.end(), [](const Finding& f) { return f.effect == "clock_rate"; });
+  ASSERT_NE(rate, d->findings.end());
+  // A count is 9 ms of such a drive; over 150 s that is a seventh of the rate, and counts are many.
+  EXPECT_NEAR(rate->parameters.front().value, kRate, 0.07 * std::abs(kRate));
 }
 
 // What rounding makes averages out over a drive, and an effect adds up: 13 mm to a count hide no scrub of a tenth.

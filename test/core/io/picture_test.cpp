@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/picture/axis.h"
+#include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
 #include "core/io/picture/scatter_picture.h"
 #include "core/io/picture/track_picture.h"
@@ -103,9 +106,9 @@ TEST(ScatterPicture, DrawsEachRunAndBothCentres) {
   picture.experiments.push_back({"", runs});
   const std::string svg = scatter_picture(picture);
   EXPECT_TRUE(is_well_formed(svg));
-  EXPECT_EQ(count(svg, "<circle"), 5u + 1u);         // clockwise runs, legend
-  EXPECT_EQ(count(svg, "fill=\"#0072B2\""), 5u + 1u);  // blue squares: counter-clockwise runs, legend
-  EXPECT_NE(svg.find("cw: 377 mm"), std::string::npos);          // hypot(320, 200)
+  EXPECT_EQ(count(svg, "<circle"), 5u + 1u);              // clockwise runs, legend
+  EXPECT_EQ(count(svg, "fill=\"#0072B2\""), 5u + 1u);     // blue squares: counter-clockwise runs, legend
+  EXPECT_NE(svg.find("cw: 377 mm"), std::string::npos);   // hypot(320, 200)
   EXPECT_NE(svg.find("ccw: 206 mm"), std::string::npos);  // hypot(100, 180)
 }
 
@@ -139,6 +142,25 @@ TEST(LinePicture, KeepsPeaksHoweverManySamplesThereAre) {
   for (Point p : points) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
   // from -1 to 5 with air of 6 % at both ends on 248 pixels, the peak is where it belongs
   EXPECT_NEAR(bottom - top, 248.0 / 1.12, 0.2);
+}
+
+TEST(ColouredTrackPicture, LeavesNoGapWhereOnlyOneSampleIsOff) {
+  ColouredTrackPicture picture;
+  for (int i = 0; i <= 4000; ++i) {  // 4 m, a tenth of a pixel from one sample to the next
+    picture.track.x_m.push_back(0.001 * i);
+    picture.track.y_m.push_back(0.0);
+    picture.track.times_noise.push_back(i == 2000 ? 2.5 : 1.0);
+  }
+  const std::string svg = coloured_track_picture(picture);
+  const std::regex polyline("<polyline points=\"([^\"]*)\"");
+  std::vector<std::pair<double, double>> drawn;  // from, to along the line
+  for (std::sregex_iterator it(svg.begin(), svg.end(), polyline), end; it != end; ++it) {
+    const std::string points = (*it)[1];
+    drawn.emplace_back(std::stod(points), std::stod(points.substr(points.rfind(' ') + 1)));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  ASSERT_EQ(drawn.size(), 3u);
+  for (std::size_t k = 0; k + 1 < drawn.size(); ++k) EXPECT_GE(drawn[k].second, drawn[k + 1].first);
 }
 
 TEST(LinePicture, LeavesAGapWhereThereIsNoValue) {
