@@ -30,9 +30,10 @@ struct Ways {
 // Times are asked for in order; that at which one stretch ends begins the next, and is reckoned once.
 class Rotations {
  public:
-  explicit Rotations(const InnovationRun& run)
+  Rotations(const InnovationRun& run, double count)
       : run_(run),
         smoothed_(!run.smooth.empty()),
+        few_counts_(count > 0.0 && !run.speeds_are_held && moves_by(run.wheels) < kFewCounts * count),
         line_(run.wheels, run.speeds_are_held),
         smooth_(smoothed_ ? run.smooth : run.wheels, run.speeds_are_held) {}
 
@@ -53,21 +54,13 @@ class Rotations {
   // Of a part of interval i that lasts so long. Where readings are a few counts apart the mean of five: it ends at
   // others than this one does. Noise that goes by what is read would believe those more that are a count too short, and
   // radii come out large.
-  Ways ways(std::size_t i, const Rotation& read, double lasts_s, double count) const {
-    constexpr double kFewCounts = 16.0;
+  Ways ways(std::size_t i, const Rotation& read, double lasts_s) const {
+    if (!few_counts_) return {std::abs(read.left), std::abs(read.right)};
     constexpr std::size_t kToEitherSide = 2;
-    Ways ways{std::abs(read.left), std::abs(read.right)};
-    if (run_.speeds_are_held) return ways;
-    const WheelSample &a = run_.wheels[i], &b = run_.wheels[i + 1];
     const WheelSample &first = run_.wheels[i - std::min(i, kToEitherSide)],
                       &last = run_.wheels[std::min(i + 1 + kToEitherSide, run_.wheels.size() - 1)];
     const double share = lasts_s / (last.time_s - first.time_s);
-    const auto put = [&](double& way, double WheelSample::*wheel) {
-      if (std::abs(b.*wheel - a.*wheel) < kFewCounts * count) way = share * std::abs(last.*wheel - first.*wheel);
-    };
-    put(ways.left, &WheelSample::left_rad);
-    put(ways.right, &WheelSample::right_rad);
-    return ways;
+    return {share * std::abs(last.left_rad - first.left_rad), share * std::abs(last.right_rad - first.right_rad)};
   }
 
   // At a time within interval i, for derivatives.
@@ -82,6 +75,19 @@ class Rotations {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr double kFewCounts = 8.0;
+
+  // How far a wheel that turns does so from one reading to the next, in the mean.
+  static double moves_by(const std::vector<WheelSample>& wheels) {
+    double sum_rad = 0.0, moves = 0.0;
+    for (std::size_t i = 0; i + 1 < wheels.size(); ++i)
+      for (double WheelSample::*wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
+        const double by_rad = std::abs(wheels[i + 1].*wheel - wheels[i].*wheel);
+        sum_rad += by_rad;
+        moves += by_rad > 0.0 ? 1.0 : 0.0;
+      }
+    return sum_rad / std::max(1.0, moves);
+  }
 
   // Since sample i.
   Rotation at(std::size_t i, double time_s) {
@@ -100,7 +106,7 @@ class Rotations {
   }
 
   const InnovationRun& run_;
-  bool smoothed_;
+  bool smoothed_, few_counts_;
   WheelLine line_, smooth_;
   Rotation last_;
   std::size_t last_in_ = kNone, rates_in_ = kNone;
@@ -205,7 +211,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
   summed.derivatives.assign(3 * static_cast<std::size_t>(p) * summed.motions.size(), 0.0);
   summed.end_velocity.resize(3 * summed.motions.size());
 
-  Rotations rotations(run);
+  Rotations rotations(run, count);
   const auto time_of = [&](std::size_t truth_index) {
     return run.truth[truth_index].time_s - model.truth.time_offset_s;
   };
@@ -290,7 +296,7 @@ SummedRun summed_up(const InnovationRun& run, const InnovationModel& model) {
         d[2] += w;
       }
 
-      const Ways ways = rotations.ways(i, rad, until_s - now_s, count);
+      const Ways ways = rotations.ways(i, rad, until_s - now_s);
       rolling_noise.add(left_radius_m * ways.left, right_radius_m * ways.right, middle, dx, dy, inverse_base);
       if (counts_left_behind) count_noise = count_noise.carried(dx, dy);
       if (!run.settles.empty() && run.settles[i] && now_s == run.wheels[i].time_s) {
