@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "core/base/quantile.h"
 
@@ -69,18 +70,54 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   return ends;
 }
 
+// The rows' numbers, missing ones counted, where all stamps tremble by so little that each gap tells how many it holds;
+// else nothing. `period_s`, that of many rows and so without packets, is made that of these.
+std::vector<int> numbers_told_by_gaps(const Series& time_s, double& period_s) {
+  constexpr double kTrembles = 0.35, kPause = 20.0, kAlike = 0.3;  // periods
+  Series gaps;
+  for (std::size_t i = 1; i < time_s.size(); ++i) gaps.push_back(time_s[i] - time_s[i - 1]);
+  const double usual_s = quantile(gaps, 0.5);
+  if (std::abs(usual_s - period_s) > kAlike * period_s) return {};
+  std::vector<int> numbers{0};
+  double taken_s = 0.0, taken = 0.0;
+  for (const double gap_s : gaps) {
+    const double periods = std::max(1.0, std::round(gap_s / usual_s));
+    if (periods < kPause) {
+      if (std::abs(gap_s - periods * usual_s) > kTrembles * usual_s) return {};
+      taken_s += gap_s;
+      taken += periods;
+    }
+    numbers.push_back(numbers.back() + static_cast<int>(std::min(periods, 1e6)));
+  }
+  if (taken > 0.0) period_s = taken_s / taken;
+  return numbers;
+}
+
+// Of rows whose numbers are told only where readings pause: missing ones are counted.
+std::vector<int> ends_of_told(const std::vector<int>& numbers) {
+  constexpr int kPause = 20;
+  std::vector<int> ends;
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    if (numbers[i] - numbers[i - 1] >= kPause) ends.push_back(static_cast<int>(i));
+  ends.push_back(static_cast<int>(numbers.size()));
+  return ends;
+}
+
 // Stamps against their number: straight lines between knots, by least squares with Huber's weights.
-void lay_line(const Series& time_s, int from, int to, double period_s, Series& even) {
-  const int n = to - from, spans = std::max(1, static_cast<int>(std::lround(n * period_s / kKnots_s)));
-  const double rows = static_cast<double>(n - 1) / spans;
+void lay_line(const Series& time_s, const std::vector<int>& numbers, int from, int to, double period_s, Series& even) {
+  const int n = to - from;
+  const double all = numbers[to - 1] - numbers[from];
+  const int spans = std::max(1, static_cast<int>(std::lround(all * period_s / kKnots_s)));
+  const double rows = all / spans;
+  const auto number = [&](int i) { return static_cast<double>(numbers[from + i] - numbers[from]); };
   Series late(n), weight(n, 1.0), knots(spans + 1, 0.0);
-  for (int i = 0; i < n; ++i) late[i] = time_s[from + i] - time_s[from] - period_s * i;
-  const auto span_of = [&](int i) { return std::min(spans - 1, static_cast<int>(i / rows)); };
+  for (int i = 0; i < n; ++i) late[i] = time_s[from + i] - time_s[from] - period_s * number(i);
+  const auto span_of = [&](int i) { return std::min(spans - 1, static_cast<int>(number(i) / rows)); };
   for (int pass = 0; pass < 6; ++pass) {
     Series diagonal(spans + 1, 1e-12), beside(spans + 1, 0.0), right(spans + 1, 0.0);
     for (int i = 0; i < n; ++i) {
       const int k = span_of(i);
-      const double u = i / rows - k;
+      const double u = number(i) / rows - k;
       diagonal[k] += weight[i] * (1.0 - u) * (1.0 - u);
       diagonal[k + 1] += weight[i] * u * u;
       beside[k] += weight[i] * u * (1.0 - u);
@@ -96,7 +133,7 @@ void lay_line(const Series& time_s, int from, int to, double period_s, Series& e
     Series off(n);
     for (int i = 0; i < n; ++i) {
       const int k = span_of(i);
-      const double u = i / rows - k;
+      const double u = number(i) / rows - k;
       off[i] = late[i] - (1.0 - u) * knots[k] - u * knots[k + 1];
       even[from + i] = time_s[from + i] - off[i];
     }
@@ -126,16 +163,17 @@ double grain_of(const Series& time_s) {
 
 // Rounded stamps of one even period, which lie within half a grain of a straight line: then that is what they are, and
 // lines between knots would follow the rounding where it changes its pattern. False where they are not.
-bool lay_straight(const Series& time_s, int from, int to, double period_s, double grain_s, Series& even) {
+bool lay_straight(const Series& time_s, const std::vector<int>& numbers, int from, int to, double period_s,
+                  double grain_s, Series& even) {
   constexpr double kTolerance_s = 1e-5;
   double earliest = -1e300, latest = 1e300;  // that the first may be
   for (int i = from; i < to; ++i) {
-    const double start_s = time_s[i] - period_s * (i - from);
+    const double start_s = time_s[i] - period_s * (numbers[i] - numbers[from]);
     earliest = std::max(earliest, start_s - 0.5 * grain_s);
     latest = std::min(latest, start_s + 0.5 * grain_s);
   }
   if (!(grain_s > 0.0) || earliest > latest + kTolerance_s) return false;
-  for (int i = from; i < to; ++i) even[i] = 0.5 * (earliest + latest) + period_s * (i - from);
+  for (int i = from; i < to; ++i) even[i] = 0.5 * (earliest + latest) + period_s * (numbers[i] - numbers[from]);
   return true;
 }
 
@@ -194,14 +232,20 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   if (!(even.period_s > 0.0)) return std::nullopt;
   even.time_s = time_s;
   const double grain_s = grain_of(time_s);
-  const std::vector<int> ends = ends_of_stretches(time_s, even.period_s, look);
-  std::vector<int> stretch(time_s.size(), -1);
+  std::vector<int> numbers = numbers_told_by_gaps(time_s, even.period_s);
+  const bool told = !numbers.empty();
+  const std::vector<int> ends = told ? ends_of_told(numbers) : ends_of_stretches(time_s, even.period_s, look);
+  if (!told) {
+    numbers.resize(time_s.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
+  std::vector<int> stretch(time_s.size(), -1);  // without a missing row
   int from = 0, laid = 0, blocks = 0, wandering = 0;
   for (const int end : ends) {
     if (end - from >= kLeastStretch) {
-      if (!lay_straight(time_s, from, end, even.period_s, grain_s, even.time_s))
-        lay_line(time_s, from, end, even.period_s, even.time_s);
-      std::fill(stretch.begin() + from, stretch.begin() + end, from);
+      if (!lay_straight(time_s, numbers, from, end, even.period_s, grain_s, even.time_s))
+        lay_line(time_s, numbers, from, end, even.period_s, even.time_s);
+      for (int i = from; i < end; ++i) stretch[i] = i > from && numbers[i] - numbers[i - 1] == 1 ? stretch[i - 1] : i;
       laid += end - from;
       // Where whole blocks stay off the line the readings were not taken at one period: those of an encoder that speaks
       // at each count, for one.
