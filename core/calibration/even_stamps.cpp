@@ -16,6 +16,7 @@ using Series = std::vector<double>;
 constexpr int kLeastRows = 100;    // in all
 constexpr int kLeastStretch = 30;  // rows that a line is laid through
 constexpr int kLook = 20;          // rows on either side of a missing one, or so many that ticks of a clock are
+constexpr int kPause = 20;         // periods
 constexpr double kKnots_s = 5.0;   // so slowly may the sampling's own clock wander
 constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
@@ -51,7 +52,7 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   for (int i = 1; i < n; ++i) {
     // A step shows for some rows around it; it lies where the gap is least like a period.
     int at = i;
-    const bool gap = time_s[i] - time_s[i - 1] > 20.0 * period_s;
+    const bool gap = time_s[i] - time_s[i - 1] > kPause * period_s;
     if (gap) {
       ends.push_back(i);
       continue;
@@ -73,7 +74,7 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
 // The rows' numbers, missing ones counted, where all stamps tremble by so little that each gap tells how many it holds;
 // else nothing. `period_s`, that of many rows and so without packets, is made that of these.
 std::vector<int> numbers_told_by_gaps(const Series& time_s, double& period_s) {
-  constexpr double kTrembles = 0.35, kPause = 20.0, kAlike = 0.3;  // periods
+  constexpr double kTrembles = 0.35, kAlike = 0.3;  // periods
   Series gaps;
   for (std::size_t i = 1; i < time_s.size(); ++i) gaps.push_back(time_s[i] - time_s[i - 1]);
   const double usual_s = quantile(gaps, 0.5);
@@ -81,13 +82,13 @@ std::vector<int> numbers_told_by_gaps(const Series& time_s, double& period_s) {
   std::vector<int> numbers{0};
   double taken_s = 0.0, taken = 0.0;
   for (const double gap_s : gaps) {
-    const double periods = std::max(1.0, std::round(gap_s / usual_s));
+    const double periods = std::clamp(std::round(gap_s / usual_s), 1.0, static_cast<double>(kPause));
     if (periods < kPause) {
       if (std::abs(gap_s - periods * usual_s) > kTrembles * usual_s) return {};
       taken_s += gap_s;
       taken += periods;
     }
-    numbers.push_back(numbers.back() + static_cast<int>(std::min(periods, 1e6)));
+    numbers.push_back(numbers.back() + static_cast<int>(periods));
   }
   if (taken > 0.0) period_s = taken_s / taken;
   return numbers;
@@ -95,7 +96,6 @@ std::vector<int> numbers_told_by_gaps(const Series& time_s, double& period_s) {
 
 // Of rows whose numbers are told only where readings pause: missing ones are counted.
 std::vector<int> ends_of_told(const std::vector<int>& numbers) {
-  constexpr int kPause = 20;
   std::vector<int> ends;
   for (std::size_t i = 1; i < numbers.size(); ++i)
     if (numbers[i] - numbers[i - 1] >= kPause) ends.push_back(static_cast<int>(i));

@@ -188,6 +188,7 @@ DrivenAgain::DrivenAgain(const JointModel& joint, bool counts_may_feign)
     : calibrated_(joint), counts_may_feign_(counts_may_feign) {
   calibrated_.accepted.clear();
   calibrated_.half_counts = {};
+  calibrated_.driven_again.reset();
 }
 
 void DrivenAgain::drive() const {

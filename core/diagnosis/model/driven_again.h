@@ -42,8 +42,7 @@ class DrivenAgain {
   };
   JointModel calibrated_;
   bool counts_may_feign_;
-  mutable std::optional<Drives>
-      drives_;  // made when the first asks: they are large, and where nothing shows nobody does
+  mutable std::optional<Drives> drives_;  // made when the first asks, since they are large
 };
 
 // Widens the test of an entry of the catalogue by what readings feign of it: of what acts all along; what happens once,

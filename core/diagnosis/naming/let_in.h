@@ -14,7 +14,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c);
 
 // What comes nearest is asked once more under the noise that it leaves, if nothing is beyond doubt: what is there
 // counts for more then, and what the noise is as good for counts for less. One moment moves no noise. Nor is asked again
-// what chance would make one of all that is looked for: of 317 such (of 46 in a hundred sets) one became a name, a wrong one.
+// what chance would make one of all that is looked for (core/diagnosis/README.md, section 4).
 void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored);
 
 }  // namespace odolab
