@@ -19,7 +19,8 @@ struct Wrap {
 
 Wrap wrap_of(const std::vector<double>& values) {
   constexpr double kJump = 0.75;  // of the counter's range: more in one reading is no pace
-  constexpr double kPace = 2.0;   // times the fastest step beside the jumps
+  constexpr double kPace = 2.0;   // times the fast steps of which few are faster: another jump is no pace
+  constexpr double kFew = 0.99;
   constexpr std::size_t kFewest = 50;
   std::vector<double> counts;
   for (double v : values)
@@ -28,18 +29,19 @@ Wrap wrap_of(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
   const int bits = static_cast<int>(std::ceil(std::log2(*most - *least + 1.0)));
   const double range = std::ldexp(1.0, bits);
-  double fastest = 1.0, over_the_end = 0.0;
+  std::vector<double> steps;
+  double over_the_end = 0.0;
   int times = 0;
   for (std::size_t i = 1; i < counts.size(); ++i) {
     const double step = counts[i] - counts[i - 1];
     if (std::abs(step) < kJump * range) {
-      fastest = std::max(fastest, std::abs(step));
+      if (step != 0.0) steps.push_back(std::abs(step));
       continue;
     }
     over_the_end = std::max(over_the_end, range - std::abs(step));
     ++times;
   }
-  if (times == 0 || over_the_end > kPace * fastest) return {};
+  if (times == 0 || steps.empty() || over_the_end > kPace * std::max(1.0, quantile(std::move(steps), kFew))) return {};
   return {bits, times};
 }
 

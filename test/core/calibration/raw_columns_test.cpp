@@ -69,5 +69,16 @@ TEST(RawColumns, TakeACounterThatFallsToNothingForNoWrap) {
   EXPECT_FALSE(unknown_wrap(r, DifferentialDrive{}));
 }
 
+// The first of two losses is no pace, by which the second would be within a few readings of 2^13.
+TEST(RawColumns, TakeACounterThatStartsAnewTwiceForNoWrap) {
+  Recording r = counted(15);
+  std::vector<double>& ticks = r.channels.front().values;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const double on = 10.0 * static_cast<double>(i);
+    ticks[i] = i < 400 ? on : i < 740 ? on - 4000.0 : on - 11400.0;
+  }
+  EXPECT_FALSE(unknown_wrap(r, DifferentialDrive{}));
+}
+
 }  // namespace
 }  // namespace odolab
