@@ -212,8 +212,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     };
     const OfRuns by_reading = with([&](const std::vector<UnitSample>& of_run) {
       std::vector<std::vector<double>> values(2 * kWavesOfReading);
-      for (const UnitSample& s : of_run) {
-        const std::vector<double> at = waves_of_reading(s.joints[j], range);
+      for (const double reading : mean_readings(of_run, j)) {
+        const std::vector<double> at = waves_of_reading(reading, range);
         for (std::size_t k = 0; k < at.size(); ++k) values[k].push_back(at[k]);
       }
       return values;

@@ -119,10 +119,11 @@ double squares(const VectorXd& v) {
 Problem problem_of(const Laid& run, std::size_t joint, double step, const ReadingRange& range,
                    const Eigen::Vector3d& deviations) {
   Problem p;
-  const std::vector<double> ways = ways_of_reading(run.samples(), joint, step);
+  const std::vector<double> ways = ways_of_reading(run.samples(), joint, step),
+                            readings = mean_readings(run.samples(), joint);
   p.shapes.resize(static_cast<Eigen::Index>(ways.size()), kShapes);
   for (std::size_t i = 0; i < ways.size(); ++i)
-    p.shapes.row(static_cast<Eigen::Index>(i)) = shapes_at(run.samples()[i].joints[joint], ways[i], range);
+    p.shapes.row(static_cast<Eigen::Index>(i)) = shapes_at(readings[i], ways[i], range);
   p.left = run.residuals(joint, {});
   p.by.resize(p.left.size(), kShapes);
   constexpr double kStep = 1e-4;

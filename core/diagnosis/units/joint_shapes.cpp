@@ -5,8 +5,22 @@
 
 namespace odolab {
 
+std::vector<double> mean_readings(const std::vector<UnitSample>& samples, std::size_t joint) {
+  constexpr double kAside_s = 0.25;
+  std::vector<double> means;
+  double sum = 0.0;
+  std::size_t first = 0, end = 0;
+  for (const UnitSample& s : samples) {
+    for (; end < samples.size() && samples[end].time_s <= s.time_s + kAside_s; ++end) sum += samples[end].joints[joint];
+    for (; samples[first].time_s < s.time_s - kAside_s; ++first) sum -= samples[first].joints[joint];
+    means.push_back(sum / static_cast<double>(end - first));
+  }
+  return means;
+}
+
 void ReadingRange::take_in(const std::vector<UnitSample>& samples, std::size_t joint) {
-  for (const UnitSample& s : samples) low = std::min(low, s.joints[joint]), high = std::max(high, s.joints[joint]);
+  for (const double reading : mean_readings(samples, joint))
+    low = std::min(low, reading), high = std::max(high, reading);
 }
 
 std::vector<double> waves_of_reading(double reading, const ReadingRange& range) {

@@ -10,7 +10,11 @@ namespace odolab {
 // A turn holds so many waves, the range of a reading that goes less far so many half waves twice.
 constexpr int kWavesOfReading = 4;
 
-// The readings of a joint over all recordings.
+// A joint's readings, each the mean of those within a quarter of a second: by a single reading, which errs at random
+// and by its rounding, a joint that hardly moves would err by what it reads.
+std::vector<double> mean_readings(const std::vector<UnitSample>& samples, std::size_t joint);
+
+// The mean readings of a joint over all recordings.
 struct ReadingRange {
   double low = 1e300, high = -1e300;
   bool is_length = false;

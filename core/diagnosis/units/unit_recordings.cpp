@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/diagnosis/units/drawn_joints.h"
+
 namespace odolab {
 
 namespace {
@@ -76,6 +78,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
       rows.push_back({t.time_s, kNone, kNone, t.position.x_m, t.position.y_m, t.heading_rad.value_or(kNone)});
     return recording_by(std::move(rows), recording);
   }
+  const std::vector<UnitSample> joined = with_joints_drawn(samples, joint_steps(vehicle));
   const double offset_s = vehicle.truth.time_offset_s + clock_s;
   const bool is_faster = tracked.size() > samples.size();  // then two of its samples would share a joint's reading
   const bool at_truth = static_cast<double>(tracked.size()) < kSharedNone * static_cast<double>(samples.size());
@@ -88,13 +91,13 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
       const std::size_t near = nearest(samples, at_s);
       if (is_faster && near == last_near) continue;
       last_near = near;
-      rows.push_back(pose_row(at_s, t.pose * tracked_T_axle(vehicle, unit, joints_at(samples, at_s))));
+      rows.push_back(pose_row(at_s, t.pose * tracked_T_axle(vehicle, unit, joints_at(joined, at_s))));
     }
   } else {
     // Not across gaps: a pose between two truth samples is one of them, nearly.
     const double period_s = (tracked.back().time_s - tracked.front().time_s) / static_cast<double>(tracked.size() - 1);
     std::size_t k = 0;
-    for (const UnitSample& s : samples) {
+    for (const UnitSample& s : joined) {
       const double at_s = s.time_s + offset_s;
       while (k + 1 < tracked.size() && tracked[k + 1].time_s < at_s) ++k;
       if (k + 1 >= tracked.size() || at_s < tracked[k].time_s) continue;
