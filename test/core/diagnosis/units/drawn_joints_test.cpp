@@ -46,7 +46,9 @@ TEST(DrawnJoints, AreKnownFiveTimesBetterThanTheirSteps) {
 }
 
 TEST(DrawnJoints, AreNeverFurtherFromWhatWasReadThanHalfAStep) {
-  const Swinging read = swinging(kStep_rad);
+  Swinging read = swinging(kStep_rad);
+  for (UnitSample& s : read.samples)  // from one side to the other at once, where it stays for metres
+    s.joints[0] = std::copysign(10.0 * kStep_rad, s.joints[0]);
   const std::vector<UnitSample> drawn = with_joints_drawn(read.samples, {kStep_rad});
   for (std::size_t i = 0; i < drawn.size(); ++i)
     ASSERT_LE(std::abs(drawn[i].joints[0] - read.samples[i].joints[0]), 0.5 * kStep_rad + 1e-12) << i;
