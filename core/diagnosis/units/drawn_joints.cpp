@@ -15,6 +15,26 @@ struct Edge {
   double slope = 0.0;  // by the way
 };
 
+// The step of what a joint reads, as its changes show it: whole multiples of it, nearly all. 0 where they are not.
+double step_of(const std::vector<UnitSample>& samples, std::size_t joint) {
+  constexpr double kNear = 0.15, kNearlyAll = 0.95;
+  std::vector<double> changes;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    if (const double by = std::abs(samples[i].joints[joint] - samples[i - 1].joints[joint]); by > 0.0)
+      changes.push_back(by);
+  if (changes.empty()) return 0.0;
+  std::sort(changes.begin(), changes.end());
+  double step = changes.front(), products = 0.0, squares = 0.0, near = 0.0;
+  for (const double by : changes) {  // the smallest first: what is printed is rounded once more
+    const double n = std::round(by / step);
+    near += std::abs(by / step - n) < kNear;
+    products += n * by;
+    squares += n * n;
+    step = products / squares;
+  }
+  return near < kNearlyAll * static_cast<double>(changes.size()) ? 0.0 : step;
+}
+
 std::vector<double> ways_of(const std::vector<UnitSample>& samples) {
   std::vector<double> way(samples.size(), 0.0);
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -95,10 +115,11 @@ void draw(std::vector<UnitSample>& samples, const std::vector<double>& way, std:
 
 }  // namespace
 
-std::vector<UnitSample> with_joints_drawn(std::vector<UnitSample> samples, const std::vector<double>& steps) {
+std::vector<UnitSample> with_joints_drawn(std::vector<UnitSample> samples) {
+  if (samples.empty()) return samples;
   const std::vector<double> way = ways_of(samples);
-  for (std::size_t joint = 0; joint < steps.size(); ++joint)
-    if (steps[joint] > 0.0) draw(samples, way, joint, steps[joint]);
+  for (std::size_t joint = 0; joint < samples.front().joints.size(); ++joint)
+    if (const double step = step_of(samples, joint); step > 0.0) draw(samples, way, joint, step);
   return samples;
 }
 

@@ -78,7 +78,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
       rows.push_back({t.time_s, kNone, kNone, t.position.x_m, t.position.y_m, t.heading_rad.value_or(kNone)});
     return recording_by(std::move(rows), recording);
   }
-  const std::vector<UnitSample> joined = with_joints_drawn(samples, joint_steps(vehicle));
+  const std::vector<UnitSample> joined = with_joints_drawn(samples);
   const double offset_s = vehicle.truth.time_offset_s + clock_s;
   const bool is_faster = tracked.size() > samples.size();  // then two of its samples would share a joint's reading
   const bool at_truth = static_cast<double>(tracked.size()) < kSharedNone * static_cast<double>(samples.size());
