@@ -19,8 +19,8 @@ struct Wrap {
 
 Wrap wrap_of(const std::vector<double>& values) {
   constexpr double kJump = 0.75;  // of the counter's range: more in one reading is no pace
-  constexpr double kPace = 2.0;   // times the fast steps of which few are faster: another jump is no pace
-  constexpr double kFew = 0.99;
+  constexpr double kPace = 2.0;   // times the fast steps beside the jumps
+  constexpr double kFast = 0.99;  // of all steps are slower: the fastest may be another loss, which is no pace
   constexpr std::size_t kFewest = 50;
   std::vector<double> counts;
   for (double v : values)
@@ -41,7 +41,7 @@ Wrap wrap_of(const std::vector<double>& values) {
     over_the_end = std::max(over_the_end, range - std::abs(step));
     ++times;
   }
-  if (times == 0 || steps.empty() || over_the_end > kPace * std::max(1.0, quantile(std::move(steps), kFew))) return {};
+  if (times == 0 || steps.empty() || over_the_end > kPace * std::max(1.0, quantile(std::move(steps), kFast))) return {};
   return {bits, times};
 }
 

@@ -12,6 +12,7 @@ namespace {
 struct Edge {
   std::size_t behind;  // the first sample that reads otherwise
   double way, at;
+  double by;           // so much more it reads behind it
   double slope = 0.0;  // by the way
 };
 
@@ -52,23 +53,19 @@ std::vector<Edge> edges_of(const std::vector<UnitSample>& samples, const std::ve
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double a = samples[i - 1].joints[joint], b = samples[i].joints[joint];
     if (std::abs(b - a) > 0.5 * step && way[i] > way[i - 1])
-      edges.push_back({i, 0.5 * (way[i - 1] + way[i]), 0.5 * (a + b)});
+      edges.push_back({i, 0.5 * (way[i - 1] + way[i]), 0.5 * (a + b), b - a});
   }
   return edges;
 }
 
 // Whether it comes back within two readings more often than one that moves smoothly would: what it reads errs at random
 // as well, and no edge tells where it is.
-bool flickers(const std::vector<Edge>& edges, const std::vector<UnitSample>& samples, std::size_t joint) {
+bool flickers(const std::vector<Edge>& edges) {
   constexpr std::size_t kSoon = 2;
   constexpr double kOften = 0.1;  // of all edges
   double back = 0.0;
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    const auto reads = [&](std::size_t i) { return samples[i].joints[joint]; };
-    const double on = reads(edges[e - 1].behind) - reads(edges[e - 1].behind - 1),
-                 then = reads(edges[e].behind) - reads(edges[e].behind - 1);
-    back += edges[e].behind - edges[e - 1].behind <= kSoon && on * then < 0.0;
-  }
+  for (std::size_t e = 1; e < edges.size(); ++e)
+    back += edges[e].behind - edges[e - 1].behind <= kSoon && edges[e - 1].by * edges[e].by < 0.0;
   return back > kOften * static_cast<double>(edges.size());
 }
 
@@ -99,7 +96,7 @@ double cubic_at(double u, const Edge& a, const Edge& b, double step) {
 
 void draw(std::vector<UnitSample>& samples, const std::vector<double>& way, std::size_t joint, double step) {
   std::vector<Edge> edges = edges_of(samples, way, joint, step);
-  if (edges.size() < 3 || flickers(edges, samples, joint)) return;
+  if (edges.size() < 3 || flickers(edges)) return;
   give_slopes(edges, step);
   const double half = 0.5 * step;
   const auto put = [&](std::size_t i, double drawn) {
