@@ -24,6 +24,7 @@ constexpr double kMostLeftOfError = 0.3;
 constexpr double kFormOfAName = 0.5;
 constexpr double kTwoExplain = 0.85;  // share of the evidence that the two strongest of three names must have
 constexpr std::size_t kMostTried = 4;
+constexpr double kEvenly = 0.05;  // turns of a wheel: as often a turn
 
 // Lets a group of generic terms in; twice what the log-likelihood gains by it.
 double let_in(JointModel& joint, const GenericTest& group) {
@@ -291,6 +292,27 @@ Unnamed unnamed_sway(const JointModel& joint, GenericTest group) {
   return u;
 }
 
+// Of the way, where values are sines and cosines.
+double amplitude_of(const std::vector<double>& value) {
+  double square = 0.0;
+  for (double v : value) square += 2.0 * v * v / static_cast<double>(value.size());
+  return std::sqrt(square);
+}
+
+// A wheel that is found out of round, and is uneven nearly as much twice or three times a turn, is not out of round but
+// has a flat or a dent, which no name describes. Gears before it come evenly often a turn only by chance.
+bool is_shape_of_a_named_wheel(const JointModel& joint, const GenericTest& g) {
+  constexpr double kNearlyAsMuch = 0.5;
+  const double times = std::round(g.times_a_turn);
+  if (times < 2.0 || std::abs(g.times_a_turn - times) > kEvenly) return false;
+  return std::any_of(joint.accepted.begin(), joint.accepted.end(), [&](const AcceptedEffect& a) {
+    if (a.effect->name != "wheel_eccentricity") return false;
+    const char* wheel = a.effect->component == component_of(Wheel::left) ? "left wheel" : "right wheel";
+    return g.channel.find(wheel) != std::string::npos &&
+           amplitude_of(g.test.value) > kNearlyAsMuch * amplitude_of(a.value);
+  });
+}
+
 // Takes out what comes and goes too soon to carry the vehicle anywhere, and what goes with a wheel's turns and makes
 // dead reckoning no better.
 std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::vector<GenericTest>& generic,
@@ -303,9 +325,12 @@ std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::ve
     let_in(with, g);
     if (is_material(1.0, joint.truth_noise_lasts, joint.gathered_error(), with.gathered_error(), g.test.value.size()))
       return false;
-    double square = 0.0;
-    for (double v : g.test.value) square += 2.0 * v * v / static_cast<double>(g.test.value.size());
-    ripples.push_back({g.channel, g.times_a_turn, std::sqrt(square)});
+    if (is_shape_of_a_named_wheel(joint, g)) return false;
+    // One of a group of lobes and one of a wave are the same.
+    if (std::none_of(ripples.begin(), ripples.end(), [&](const Adequacy::Ripple& r) {
+          return r.channel == g.channel && std::abs(r.times_a_turn - g.times_a_turn) < kEvenly;
+        }))
+      ripples.push_back({g.channel, g.times_a_turn, amplitude_of(g.test.value)});
     return true;
   });
   return ripples;

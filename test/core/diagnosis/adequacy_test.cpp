@@ -77,6 +77,33 @@ TEST(Adequacy, CallsAGearUnknownWhereNoNameStands) {
             "way of the left wheel per metre [1] that depends on its angle, 2.5 times a turn");
 }
 
+// Tags 25 times a second, by which no metre is driven better with the lobes than without.
+TEST(Adequacy, CallsAFlatOfAWheelUnknownThatResemblesOneOutOfRound) {
+  Random random(67);
+  test::GeneratorSettings g = test::under_motion_capture({0.08, 0.08, 0.45}, 0.0008, 0.04);
+  g.duration_s = 60.0;
+  g.truth_position_noise_m = 0.004;
+  g.truth_heading_noise_rad = 0.009;
+  const auto flat = [](int run) {
+    return [run](test::InjectedStep& s) {
+      const double from_flat_rad = std::remainder(s.right_rad - run, 2.0 * kPi);
+      s.right_m *= 1.0 - 0.15 * std::exp(-0.5 * std::pow(from_flat_rad / 0.25, 2));
+    };
+  };
+  const Result<Diagnosis> d =
+      diagnose(test::three_runs(
+                   g, random, [&](int) { return test::varied_driving(random, g.duration_s); }, flat),
+               {}, Vehicle{});
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  const Finding& unknown = d->findings.front();
+  EXPECT_EQ(unknown.where.regime.find("way of the right wheel per metre [1] that depends on its angle"), 0u)
+      << unknown.where.regime;
+  ASSERT_FALSE(unknown.alternatives.empty());
+  EXPECT_EQ(unknown.alternatives.front().effect, "wheel_eccentricity");
+  EXPECT_EQ(unknown.alternatives.front().component, "right_wheel");
+}
+
 // A belt that is thick at one place, and goes round once in 2.7 turns of its wheel.
 TEST(Adequacy, CallsABeltUnknownThatGoesRoundMoreSlowlyThanItsWheel) {
   Random random(66);
