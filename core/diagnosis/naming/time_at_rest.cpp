@@ -45,16 +45,15 @@ UncertainTime time_with_rests(const JointModel& joint, int accepted, int entry, 
     double middle_s, lasts_s, odds;
   };
   std::vector<Slice> slices;
+  const bool begins_in_one = a.effect->of_one_recording || a.effect->and_later_recordings;
   // What comes in every recording counts from where each begins.
   const auto began_s = [&](const DriveView& view) {
-    return a.effect->of_one_recording
-               ? 0.0
-               : effects::put_on_s(0.0, view.steps.front().time_s - view.steps.front().since_start_s);
+    return begins_in_one ? 0.0 : effects::put_on_s(0.0, view.steps.front().time_s - view.steps.front().since_start_s);
   };
   std::vector<const DriveView*> views;
   double first_s = 1e300, last_s = -1e300;
   for (const DriveView& view : joint.views()) {
-    if (view.steps.empty() || (a.effect->of_one_recording && view.number != static_cast<int>(a.shape[0]))) continue;
+    if (view.steps.empty() || (begins_in_one && view.number != static_cast<int>(a.shape[0]))) continue;
     views.push_back(&view);
     first_s = std::min(first_s, view.steps.front().time_s - began_s(view));
     last_s = std::max(last_s, view.steps.back().time_s - began_s(view));

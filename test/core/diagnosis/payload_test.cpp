@@ -96,5 +96,31 @@ TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegi
   }
 }
 
+// Put on in the second run and left there.
+TEST(PayloadRadiusChange, LastsFromTheMomentInOneRunThroughThoseAfterItWhereverTheirStampsBegin) {
+  constexpr double kLoaded_s = 20.0, kEpoch_s = 1.7e9, kApart_s = 600.0;
+  Random random(54);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.02);
+  g.duration_s = 45.0;
+  const auto driving = [&](int) { return varied_driving(random, g.duration_s); };
+  const auto loaded = [](int run) {
+    return [run](InjectedStep& s) {
+      if (run == 2 || (run == 1 && s.time_s > kLoaded_s)) s.left_m *= 0.994, s.right_m *= 0.997;
+    };
+  };
+  std::vector<Recording> recordings = three_runs(g, random, driving, loaded);
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    for (double& t : recordings[r].time_s) t += kEpoch_s + kApart_s * static_cast<double>(r);
+  const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "payload_radius_change");
+  EXPECT_EQ(d.findings[0].where.recording, recordings[1].name);
+  EXPECT_TRUE(d.findings[0].where.and_later_recordings);
+  const std::map<std::string, double> truth = {
+      {"left", -0.006}, {"right", -0.003}, {"at_s", kEpoch_s + kApart_s + kLoaded_s}};
+  for (const FoundParameter& p : d.findings[0].parameters)
+    EXPECT_NEAR(p.value, truth.at(p.name), 4.0 * p.stderr_value) << p.name;
+}
+
 }  // namespace
 }  // namespace odolab::test
