@@ -13,6 +13,7 @@
 #include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_residuals.h"
+#include "core/diagnosis/units/lone_bias.h"
 #include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
 #include "core/diagnosis/units/merged_asked.h"
@@ -27,9 +28,9 @@ namespace odolab {
 
 namespace {
 
-// A biased encoder must be so in runs that it was not fitted on.
-void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const GeometryFit& geometry,
-                  const Vehicle& nominal) {
+// A biased encoder must be so in runs that it was not fitted on. `right`: encoders that are known to be.
+void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const GeometryFit& geometry, const Vehicle& nominal,
+                  const std::vector<std::string>& right) {
   bool dropped = false;
   for (const JointEstimate& e : geometry.joints) {
     const auto f = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& g) {
@@ -37,7 +38,7 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
              g.component == e.parameter.component;
     });
     if (f == d.findings.end() || runs.size() < 2 || e.is_from_inside) continue;
-    const double ratio = left_out_ratio(runs, nominal, e.parameter.name);
+    const double ratio = left_out_ratio(runs, nominal, e.parameter.name, right);
     if (ratio < 1.0) {
       const std::string text =
           formatted("; what the parts contradict in runs left out falls to %.0f %%", 100.0 * ratio);
@@ -267,11 +268,26 @@ class BesideTruth {
     return std::nullopt;
   }
 
-  Diagnosis put_together() const {
+  // One encoder that is off is simpler than several, of which none may be known well.
+  std::vector<std::string> hold_right_encoders() {
+    const std::optional<LoneBias> lone = lone_bias(geometry_);
+    if (!lone || std::abs(lone->off) < kSigmasOfBias * lone->stderr_value) return {};
+    const auto put = [&](JointEstimate& e, double value) { e.parameter.of(geometry_.vehicle) = e.value = value; };
+    JointEstimate& off = geometry_.joints[lone->joint];
+    put(off, off.nominal + lone->off);
+    off.stderr_value = lone->stderr_value;
+    for (JointEstimate& other : geometry_.joints)
+      if (std::find(lone->others.begin(), lone->others.end(), other.parameter.name) != lone->others.end())
+        put(other, other.nominal);
+    return lone->others;
+  }
+
+  Diagnosis put_together() {
+    const std::vector<std::string> right = hold_right_encoders();
     Diagnosis d = merged(diagnoses_, geometry_, nominal_, train_.recordings);
     Vehicle as_mounted = nominal_;
     if (is_towed_) as_mounted.truth.axle_T_tracked.heading_rad = geometry_.vehicle.truth.axle_T_tracked.heading_rad;
-    prove_biases(d, train_.runs, geometry_, as_mounted);
+    prove_biases(d, train_.runs, geometry_, as_mounted, right);
     if (told_) put_names_into(*told_, d);
     if (erring_ && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
       add_erring_joint(*erring_, nominal_, d);

@@ -70,6 +70,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
       e.is_from_inside = by_inside > by_truth;
       changed = true;
     }
+  if (changed) geometry.covariance.resize(0, 0);  // which was that of the truth alone
   return changed;
 }
 

@@ -429,16 +429,19 @@ void set_most_pivots_right(GeometryFit& fit) {
     if (e.determined) e.value = e.parameter.of(fit.vehicle);
 }
 
-double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint) {
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
+                      const std::vector<std::string>& held) {
   if (runs.size() < 2) return 1.0;
-  const GeometryFit all = fitted_geometry(runs, nominal);
+  const GeometryFit all = fitted_geometry(runs, nominal, held);
+  std::vector<std::string> held_without = held;
+  held_without.push_back(joint);
   double with = 0.0, without = 0.0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     std::vector<JoinedRun> others = runs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
     std::vector<Vector3d> sigma;
-    with += squares_of(runs[r], fitted_geometry(others, nominal), all.clock_s[r], sigma);
-    without += squares_of(runs[r], fitted_geometry(others, nominal, {joint}), all.clock_s[r], sigma);
+    with += squares_of(runs[r], fitted_geometry(others, nominal, held), all.clock_s[r], sigma);
+    without += squares_of(runs[r], fitted_geometry(others, nominal, held_without), all.clock_s[r], sigma);
   }
   return without > 0.0 ? with / without : 1.0;
 }

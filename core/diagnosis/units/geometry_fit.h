@@ -57,7 +57,8 @@ void set_most_pivots_right(GeometryFit& fit);
 
 // How much a joint's offset takes off what the units contradict each other in runs that it was not fitted on: the sum
 // of squares with it over that without, each run by a fit to the others. Below 1: the offset is there in all of them. 1
-// where there is one run alone.
-double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint);
+// where there is one run alone. `held`: joints that keep their nominal value in both.
+double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal, const std::string& joint,
+                      const std::vector<std::string>& held = {});
 
 }  // namespace odolab
