@@ -27,11 +27,12 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
-  const double least_m = least_mounting_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
+  const double wheelbase_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
+  const double least_m = least_mounting_m(wheelbase_m);
   const double least[3] = {least_m, least_m, 0.0005};
   Finding mounting;
   double gain = 0.0;
-  bool material = false, moved = false;
+  bool moved = false, shifted_too = false, turned_too = false;
   for (int k = 0; k < 3; ++k) {
     const column::Name& name = column::names[static_cast<std::size_t>(column::mounting_x + k)];
     const ParameterEstimate* p = determined(name.key);
@@ -40,11 +41,13 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     const double z = by[k] / std::max(p->stderr_value, se);
     mounting.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
     if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
-      material = true, gain += 0.5 * z * z;
-      moved = moved || k < 2;
+      gain += 0.5 * z * z;
+      moved = true;
+      shifted_too = shifted_too || (k < 2 && std::abs(by[k]) > sits_right_m(wheelbase_m));
+      turned_too = turned_too || k == 2;
     }
   }
-  if (!material) return;
+  if (!moved) return;
   mounting.effect = "truth_mounting_offset";
   mounting.component = "truth";
   mounting.log_likelihood_gain = gain;
@@ -53,7 +56,8 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
   // besides is the simpler cause of both.
   const double turned = now.heading_rad - then.heading_rad, shifted = std::hypot(by[0], by[1]);
-  if (moved || shifted >= 0.01 || std::abs(turned) >= 0.1 || mounting.parameters.back().name != "heading_rad") {
+  if (shifted_too || !turned_too || shifted >= 0.01 || std::abs(turned) >= 0.1 ||
+      mounting.parameters.back().name != "heading_rad") {
     findings.push_back(mounting);
     return;
   }
@@ -61,7 +65,8 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   constexpr double kMostOfAnAxle_rad = 0.02;
   const bool sits_where_it_should =
       mounting.parameters.size() == 3 &&
-      shifted + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) < least_m;
+      shifted + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) <
+          sits_right_m(wheelbase_m);
   const char* told_apart_by = "a look at how the markers sit: the motion is the same";
   const FoundParameter& heading = mounting.parameters.back();
   const double z = turned / heading.stderr_value;

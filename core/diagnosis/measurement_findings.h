@@ -13,9 +13,11 @@ namespace odolab {
 
 // A mounting, a clock or a biased joint is named above so many standard errors, each with a least size of its own.
 constexpr double kSigmasOfBias = 6.0;
-constexpr double kLeastClock_s = 0.004;  // of an offset that is said
+constexpr double kLeastClock_s = 0.002;  // of an offset that is said
 // By how much a tracked point must be elsewhere to be said: less on a small robot.
-inline double least_mounting_m(double wheelbase_m) { return std::min(0.002, 0.02 * wheelbase_m); }
+inline double least_mounting_m(double wheelbase_m) { return std::min(0.0005, 0.005 * wheelbase_m); }
+// And so far from the file it still sits where a hand would put it.
+inline double sits_right_m(double wheelbase_m) { return std::min(0.002, 0.02 * wheelbase_m); }
 
 // Where the mounting is not where the vehicle's file says. A small turn of it alone is what wheels do that are not
 // square to the axle; then that is the name, with the mounting beside it.

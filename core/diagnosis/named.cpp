@@ -122,10 +122,10 @@ bool name_what_is_hinted_at(JointModel& joint, Selected& selected, const Predict
   return true;
 }
 
-// Whether the tracked point sits where the vehicle's file has it, as far as would be said.
+// Whether the tracked point sits where the vehicle's file has it, as far as a hand puts it there.
 bool sits_as_given(const JointModel& joint, const Vehicle& nominal) {
   const Pose &now = joint.model.truth.axle_T_tracked, &given = nominal.truth.axle_T_tracked;
-  const double least_m = least_mounting_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
+  const double least_m = sits_right_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
   const auto is_there = [&](int column, double by_m) {
     return std::abs(by_m) < std::max(least_m, kSigmasOfBias * joint.stderr_of_nuisance(column));
   };

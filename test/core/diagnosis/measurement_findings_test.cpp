@@ -1,0 +1,46 @@
+#include "core/diagnosis/measurement_findings.h"
+
+#include <gtest/gtest.h>
+
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+std::vector<Recording> three_runs_of(const TruthMounting& truth) {
+  Random random(71);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
+  g.truth = truth;
+  g.duration_s = 45.0;
+  return three_runs(
+      g, random, [&](int) { return varied_driving(random, g.duration_s); },
+      [](int) -> std::function<void(InjectedStep&)> { return {}; });
+}
+
+TEST(MeasurementFindings, SayAMarkerThatSitsAMillimetreElsewhere) {
+  TruthMounting truth;
+  truth.axle_T_tracked = {0.0008, -0.0006, 0.0};
+  const Diagnosis d = diagnose(three_runs_of(truth), {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "truth_mounting_offset");
+  EXPECT_TRUE(d.findings[0].alternatives.empty());  // no axle shifts a marker
+  const FoundParameter &x = d.findings[0].parameters[0], &y = d.findings[0].parameters[1];
+  EXPECT_NEAR(x.value, 0.0008, 4.0 * x.stderr_value);
+  EXPECT_NEAR(y.value, -0.0006, 4.0 * y.stderr_value);
+}
+
+TEST(MeasurementFindings, SayATruthThatIsThreeMillisecondsLate) {
+  TruthMounting truth;
+  truth.time_offset_s = 0.003;
+  const Diagnosis d = diagnose(three_runs_of(truth), {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings[0].effect, "truth_time_offset");
+  EXPECT_NEAR(d.findings[0].parameters[0].value, 0.003, 4.0 * d.findings[0].parameters[0].stderr_value);
+}
+
+TEST(MeasurementFindings, SayNothingOfWhatIsWhereTheFileHasIt) {
+  EXPECT_EQ(diagnose(three_runs_of({}), {}, Vehicle{}).value().verdict, Verdict::nothing_missing);
+}
+
+}  // namespace
+}  // namespace odolab::test
