@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/base/quantile.h"
-#include "core/diagnosis/measurement_findings.h"
 #include "core/diagnosis/units/axle_put_off.h"
 #include "core/diagnosis/units/joint_shapes.h"
 #include "core/vehicle/key_words.h"
@@ -187,7 +186,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
   // An encoder that stands as it stood before, in each bend and after each turn, is rounded as before: by up to 0.29 of
   // a step.
   constexpr double kSteps = 0.5;
-  constexpr double kLeastRange = 4.0;  // steps
+  constexpr double kLeastRange = 4.0;    // steps
+  constexpr double kReadLate_s = 0.004;  // by so much and more
   // A length that goes to and fro by what the wheels slip errs with it, where an error of its encoder is asked for.
   constexpr double kBeyondSlip = 5.0;
   const std::vector<double> steps = joint_steps(vehicle);
@@ -234,7 +234,7 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     // By so many seconds it is read late; where the truth's clock is fitted a little off, so is every joint.
     errors->back().is_more_than_rounding =
         [rounding = errors->back().is_more_than_rounding](const std::vector<double>& value) {
-          return std::abs(value[0]) > kLeastClock_s && rounding(value);
+          return std::abs(value[0]) > kReadLate_s && rounding(value);
         };
     add("lateral acceleration [m/s2]", [&](const auto& of_run) { return pulled_aside(of_run, unit, own.drive); });
   }
