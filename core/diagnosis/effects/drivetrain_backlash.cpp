@@ -1,6 +1,7 @@
 // Play between encoder and wheel: after a reversal the encoder turns through the gap before the wheel follows.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
 
@@ -22,8 +23,10 @@ constexpr struct {
     {"crossed too where it brakes harder than 0.25 m/s2", 0.25},
     {"crossed too where it brakes harder than 0.35 m/s2", 0.35},
     {"crossed too where it brakes harder than 0.5 m/s2", 0.5},
+    {"crossed over a turn of 0.04 rad, as of a drive that yields", kAtOnce},
 };
-constexpr std::size_t kMiddleAtTheStart = 1;
+constexpr std::size_t kMiddleAtTheStart = 1, kYields = std::size(kForms) - 1;
+constexpr double kYieldsOver_rad = 0.04;  // so a swing back at a stop by less crosses it in part
 
 // Which way a wheel turns first.
 double first_direction(const DriveView& view, bool left) {
@@ -55,7 +58,7 @@ std::vector<double> evenly_read(const DriveView& view, bool left) {
 // the wheel does by itself: then the wheel drives on until the other flank holds it.
 std::vector<double> lost(const DriveView& view, bool left, double gap_rad, std::size_t form) {
   std::vector<double> share(view.steps.size());
-  const double half = 0.5 * std::max(gap_rad, 1e-4);
+  const double half = 0.5 * std::max(gap_rad, form == kYields ? kYieldsOver_rad : 1e-4);
   const double radius_m = left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
   const double drag_radps2 = kForms[form].drag_mps2 / radius_m;
   // Of the encoder's side within the play, -half to half: where it stood at the start shows only in the first
@@ -140,9 +143,7 @@ Effect of_wheel(Wheel wheel) {
     if (wheel != Wheel::left) add(Wheel::right);
     return std::vector<Motions>{m};
   };
-  e.scan = [](const std::vector<DriveView>&) {
-    return std::vector<std::vector<double>>{{0.01}, {0.06}};
-  };
+  e.scan = [](const std::vector<DriveView>&) { return std::vector<std::vector<double>>{{0.01}, {0.06}}; };
   return e;
 }
 }  // namespace
