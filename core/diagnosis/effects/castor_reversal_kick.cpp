@@ -37,6 +37,43 @@ std::vector<Reversal> reversals(const DriveView& view) {
   return found;
 }
 
+// The steps from which on it goes the other way by its speed: a stop that swings back faster than so much is one, too,
+// however short.
+std::vector<std::size_t> reversals_by_speed(const DriveView& view) {
+  constexpr double kHalfWindow_s = 0.05, kLeast_mps = 0.01;
+  std::vector<std::size_t> found;
+  double way_m = 0.0, lasted_s = 0.0;
+  std::size_t first = 0, end = 0;
+  int direction = 0;
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    for (; end < view.steps.size() && view.steps[end].time_s <= view.steps[i].time_s + kHalfWindow_s; ++end)
+      way_m += view.steps[end].forward_m(), lasted_s += view.steps[end].duration_s;
+    for (; view.steps[first].time_s < view.steps[i].time_s - kHalfWindow_s; ++first)
+      way_m -= view.steps[first].forward_m(), lasted_s -= view.steps[first].duration_s;
+    const double speed_mps = lasted_s > 0.0 ? way_m / lasted_s : 0.0;
+    const int now = speed_mps > kLeast_mps ? 1 : speed_mps < -kLeast_mps ? -1 : 0;
+    if (now == 0 || now == direction) continue;
+    if (direction != 0) found.push_back(i);
+    direction = now;
+  }
+  return found;
+}
+
+// A kick that lasts so long at each of them, always to the same side: by direction those of a swing would cancel.
+Motions short_kicks(const DriveView& view) {
+  constexpr double kLasts_s = 0.15;
+  Motions m(view.steps.size());
+  for (const std::size_t reversed : reversals_by_speed(view)) {
+    double since_s = 0.0;
+    for (std::size_t i = reversed; i < view.steps.size() && since_s < kLasts_s; ++i) {
+      const double lasts_s = std::min(view.steps[i].duration_s, kLasts_s - since_s);
+      m[i].turn_rad += lasts_s / kLasts_s;
+      since_s += view.steps[i].duration_s;
+    }
+  }
+  return m;
+}
+
 // The way that counts step by step from a reversal on: until it is sure only what leads further back than before, since
 // a turn on the spot trembles.
 class WayBack {
@@ -112,7 +149,8 @@ std::vector<Effect> castor_reversal_kick() {
              "always to the same side, as a castor of 5 cm trail swings",
              "to one side forwards and the other in reverse, as a castor of 5 cm trail swings",
              "always to the same side, as a castor of 3 cm trail swings",
-             "to one side forwards and the other in reverse, as a castor of 3 cm trail swings"};
+             "to one side forwards and the other in reverse, as a castor of 3 cm trail swings",
+             "always to the same side, within 0.15 s, also of a stop that swings back"};
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.tests_of_a_shape = 0.6;  // kicks are much alike, however long they last
@@ -133,6 +171,7 @@ std::vector<Effect> castor_reversal_kick() {
     constexpr int kEven = static_cast<int>(std::size(kOver_m));
     const int form = static_cast<int>(shape.back()), which = form / 2;
     const bool to_one_side = form % 2 == 0;
+    if (which == kEven + static_cast<int>(std::size(kTrail_m))) return std::vector<Motions>{short_kicks(view)};
     return std::vector<Motions>{which < kEven ? even_kicks(view, to_one_side, kOver_m[which])
                                               : kicks_of_a_castor(view, to_one_side, kTrail_m[which - kEven])};
   };

@@ -74,5 +74,45 @@ TEST(CastorReversalKick, IsMeasuredThoughItTurnsTheVehicleByLessThanACountOfItsW
   expect_measured(diagnose(forth_and_back(random, drive, kick_rad), {}, nominal).value(), kick_rad);
 }
 
+// A castor whose fork has side play flops over as soon as it is pushed the other way: also where a stop swings back by
+// two millimetres, which leads no castor round.
+TEST(CastorReversalKick, IsMeasuredWhereStopsThatSwingBackKickTheHeadingToo) {
+  constexpr double kKick_rad = 0.004, kLeg_s = 3.0, kStop_s = 0.8, kSlow_mps = 0.01, kLasts_s = 0.12;
+  Random random(62);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
+  g.drive.encoder_counts_per_revolution = 16384.0;
+  g.duration_s = 57.0;
+  const auto legs = [](int run) -> SpeedProfile {
+    return [run](double t) {
+      const double in_leg = std::fmod(t, kLeg_s + kStop_s);
+      const double direction = static_cast<int>(t / (kLeg_s + kStop_s) + run) / 2 % 2 == 0 ? 1.0 : -1.0;
+      if (in_leg > kLeg_s) {
+        const double swings = in_leg > kLeg_s + 0.2 && in_leg < kLeg_s + 0.3 ? -0.3 : 0.0;
+        return WheelSpeedsAt{direction * swings, direction * swings};
+      }
+      const double pace = direction * 4.0 * std::sin(kPi * in_leg / kLeg_s), turn = 0.2 * std::sin(0.3 * t);
+      return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
+    };
+  };
+  const auto flopping = [](int) {
+    return [direction = 0, left_s = 0.0](InjectedStep& s) mutable {
+      const double speed_mps = 0.5 * 0.075 * (s.left_radps + s.right_radps);
+      const int now = speed_mps > kSlow_mps ? 1 : speed_mps < -kSlow_mps ? -1 : 0;
+      if (now != 0 && now != direction) left_s = direction == 0 ? 0.0 : kLasts_s, direction = now;
+      const double lasts_s = std::min(left_s, s.dt_s);
+      s.turn_rad += kKick_rad * lasts_s / kLasts_s;
+      left_s -= lasts_s;
+    };
+  };
+  Vehicle nominal;
+  nominal.kind = g.drive;
+  const Diagnosis d = diagnose(three_runs(g, random, legs, flopping), {}, nominal).value();
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.verdict, Verdict::found);
+  EXPECT_EQ(d.findings.front().effect, "castor_reversal_kick");
+  const FoundParameter& kick = d.findings.front().parameters.front();
+  EXPECT_NEAR(kick.value, kKick_rad, 4.0 * kick.stderr_value);
+}
+
 }  // namespace
 }  // namespace odolab::test
