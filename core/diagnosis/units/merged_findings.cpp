@@ -288,11 +288,12 @@ void add_mounting(const GeometryFit& geometry, const Vehicle& nominal, std::vect
 }
 
 void add_clock(const GeometryFit& geometry, const Vehicle& nominal, std::vector<Finding>& all) {
+  constexpr double kLeast_s = 0.004;  // by joints, and by positions alone, a clock is not known better
   const Eigen::VectorXd error_s = Eigen::Map<const Eigen::VectorXd>(
       geometry.clock_stderr_s.data(), static_cast<Eigen::Index>(geometry.clock_stderr_s.size()));
   const SharedClock shared = shared_clock(geometry.clock_s, Eigen::MatrixXd(error_s.cwiseAbs2().asDiagonal()));
   const double z = shared.offset_s / shared.stderr_s;
-  if (geometry.clock_s.empty() || std::abs(z) < kSigmasOfBias || std::abs(shared.offset_s) < kLeastClock_s) return;
+  if (geometry.clock_s.empty() || std::abs(z) < kSigmasOfBias || std::abs(shared.offset_s) < kLeast_s) return;
   Finding clock;
   clock.effect = "truth_time_offset";
   clock.component = "truth";

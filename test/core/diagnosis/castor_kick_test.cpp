@@ -110,6 +110,8 @@ TEST(CastorReversalKick, IsMeasuredWhereStopsThatSwingBackKickTheHeadingToo) {
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.verdict, Verdict::found);
   EXPECT_EQ(d.findings.front().effect, "castor_reversal_kick");
+  EXPECT_NE(d.findings.front().form_in_words.find("swings back"), std::string::npos)
+      << d.findings.front().form_in_words;
   const FoundParameter& kick = d.findings.front().parameters.front();
   EXPECT_NEAR(kick.value, kKick_rad, 4.0 * kick.stderr_value);
 }
