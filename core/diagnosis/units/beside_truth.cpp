@@ -40,9 +40,9 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
     if (f == d.findings.end() || runs.size() < 2 || e.is_from_inside) continue;
     const double ratio = left_out_ratio(runs, nominal, e.parameter.name, right);
     if (ratio < 1.0) {
-      const std::string text =
-          formatted("; what the parts contradict in runs left out falls to %.0f %%", 100.0 * ratio);
-      f->sentence += text;
+      const char* words = ratio < 0.95 ? "; what the parts contradict in runs left out falls to %.0f %%"
+                                       : "; what the parts contradict in runs left out falls to %.2f %%";
+      f->sentence += formatted(words, 100.0 * ratio);
     } else {
       d.findings.erase(f);
       dropped = true;
