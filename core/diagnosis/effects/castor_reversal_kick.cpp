@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/mean_rate.h"
 
 namespace odolab::effects {
 
@@ -42,21 +43,14 @@ std::vector<Reversal> reversals(const DriveView& view) {
 std::vector<std::size_t> reversals_by_speed(const DriveView& view) {
   constexpr double kHalfWindow_s = 0.05, kLeast_mps = 0.01;
   // As read: smoothed, a swing is gone.
-  const auto forward_m = [&](const EffectStep& s) {
+  const std::vector<double> speed_mps = mean_rate(view, kHalfWindow_s, [&](const EffectStep& s) {
     return 0.5 *
            (view.drive.wheel_radius_left_m * s.left_read_rad + view.drive.wheel_radius_right_m * s.right_read_rad);
-  };
+  });
   std::vector<std::size_t> found;
-  double way_m = 0.0, lasted_s = 0.0;
-  std::size_t first = 0, end = 0;
   int direction = 0;
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    for (; end < view.steps.size() && view.steps[end].time_s <= view.steps[i].time_s + kHalfWindow_s; ++end)
-      way_m += forward_m(view.steps[end]), lasted_s += view.steps[end].duration_s;
-    for (; view.steps[first].time_s < view.steps[i].time_s - kHalfWindow_s; ++first)
-      way_m -= forward_m(view.steps[first]), lasted_s -= view.steps[first].duration_s;
-    const double speed_mps = lasted_s > 0.0 ? way_m / lasted_s : 0.0;
-    const int now = speed_mps > kLeast_mps ? 1 : speed_mps < -kLeast_mps ? -1 : 0;
+  for (std::size_t i = 0; i < speed_mps.size(); ++i) {
+    const int now = speed_mps[i] > kLeast_mps ? 1 : speed_mps[i] < -kLeast_mps ? -1 : 0;
     if (now == 0 || now == direction) continue;
     if (direction != 0) found.push_back(i);
     direction = now;

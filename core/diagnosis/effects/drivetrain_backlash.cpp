@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/mean_rate.h"
 
 namespace odolab::effects {
 
@@ -39,17 +40,9 @@ double first_direction(const DriveView& view, bool left) {
 // nor a motor's braking be blurred.
 std::vector<double> evenly_read(const DriveView& view, bool left) {
   constexpr double kHalfWindow_s = 0.1;
-  const auto read = [&](std::size_t i) { return left ? view.steps[i].left_read_rad : view.steps[i].right_read_rad; };
-  std::vector<double> by;
-  double turned = 0.0, lasted = 0.0;
-  std::size_t first = 0, end = 0;
-  for (const EffectStep& s : view.steps) {
-    for (; end < view.steps.size() && view.steps[end].time_s <= s.time_s + kHalfWindow_s; ++end)
-      turned += read(end), lasted += view.steps[end].duration_s;
-    for (; view.steps[first].time_s < s.time_s - kHalfWindow_s; ++first)
-      turned -= read(first), lasted -= view.steps[first].duration_s;
-    by.push_back(lasted > 0.0 ? turned / lasted * s.duration_s : 0.0);
-  }
+  std::vector<double> by =
+      mean_rate(view, kHalfWindow_s, [&](const EffectStep& s) { return left ? s.left_read_rad : s.right_read_rad; });
+  for (std::size_t i = 0; i < by.size(); ++i) by[i] *= view.steps[i].duration_s;
   return by;
 }
 

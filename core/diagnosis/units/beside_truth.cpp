@@ -34,8 +34,7 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
   bool dropped = false;
   for (const JointEstimate& e : geometry.joints) {
     const auto f = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& g) {
-      return !e.parameter.effect.empty() && e.parameter.component != "truth" && g.effect == e.parameter.effect &&
-             g.component == e.parameter.component;
+      return e.is_of_an_encoder() && g.effect == e.parameter.effect && g.component == e.parameter.component;
     });
     if (f == d.findings.end() || runs.size() < 2 || e.is_from_inside) continue;
     const double ratio = left_out_ratio(runs, nominal, e.parameter.name, right);

@@ -46,9 +46,7 @@ bool put_inside_beside_truth(GeometryFit& geometry, const std::vector<Recording>
   for (JointEstimate& e : geometry.joints)
     for (std::size_t k = 0; k < inside->joints.size(); ++k) {
       const JointEstimate& i = inside->joints[k];
-      if (i.parameter.name != e.parameter.name || e.parameter.effect.empty() || e.parameter.component == "truth" ||
-          !i.determined)
-        continue;
+      if (i.parameter.name != e.parameter.name || !e.is_of_an_encoder() || !i.determined) continue;
       double mean = 0.0, squared = 0.0, scale = 0.0;
       for (const GeometryFit& one : without) mean += one.joints[k].value / n;
       for (const GeometryFit& one : without) squared += (one.joints[k].value - mean) * (one.joints[k].value - mean);

@@ -17,6 +17,8 @@ struct JointEstimate {
   bool determined = false;      // else the value is the nominal one
   bool is_from_inside = false;  // for the most part known by what the units contradict each other
   double feigned = 0.0;         // how far from the file what these recordings cannot tell may put it
+  // Else it is a length, or where the truth sits.
+  bool is_of_an_encoder() const { return !parameter.effect.empty() && parameter.component != "truth"; }
   // A bias that is smaller is none: what matters in practice, and less of what the units contradict each other in.
   double least_bias() const { return is_from_inside ? 0.25 * parameter.least : parameter.least; }
 };

@@ -7,21 +7,14 @@
 
 namespace odolab {
 
-namespace {
-
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-bool is_an_encoder(const JointEstimate& e) { return !e.parameter.effect.empty() && e.parameter.component != "truth"; }
-
-}  // namespace
-
 std::optional<LoneBias> lone_bias(const GeometryFit& geometry) {
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
   constexpr double kByChance = 0.01, kBeaten = 10.0;
   std::vector<Eigen::Index> encoders;
   for (std::size_t k = 0; k < geometry.joints.size(); ++k) {
     const JointEstimate& e = geometry.joints[k];
-    if (!is_an_encoder(e)) continue;
+    if (!e.is_of_an_encoder()) continue;
     if (!e.determined || e.is_from_inside || e.parameter.effect == "pivot_angle_bias") return std::nullopt;
     encoders.push_back(static_cast<Eigen::Index>(k));
   }

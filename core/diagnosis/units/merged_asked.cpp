@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/base/chi_square.h"
 #include "core/diagnosis/asked_effects.h"
@@ -19,8 +20,6 @@ void keep_likeliest(std::vector<AskedEffect>& all, AskedEffect more) {
   else if (is_likelier(more, *same))
     *same = std::move(more);
 }
-
-bool is_bias(const JointEstimate& e) { return !e.parameter.effect.empty() && e.parameter.component != "truth"; }
 
 AskedEffect asked_bias(const JointEstimate& e, int encoders) {
   AskedEffect a;
@@ -46,9 +45,10 @@ std::vector<AskedEffect> merged_asked(const std::vector<Diagnosis>& diagnoses, c
       a.p_value = std::min(1.0, a.p_value * static_cast<double>(diagnoses.size()));
       keep_likeliest(all, std::move(a));
     }
-  const auto encoders = static_cast<int>(std::count_if(geometry.joints.begin(), geometry.joints.end(), is_bias));
+  const auto encoders = static_cast<int>(
+      std::count_if(geometry.joints.begin(), geometry.joints.end(), std::mem_fn(&JointEstimate::is_of_an_encoder)));
   for (const JointEstimate& e : geometry.joints)
-    if (is_bias(e)) keep_likeliest(all, asked_bias(e, encoders));
+    if (e.is_of_an_encoder()) keep_likeliest(all, asked_bias(e, encoders));
   std::stable_sort(all.begin(), all.end(), is_likelier);
   return all;
 }

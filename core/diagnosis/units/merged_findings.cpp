@@ -197,7 +197,7 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
   int asked = 0;
   for (const JointEstimate& e : geometry.joints) asked += e.parameter.effect.empty() ? 0 : 1;
   for (const JointEstimate& e : geometry.joints) {
-    if (e.parameter.effect.empty() || e.parameter.component == "truth" || !e.determined) continue;
+    if (!e.is_of_an_encoder() || !e.determined) continue;
     const double off = e.value - e.nominal, z = off / e.stderr_value;
     const auto same = std::find_if(all.begin(), all.end(), [&](const Finding& f) {
       return f.effect == e.parameter.effect && f.component == e.parameter.component;

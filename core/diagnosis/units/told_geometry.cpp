@@ -87,7 +87,7 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
 
 void take_biases(const JoinedModel& model, GeometryFit& fit) {
   for (JointEstimate& e : fit.joints) {
-    if (e.parameter.effect.empty() || e.parameter.component == "truth") continue;
+    if (!e.is_of_an_encoder()) continue;
     const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
     if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
     e.value = e.nominal + known->value;

@@ -11,6 +11,14 @@
 namespace odolab::test {
 namespace {
 
+constexpr double kEpoch_s = 1.7e9, kApart_s = 600.0;
+
+// One after the other on one clock, that begins long before them.
+void put_stamps_apart(std::vector<Recording>& recordings) {
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    for (double& t : recordings[r].time_s) t += kEpoch_s + kApart_s * static_cast<double>(r);
+}
+
 TEST(PayloadRadiusChange, IsKnownToTheRestThatItCameIn) {
   constexpr double kFrom_s = 18.0, kTo_s = 24.0, kLoaded_s = 19.0;
   Random random(51);
@@ -61,7 +69,7 @@ TEST(PayloadRadiusChange, IsOfTheOneRunThatLastsSoLong) {
 
 // A gripper that takes up its load half a minute into every run, whose stamps go on from run to run.
 TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegin) {
-  constexpr double kLoaded_s = 20.0, kEpoch_s = 1.7e9, kApart_s = 600.0;
+  constexpr double kLoaded_s = 20.0;
   Random random(52);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.02);
   g.duration_s = 45.0;
@@ -72,8 +80,7 @@ TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegi
     };
   };
   std::vector<Recording> recordings = three_runs(g, random, driving, loaded);
-  for (std::size_t r = 0; r < recordings.size(); ++r)
-    for (double& t : recordings[r].time_s) t += kEpoch_s + kApart_s * static_cast<double>(r);
+  put_stamps_apart(recordings);
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings[0].effect, "payload_radius_change");
@@ -98,7 +105,7 @@ TEST(PayloadRadiusChange, ComesInEveryRunAsLongAfterItBeganWhereverItsStampsBegi
 
 // Put on in the second run and left there.
 TEST(PayloadRadiusChange, LastsFromTheMomentInOneRunThroughThoseAfterItWhereverTheirStampsBegin) {
-  constexpr double kLoaded_s = 20.0, kEpoch_s = 1.7e9, kApart_s = 600.0;
+  constexpr double kLoaded_s = 20.0;
   Random random(54);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, 0.02);
   g.duration_s = 45.0;
@@ -109,8 +116,7 @@ TEST(PayloadRadiusChange, LastsFromTheMomentInOneRunThroughThoseAfterItWhereverT
     };
   };
   std::vector<Recording> recordings = three_runs(g, random, driving, loaded);
-  for (std::size_t r = 0; r < recordings.size(); ++r)
-    for (double& t : recordings[r].time_s) t += kEpoch_s + kApart_s * static_cast<double>(r);
+  put_stamps_apart(recordings);
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings[0].effect, "payload_radius_change");
