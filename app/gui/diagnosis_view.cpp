@@ -43,6 +43,7 @@ ui::FindingCard card_of(const Finding& f, bool on) {
   card.title = capital(f.effect == "unknown" ? "something without a name" : effect_text(f.effect, f.component));
   card.sentence = capital(f.sentence);
   card.where = f.effect == "unknown" ? "" : where_text(f.where);  // an unknown's sentence says it
+  if (!f.form_in_words.empty()) card.where += (card.where.empty() ? "its form: " : "; its form: ") + f.form_in_words;
   card.evidence = evidence_words(f);
   for (const FoundParameter& p : f.parameters)
     card.parameters.emplace_back(parameter_words(p.name), quantity_text(p.value, p.stderr_value, p.unit));

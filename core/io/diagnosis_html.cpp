@@ -62,6 +62,7 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
       rows.push_back({parameter_words(p.name), quantity_text(p.value, p.stderr_value, p.unit)});
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
+    if (!f.form_in_words.empty()) rows.push_back({"its form", f.form_in_words});
     if (f.share_of_mismatch > 0.0)
       rows.push_back(
           {"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});

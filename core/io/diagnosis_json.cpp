@@ -72,6 +72,7 @@ Json finding_json(const Finding& finding) {
     json["moves"]["heading_rms_rad"] = finding.moves->heading_rms_rad;
   }
   if (!finding.sentence.empty()) json["sentence"] = finding.sentence;
+  if (!finding.form_in_words.empty()) json["form"] = finding.form_in_words;
   return json;
 }
 

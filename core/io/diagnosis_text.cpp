@@ -102,6 +102,7 @@ std::string finding_line(const Finding& f) {
   line += parameters;
   const std::string where = where_text(f.where);
   if (!where.empty()) line += "; " + where;
+  if (!f.form_in_words.empty()) line += "; its form: " + f.form_in_words;
   if (f.log_likelihood_gain > 0.0)
     line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
   if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);

@@ -20,6 +20,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr int kShared = 6;             // parameters of all runs, which come first
+constexpr double kWorthDriving = 0.7;  // of the standard deviations that a decision needs
+
 DrivingRange range_of(const JointModel& joint) {
   std::vector<double> v, w, a, b;
   for (const DriveView& view : joint.views())
@@ -58,10 +61,13 @@ JointModel imagined(const JointModel& joint, const std::vector<AdvisedDrive>& al
   return m;
 }
 
-// Columns in question: those of effects that were let in, and of candidates.
+// Columns in question, behind those of the six shared parameters: of effects that were let in, and of candidates.
 struct Question {
   const Effect* effect = nullptr;
   std::vector<double> shape;
+  int first_column = 0;
+
+  int columns() const { return static_cast<int>(effect->amplitudes.size()); }
 };
 
 // Information on the six shared parameters and on all columns in question, the clock of the run projected off.
@@ -69,7 +75,7 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   const LinearisedRun& linear = joint.linearised()[static_cast<std::size_t>(run)];
   const int rows = 3 * linear.samples();
   int q = 7;
-  for (const Question& c : questions) q += static_cast<int>(c.effect->amplitudes.size());
+  for (const Question& c : questions) q += c.columns();
   MatrixXd z = MatrixXd::Zero(rows, q);
   std::array<double*, column::first_extra> of_parameters{};
   for (int c = 0; c < 6; ++c) of_parameters[static_cast<std::size_t>(c)] = z.col(c).data();
@@ -80,7 +86,7 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   for (const Question& c : questions) {
     if (c.effect->clock_rate) {
       if (!c.effect->of_each_recording) linear.of_clock_rate(z.col(at).data());
-      at += static_cast<int>(c.effect->amplitudes.size());
+      at += c.columns();
       continue;
     }
     for (const Motions& m : c.effect->motions(view, c.shape)) linear.of_motion(m, z.col(at++).data());
@@ -96,157 +102,168 @@ MatrixXd information(const JointModel& joint, int run, const std::vector<Questio
   return out;
 }
 
+// What is open: which of two names it is, and what could not have been seen.
+struct Open {
+  std::vector<Question> questions;
+  std::vector<Decision> pairs, sights;    // of confusions; of each dark effect
+  std::vector<std::size_t> confusion_of;  // each pair
+
+  int columns() const {
+    return questions.empty() ? kShared : questions.back().first_column + questions.back().columns();
+  }
+  std::size_t ask(const Effect* effect, const std::vector<double>& shape) {
+    questions.push_back({effect, shape, columns()});
+    return questions.size() - 1;
+  }
+  // Told from the best that the shared parameters and the questions `free` can do in place of `value`.
+  Decision decision(int from, const std::vector<double>& value, const std::vector<std::size_t>& free, double inflation,
+                    double needed) const {
+    const auto size = static_cast<Eigen::Index>(value.size());
+    Decision d;
+    d.from = from;
+    d.value = Eigen::Map<const VectorXd>(value.data(), size);
+    for (int c = 0; c < kShared; ++c) d.free.push_back(c);
+    for (std::size_t q : free)
+      for (int k = 0; k < questions[q].columns(); ++k)
+        if (const int c = questions[q].first_column + k; c < from || c >= from + size) d.free.push_back(c);
+    d.inflation = inflation;
+    d.needed = needed;
+    return d;
+  }
+};
+
+Open open_of(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark) {
+  const double told_apart = std::sqrt(2.0 * kClearlyBeaten) + kPower;
+  Open open;
+  std::vector<std::size_t> known, alternatives;
+  for (const AcceptedEffect& a : joint.accepted) known.push_back(open.ask(a.effect, a.shape));
+  // All that is known but for one, with another.
+  const auto known_beside = [&](std::size_t own, std::size_t other) {
+    std::vector<std::size_t> free = known;
+    std::erase(free, own);
+    free.push_back(other);
+    return free;
+  };
+  for (const Confusion& c : confused) alternatives.push_back(open.ask(c.alternative, c.shape));
+  // The name that was fitted, told from the other.
+  for (std::size_t k = 0; k < confused.size(); ++k) {
+    const std::size_t own = known[static_cast<std::size_t>(confused[k].accepted)];
+    open.pairs.push_back(open.decision(open.questions[own].first_column, joint.accepted[own].value,
+                                       known_beside(own, alternatives[k]), confused[k].inflation, told_apart));
+    open.confusion_of.push_back(k);
+  }
+  // Beaten in the form that fits best, a name would come back in another: the other one, told from that.
+  for (std::size_t k = 0; k < confused.size(); ++k) {
+    const std::size_t own = known[static_cast<std::size_t>(confused[k].accepted)];
+    const AcceptedEffect& a = joint.accepted[own];
+    for (std::size_t form = 0; form < a.effect->forms.size(); ++form) {
+      std::vector<double> shape = a.shape;
+      if (shape.back() == static_cast<double>(form) || confused[k].value.empty()) continue;
+      shape.back() = static_cast<double>(form);
+      const std::size_t question = open.ask(a.effect, shape);
+      open.pairs.push_back(open.decision(open.questions[alternatives[k]].first_column, confused[k].value,
+                                         known_beside(own, question), confused[k].inflation, told_apart));
+      open.confusion_of.push_back(k);
+    }
+  }
+  // An effect of medium size, told from none.
+  for (const Visible& v : dark) {
+    const std::size_t question = open.ask(v.effect, v.shape);
+    std::vector<std::size_t> free = known;
+    free.push_back(question);
+    open.sights.push_back(open.decision(open.questions[question].first_column + v.weakest,
+                                        {v.effect->amplitudes[static_cast<std::size_t>(v.weakest)].medium}, free,
+                                        v.inflation, v.standard));
+  }
+  return open;
+}
+
+// Information on all columns: what is known before any drive and by the recordings, and what each drive would add.
+struct Known {
+  MatrixXd now;
+  std::vector<MatrixXd> adds;
+};
+
+Known known_of(const JointModel& joint, const Open& open, const std::vector<AdvisedDrive>& all,
+               const DrivingRange& range) {
+  const JointModel drives = imagined(joint, all, range);
+  std::vector<Question> elsewhere = open.questions;  // neither events nor places come back
+  for (Question& q : elsewhere)
+    if (q.effect->of_one_recording || q.effect->and_later_recordings || q.effect->local) q.shape[0] = 1e6;
+  const int runs = static_cast<int>(joint.runs().size()), count = runs + static_cast<int>(all.size());
+  std::vector<MatrixXd> parts(static_cast<std::size_t>(count));
+  parallel_for(count, [&](int i) {
+    parts[static_cast<std::size_t>(i)] =
+        i < runs ? information(joint, i, open.questions) : information(drives, i - runs, elsewhere);
+  });
+  Known known{MatrixXd::Zero(open.columns(), open.columns()), {parts.begin() + runs, parts.end()}};
+  for (int r = 0; r < runs; ++r) known.now += parts[static_cast<std::size_t>(r)];
+  const DifferentialDrive& d = joint.model.drive;
+  const double prior[kShared] = {
+      0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
+  for (int c = 0; c < kShared; ++c) known.now(c, c) += 1.0 / (prior[c] * prior[c]);
+  return known;
+}
+
+// The drive that tells names apart, by the pair that it tells least.
+void advise_between(Advice& out, const JointModel& joint, const std::vector<Confusion>& confused, const Open& open,
+                    const Known& known, const std::vector<AdvisedDrive>& all) {
+  const std::vector<Decision>& pairs = open.pairs;
+  const DrivePlan plan = planned(known.now, known.adds, all, pairs);
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < pairs.size(); ++k)
+    if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
+  const Confusion& between = confused[open.confusion_of[least]];
+  const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(between.accepted)];
+  const std::string names = effect_words(a.effect->name) + " from " + effect_words(between.alternative->name);
+  if (plan.any && plan.reached[least] >= kWorthDriving * pairs[least].needed) {
+    out.next_drive =
+        in_words(plan, all) + ": tells " + names +
+        formatted(" by %.0f standard deviations, now %.1f", plan.reached[least], separation(known.now, pairs[least]));
+    out.next_legs = legs_of(plan, all);
+  } else {
+    out.next_drive = a.effect->told_apart_by + ": tells " + names;
+  }
+}
+
+// The drive that would show most of what these recordings could not.
+void advise_to_see(Advice& out, const std::vector<Visible>& dark, const Open& open, const Known& known,
+                   const std::vector<AdvisedDrive>& all) {
+  constexpr int kMostNames = 4;
+  const DrivePlan plan = planned(known.now, known.adds, all, open.sights);
+  std::string names;
+  int named = 0;
+  for (std::size_t k = 0; k < open.sights.size(); ++k)
+    if (plan.reached[k] >= 0.9 * open.sights[k].needed && ++named <= kMostNames)
+      names += (names.empty() ? "" : ", ") + effect_words(dark[k].effect->name);
+  if (plan.any && !names.empty()) {
+    out.next_drive = in_words(plan, all) + ": would show " + names + (named > kMostNames ? " and others" : "") +
+                     " if there were any";
+    out.next_legs = legs_of(plan, all);
+  } else {
+    out.next_drive = out.not_testable.front().drive_this;
+  }
+}
+
 }  // namespace
 
 Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark) {
   Advice out;
   if (dark.empty() && confused.empty()) return out;
-
   const DrivingRange range = range_of(joint);
   const std::vector<AdvisedDrive> all = advised_drives(range);
-  std::vector<Question> questions;
-  std::vector<int> first_column;
-  int columns = 6;
-  const auto ask = [&](const Effect* effect, const std::vector<double>& shape) {
-    questions.push_back({effect, shape});
-    first_column.push_back(columns);
-    columns += static_cast<int>(effect->amplitudes.size());
-  };
-  std::vector<int> shared{0, 1, 2, 3, 4, 5};  // what any decision has to do without
-  for (const AcceptedEffect& a : joint.accepted) ask(a.effect, a.shape);
-  const std::size_t known_effects = questions.size();
-  for (const Confusion& c : confused) ask(c.alternative, c.shape);
-  // Beaten in the form that fits best, a name would come back in another.
-  std::vector<std::pair<std::size_t, std::size_t>> other_forms;  // confusion, question
-  for (std::size_t k = 0; k < confused.size(); ++k) {
-    const AcceptedEffect& own = joint.accepted[static_cast<std::size_t>(confused[k].accepted)];
-    for (std::size_t form = 0; form < own.effect->forms.size(); ++form) {
-      std::vector<double> shape = own.shape;
-      if (shape.back() == static_cast<double>(form) || confused[k].value.empty()) continue;
-      shape.back() = static_cast<double>(form);
-      other_forms.emplace_back(k, questions.size());
-      ask(own.effect, shape);
-    }
-  }
-  for (const Visible& v : dark) ask(v.effect, v.shape);
-
-  const JointModel drives = imagined(joint, all, range);
-  const int runs = static_cast<int>(joint.runs().size()), count = runs + static_cast<int>(all.size());
-  std::vector<MatrixXd> parts(static_cast<std::size_t>(count));
-  parallel_for(count, [&](int i) {
-    if (i < runs) {
-      parts[i] = information(joint, i, questions);
-      return;
-    }
-    std::vector<Question> elsewhere = questions;  // neither events nor places come back
-    for (Question& q : elsewhere) {
-      if (q.effect->of_one_recording || q.effect->and_later_recordings || q.effect->local) q.shape[0] = 1e6;
-    }
-    parts[i] = information(drives, i - runs, elsewhere);
-  });
-  MatrixXd known = MatrixXd::Zero(columns, columns);
-  for (int r = 0; r < runs; ++r) known += parts[r];
-  const DifferentialDrive& d = joint.model.drive;
-  const double prior[6] = {
-      0.1 * d.wheel_radius_left_m, 0.1 * d.wheel_radius_right_m, 0.1 * d.wheelbase_m, 0.2, 0.2, 0.3};
-  for (int c = 0; c < 6; ++c) known(c, c) += 1.0 / (prior[c] * prior[c]);
-  const std::vector<MatrixXd> adds(parts.begin() + runs, parts.end());
-
-  const auto columns_of = [&](std::size_t question) {
-    std::vector<int> c;
-    for (std::size_t k = 0; k < questions[question].effect->amplitudes.size(); ++k)
-      c.push_back(first_column[question] + static_cast<int>(k));
-    return c;
-  };
-  // Two names: the one fitted, told from the best that the other can do.
-  std::vector<Decision> pairs;
-  for (std::size_t k = 0; k < confused.size(); ++k) {
-    const auto a = static_cast<std::size_t>(confused[k].accepted);
-    Decision decision;
-    decision.from = first_column[a];
-    decision.value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(),
-                                                static_cast<Eigen::Index>(joint.accepted[a].value.size()));
-    decision.free = shared;
-    for (std::size_t other = 0; other < known_effects; ++other)
-      if (other != a)
-        for (int c : columns_of(other)) decision.free.push_back(c);
-    for (int c : columns_of(known_effects + k)) decision.free.push_back(c);
-    decision.inflation = confused[k].inflation;
-    decision.needed = std::sqrt(2.0 * kClearlyBeaten) + kPower;
-    pairs.push_back(decision);
-  }
-  // The alternative, were it the one, told from the fitted name in another form.
-  for (const auto& [k, question] : other_forms) {
-    const auto a = static_cast<std::size_t>(confused[k].accepted);
-    Decision decision = pairs[k];
-    decision.from = first_column[known_effects + k];
-    decision.value =
-        Eigen::Map<const VectorXd>(confused[k].value.data(), static_cast<Eigen::Index>(confused[k].value.size()));
-    decision.free = shared;
-    for (std::size_t other = 0; other < known_effects; ++other)
-      if (other != a)
-        for (int c : columns_of(other)) decision.free.push_back(c);
-    for (int c : columns_of(question)) decision.free.push_back(c);
-    pairs.push_back(decision);
-  }
-  // An effect of medium size, told from none.
-  std::vector<Decision> sights;
+  const Open open = open_of(joint, confused, dark);
+  const Known known = known_of(joint, open, all, range);
   for (std::size_t k = 0; k < dark.size(); ++k) {
-    const std::size_t question = known_effects + confused.size() + other_forms.size() + k;
-    const Effect& e = *dark[k].effect;
-    Decision decision;
-    decision.from = first_column[question] + dark[k].weakest;
-    decision.value = VectorXd::Constant(1, e.amplitudes[static_cast<std::size_t>(dark[k].weakest)].medium);
-    decision.free = shared;
-    for (std::size_t other = 0; other < known_effects; ++other)
-      for (int c : columns_of(other)) decision.free.push_back(c);
-    for (int c : columns_of(question))
-      if (c != decision.from) decision.free.push_back(c);
-    decision.inflation = dark[k].inflation;
-    decision.needed = dark[k].standard;
-    sights.push_back(decision);
+    const DrivePlan plan = planned(known.now, known.adds, all, {open.sights[k]});
+    const bool is_worth_it = plan.any && plan.reached[0] >= kWorthDriving * open.sights[k].needed;
+    out.not_testable.push_back(
+        {dark[k].effect->name, because_of(dark[k]), is_worth_it ? in_words(plan, all) : dark[k].effect->told_apart_by});
   }
-
-  for (std::size_t k = 0; k < dark.size(); ++k) {
-    NotTestable n;
-    n.effect = dark[k].effect->name;
-    n.because = because_of(dark[k]);
-    const DrivePlan plan = planned(known, adds, all, {sights[k]});
-    n.drive_this =
-        plan.any && plan.reached[0] >= 0.7 * sights[k].needed ? in_words(plan, all) : dark[k].effect->told_apart_by;
-    out.not_testable.push_back(n);
-  }
-  if (!pairs.empty()) {
-    const DrivePlan plan = planned(known, adds, all, pairs);
-    std::size_t least = 0;
-    for (std::size_t k = 1; k < pairs.size(); ++k)
-      if (plan.reached[k] / pairs[k].needed < plan.reached[least] / pairs[least].needed) least = k;
-    const Confusion& between = confused[least < confused.size() ? least : other_forms[least - confused.size()].first];
-    const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(between.accepted)];
-    const std::string names = effect_words(a.effect->name) + " from " + effect_words(between.alternative->name);
-    if (plan.any && plan.reached[least] >= 0.7 * pairs[least].needed) {
-      out.next_drive =
-          in_words(plan, all) + ": tells " + names +
-          formatted(" by %.0f standard deviations, now %.1f", plan.reached[least], separation(known, pairs[least]));
-      out.next_legs = legs_of(plan, all);
-    } else {
-      out.next_drive = a.effect->told_apart_by + ": tells " + names;
-    }
-  } else if (!sights.empty()) {
-    const DrivePlan plan = planned(known, adds, all, sights);
-    std::string names;
-    int named = 0;
-    for (std::size_t k = 0; k < sights.size(); ++k)
-      if (plan.reached[k] >= 0.9 * sights[k].needed && ++named <= 4)
-        names += (names.empty() ? "" : ", ") + effect_words(dark[k].effect->name);
-    if (plan.any && !names.empty()) {
-      out.next_drive =
-          in_words(plan, all) + ": would show " + names + (named > 4 ? " and others" : "") + " if there were any";
-      out.next_legs = legs_of(plan, all);
-    } else {
-      out.next_drive = out.not_testable.front().drive_this;
-    }
-  }
+  if (!open.pairs.empty())
+    advise_between(out, joint, confused, open, known, all);
+  else if (!open.sights.empty())
+    advise_to_see(out, dark, open, known, all);
   return out;
 }
 

@@ -11,6 +11,33 @@ namespace odolab::effects {
 namespace {
 constexpr double kReversed_m = 0.01;  // way back that counts; less is the trembling of a turn on the spot
 
+enum class Course { evenly, fading, of_a_castor, shortly };
+constexpr struct {
+  const char* in_words;
+  bool to_one_side;
+  Course course;
+  double length_m = 0.0;  // over which it is even, or falls to a third; or a castor's trail
+} kForms[] = {
+    {"always to the same side, within 5 cm of way", true, Course::evenly, 0.05},
+    {"to one side forwards and the other in reverse, within 5 cm", false, Course::evenly, 0.05},
+    {"always to the same side, within 20 cm", true, Course::evenly, 0.2},
+    {"to one side forwards and the other in reverse, within 20 cm", false, Course::evenly, 0.2},
+    {"always to the same side, at once", true, Course::evenly, 0.001},
+    {"to one side forwards and the other in reverse, at once", false, Course::evenly, 0.001},
+    {"always to the same side, as a castor of 2 cm trail swings", true, Course::of_a_castor, 0.02},
+    {"to one side forwards and the other in reverse, as a castor of 2 cm trail swings", false, Course::of_a_castor,
+     0.02},
+    {"always to the same side, as a castor of 5 cm trail swings", true, Course::of_a_castor, 0.05},
+    {"to one side forwards and the other in reverse, as a castor of 5 cm trail swings", false, Course::of_a_castor,
+     0.05},
+    {"always to the same side, as a castor of 3 cm trail swings", true, Course::of_a_castor, 0.032},
+    {"to one side forwards and the other in reverse, as a castor of 3 cm trail swings", false, Course::of_a_castor,
+     0.032},
+    {"always to the same side, within 0.15 s, also of a stop that swings back", true, Course::shortly},
+    {"always to the same side, fading over 7 cm of way", true, Course::fading, 0.07},
+    {"to one side forwards and the other in reverse, fading over 7 cm", false, Course::fading, 0.07},
+};
+
 struct Reversal {
   std::size_t first = 0;  // step of the way back
   std::size_t sure = 0;   // the step by which it counts
@@ -106,6 +133,22 @@ Motions even_kicks(const DriveView& view, bool to_one_side, double over_m) {
   return m;
 }
 
+// Of what is left of a kick each metre takes 1 / over_m, as friction that lets go.
+Motions fading_kicks(const DriveView& view, bool to_one_side, double over_m) {
+  constexpr double kGone = 1e-3;
+  Motions m(view.steps.size());
+  for (const Reversal& r : reversals(view)) {
+    double left = 1.0;
+    WayBack way_back(r);
+    for (std::size_t i = r.first; i < view.steps.size() && left > kGone; ++i) {
+      const double gone = left * -std::expm1(-way_back.of_step(view, i) / over_m);
+      m[i].turn_rad += (to_one_side ? 1.0 : r.direction) * gone;
+      left -= gone;
+    }
+  }
+  return m;
+}
+
 // As a castor swings round that trails its pivot by so much: d(angle) = -sin(angle) / trail for each metre that the
 // pivot goes. Turned about, it stands at half a turn and is pushed off by what little it is off that. Where the vehicle
 // turns back before it is round, it swings back.
@@ -137,19 +180,7 @@ std::vector<Effect> castor_reversal_kick() {
   e.name = "castor_reversal_kick";
   e.component = "vehicle";
   e.amplitudes = {{"kick_rad", "rad", 0.01, -0.5, 0.5}};
-  e.forms = {"always to the same side, within 5 cm of way",
-             "to one side forwards and the other in reverse, within 5 cm",
-             "always to the same side, within 20 cm",
-             "to one side forwards and the other in reverse, within 20 cm",
-             "always to the same side, at once",
-             "to one side forwards and the other in reverse, at once",
-             "always to the same side, as a castor of 2 cm trail swings",
-             "to one side forwards and the other in reverse, as a castor of 2 cm trail swings",
-             "always to the same side, as a castor of 5 cm trail swings",
-             "to one side forwards and the other in reverse, as a castor of 5 cm trail swings",
-             "always to the same side, as a castor of 3 cm trail swings",
-             "to one side forwards and the other in reverse, as a castor of 3 cm trail swings",
-             "always to the same side, within 0.15 s, also of a stop that swings back"};
+  for (const auto& form : kForms) e.forms.push_back(form.in_words);
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.tests_of_a_shape = 0.6;  // kicks are much alike, however long they last
@@ -166,13 +197,18 @@ std::vector<Effect> castor_reversal_kick() {
     });
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    constexpr double kOver_m[] = {0.05, 0.2, 0.001}, kTrail_m[] = {0.02, 0.05, 0.032};
-    constexpr int kEven = static_cast<int>(std::size(kOver_m));
-    const int form = static_cast<int>(shape.back()), which = form / 2;
-    const bool to_one_side = form % 2 == 0;
-    if (which == kEven + static_cast<int>(std::size(kTrail_m))) return std::vector<Motions>{short_kicks(view)};
-    return std::vector<Motions>{which < kEven ? even_kicks(view, to_one_side, kOver_m[which])
-                                              : kicks_of_a_castor(view, to_one_side, kTrail_m[which - kEven])};
+    const auto& [in_words, to_one_side, course, length_m] = kForms[static_cast<std::size_t>(shape.back())];
+    switch (course) {
+      case Course::evenly:
+        return std::vector<Motions>{even_kicks(view, to_one_side, length_m)};
+      case Course::fading:
+        return std::vector<Motions>{fading_kicks(view, to_one_side, length_m)};
+      case Course::of_a_castor:
+        return std::vector<Motions>{kicks_of_a_castor(view, to_one_side, length_m)};
+      case Course::shortly:
+        break;
+    }
+    return std::vector<Motions>{short_kicks(view)};
   };
   return {e};
 }

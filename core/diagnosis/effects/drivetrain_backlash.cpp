@@ -9,14 +9,15 @@
 namespace odolab::effects {
 
 namespace {
-// How a wheel runs while neither flank of the play touches: it is braked by so much until it stands.
-constexpr double kAtOnce = 0.0;
+// How a wheel runs while neither flank of the play touches, braked by so much until it stands; and over what turn at
+// least the play is crossed by a drive that yields: a swing back at a stop by less crosses it in part.
+constexpr double kAtOnce = 0.0, kStiff_rad = 1e-4;
 constexpr struct {
   const char* in_words;
-  double drag_mps2;
+  double drag_mps2 = kAtOnce, yields_rad = kStiff_rad;
 } kForms[] = {
-    {"engaged at the start", kAtOnce},
-    {"in the middle of the play at the start", kAtOnce},
+    {"engaged at the start"},
+    {"in the middle of the play at the start"},
     {"crossed too where it brakes harder than 0.05 m/s2", 0.05},
     {"crossed too where it brakes harder than 0.08 m/s2", 0.08},
     {"crossed too where it brakes harder than 0.12 m/s2", 0.12},
@@ -24,10 +25,10 @@ constexpr struct {
     {"crossed too where it brakes harder than 0.25 m/s2", 0.25},
     {"crossed too where it brakes harder than 0.35 m/s2", 0.35},
     {"crossed too where it brakes harder than 0.5 m/s2", 0.5},
-    {"crossed over a turn of 0.04 rad, as of a drive that yields", kAtOnce},
+    {"crossed over a turn of 0.04 rad, as of a drive that yields", kAtOnce, 0.04},
+    {"crossed over a turn of 0.12 rad, as of a drive that yields more", kAtOnce, 0.12},
 };
-constexpr std::size_t kMiddleAtTheStart = 1, kYields = std::size(kForms) - 1;
-constexpr double kYieldsOver_rad = 0.04;  // so a swing back at a stop by less crosses it in part
+constexpr std::size_t kMiddleAtTheStart = 1;
 
 // Which way a wheel turns first.
 double first_direction(const DriveView& view, bool left) {
@@ -51,7 +52,7 @@ std::vector<double> evenly_read(const DriveView& view, bool left) {
 // the wheel does by itself: then the wheel drives on until the other flank holds it.
 std::vector<double> lost(const DriveView& view, bool left, double gap_rad, std::size_t form) {
   std::vector<double> share(view.steps.size());
-  const double half = 0.5 * std::max(gap_rad, form == kYields ? kYieldsOver_rad : 1e-4);
+  const double half = 0.5 * std::max(gap_rad, kForms[form].yields_rad);
   const double radius_m = left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
   const double drag_radps2 = kForms[form].drag_mps2 / radius_m;
   // Of the encoder's side within the play, -half to half: where it stood at the start shows only in the first

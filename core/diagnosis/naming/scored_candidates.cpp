@@ -272,14 +272,40 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
   return scored;
 }
 
+namespace {
+
+constexpr double kSaysMore = 1.0;  // by so much of the statistic a shape is taken for another
+
+void find_form_again(JointModel& joint, std::size_t k) {
+  AcceptedEffect& a = joint.accepted[k];
+  if (a.effect->forms.size() < 2 || a.is_held) return;
+  CandidateTest best = tested_in_form(joint, k, static_cast<std::size_t>(a.shape.back()));
+  best.statistic += kSaysMore;
+  bool other = false;
+  for (std::size_t form = 0; form < a.effect->forms.size(); ++form) {
+    CandidateTest t = tested_in_form(joint, k, form);
+    if (t.statistic < best.statistic || !is_physical(joint, *a.effect, t.value, t.shape)) continue;
+    best = std::move(t);
+    other = true;
+  }
+  if (!other) return;
+  a.shape = best.shape;
+  a.value = best.value;
+  joint.fit(3);
+  joint.fit_noise_and_all();
+}
+
+}  // namespace
+
 void find_places_again(JointModel& joint) {
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     AcceptedEffect& a = joint.accepted[k];
+    if (a.effect->shape_follows_amplitude) find_form_again(joint, k);
     if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
     const int own = static_cast<int>(k);
     const double now = joint.test(joint.columns_of(*a.effect, a.shape), own).statistic;
     const ScoredCandidate again = scored_candidate(joint, CandidateScan(joint, own), *a.effect, own, 1);
-    if (again.test.statistic < now + 1.0) continue;
+    if (again.test.statistic < now + kSaysMore) continue;
     a.shape = again.test.shape;
     a.value = again.test.value;
     joint.fit(2);

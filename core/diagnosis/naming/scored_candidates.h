@@ -25,7 +25,8 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
                                  int tests, const std::vector<std::vector<double>>& also_from = {});
 
 // Places and times were found under the noise that they made themselves: each is sought once more beside the others,
-// and all is fitted anew where another says more.
+// and all is fitted anew where another says more. So is the form of what goes by its own size: by which it went best
+// while that was open says little.
 void find_places_again(JointModel& joint);
 
 // Its p value, from its test.

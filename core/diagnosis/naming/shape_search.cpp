@@ -267,7 +267,20 @@ CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std:
   const AcceptedEffect& a = joint.accepted[accepted];
   std::vector<double> shape = a.shape;
   shape.back() = static_cast<double>(form);
-  return joint.test(joint.columns_of(*a.effect, shape), static_cast<int>(accepted));
+  const auto test = [&] { return joint.test(joint.columns_of(*a.effect, shape), static_cast<int>(accepted)); };
+  CandidateTest t = test();
+  if (a.effect->shape_follows_amplitude) {
+    constexpr int kMostRounds = 8;
+    constexpr double kSettled = 0.01;
+    for (int round = 0; round < kMostRounds && !t.value.empty(); ++round) {
+      const double by = t.value[0] - shape[0];
+      if (std::abs(by) < kSettled * std::max(shape[0], 1e-3)) break;
+      shape[0] = std::max(shape[0] + 0.5 * by, 1e-4);
+      t = test();
+    }
+  }
+  t.shape = shape;
+  return t;
 }
 
 Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {

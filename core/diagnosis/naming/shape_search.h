@@ -26,7 +26,8 @@ bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radiu
 bool is_physical(const JointModel& joint, const Effect& effect, const std::vector<double>& value,
                  const std::vector<double>& shape);
 
-// An accepted effect as it would be in another of its forms, all else as it is.
+// An accepted effect as it would be in another of its forms, all else as it is; a shape that follows its amplitude
+// goes with it.
 CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std::size_t form);
 
 // Two places: the square of how far they are apart, and their radii together; those without a radius are small.

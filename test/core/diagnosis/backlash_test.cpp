@@ -54,21 +54,23 @@ TEST(DrivetrainBacklash, IsFoundWhereTheWheelOvertakesItsMotorAsThatBrakes) {
   EXPECT_LT(std::abs(f.parameters.front().value - kGap_rad), 4.0 * f.parameters.front().stderr_value);
 }
 
-// Two legs on and two back, each ended by a stop at which the wheels swing back by 0.02 rad and on again; a leg's
-// direction, 0 at rest.
+// Two legs on and two back, each ended by a stop at which the wheels swing back and on again; a leg's direction, 0 at
+// rest.
 constexpr double kLeg_s = 2.5, kStop_s = 1.0;
 double direction_at(double time_s) {
   const double in_all = std::fmod(time_s, 4.0 * (kLeg_s + kStop_s)), in_leg = std::fmod(in_all, kLeg_s + kStop_s);
   return in_leg > kLeg_s ? 0.0 : in_all < 2.0 * (kLeg_s + kStop_s) ? 1.0 : -1.0;
 }
-WheelSpeedsAt legs_and_swings(double time_s) {
+WheelSpeedsAt legs_and_swings(double time_s, double swing_rad) {
+  constexpr double kSwings_s = 0.2;
   const double in_leg = std::fmod(time_s, kLeg_s + kStop_s), direction = direction_at(time_s);
   if (direction == 0.0) {
-    const double rests_s = in_leg - kLeg_s, swings = rests_s > 0.3 && rests_s < 0.5   ? -0.1
-                                                     : rests_s > 0.7 && rests_s < 0.9 ? 0.1
-                                                                                      : 0.0;
-    const double last = direction_at(time_s - rests_s - 0.01);
-    return {last * swings, last * swings};
+    const double rests_s = in_leg - kLeg_s;
+    const double way = rests_s > 0.3 && rests_s < 0.3 + kSwings_s   ? -1.0
+                       : rests_s > 0.7 && rests_s < 0.7 + kSwings_s ? 1.0
+                                                                    : 0.0;
+    const double radps = direction_at(time_s - rests_s - 0.01) * way * swing_rad / kSwings_s;
+    return {radps, radps};
   }
   const double v = direction * 0.3 * std::sin(kPi * in_leg / kLeg_s), w = 0.3 * v * std::sin(2.0 * kPi * time_s / 37.0);
   return {(v - w) / 0.075, (v + w) / 0.075};
@@ -76,9 +78,8 @@ WheelSpeedsAt legs_and_swings(double time_s) {
 
 // Play that a motor crosses only where it is asked to go the other way; what swings at a stop is drive and wheel as
 // one.
-TEST(DrivetrainBacklash, IsFoundAsLargeAsItIsWhereStopsThatSwingBackDoNotCrossIt) {
-  constexpr double kSmall_rad = 0.006;
-  Random random(45);
+Finding play_that_swings_do_not_cross(double gap_rad, double swing_rad, std::uint64_t seed) {
+  Random random(seed);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0003, 0.01);
   g.drive.encoder_counts_per_revolution = 16384.0;
   g.duration_s = 56.0;
@@ -91,7 +92,7 @@ TEST(DrivetrainBacklash, IsFoundAsLargeAsItIsWhereStopsThatSwingBackDoNotCrossIt
     g.inject = [=](InjectedStep& s) {
       const double direction = direction_at(s.time_s);
       if (direction != 0.0 && direction != play->direction) {
-        play->left_rad = play->direction == 0.0 ? 0.0 : kSmall_rad;
+        play->left_rad = play->direction == 0.0 ? 0.0 : gap_rad;
         play->direction = direction;
       }
       if (direction == 0.0) return;
@@ -99,18 +100,30 @@ TEST(DrivetrainBacklash, IsFoundAsLargeAsItIsWhereStopsThatSwingBackDoNotCrossIt
       play->left_rad -= lost;
       s.left_m -= direction * g.drive.wheel_radius_left_m * lost;
     };
-    recordings.push_back(generated(g, legs_and_swings, random));
+    recordings.push_back(generated(
+        g, [=](double time_s) { return legs_and_swings(time_s, swing_rad); }, random));
     recordings.back().name = "run_" + std::to_string(run + 1);
   }
   Vehicle nominal;
   nominal.kind = g.drive;
   const Diagnosis d = diagnose(recordings, {}, nominal).value();
-  ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.verdict, Verdict::found);
-  EXPECT_EQ(d.findings.front().effect, "drivetrain_backlash");
-  EXPECT_EQ(d.findings.front().component, "left_wheel");
-  const FoundParameter& gap = d.findings.front().parameters.front();
-  EXPECT_NEAR(gap.value, kSmall_rad, 4.0 * gap.stderr_value);
+  return d.findings.empty() ? Finding{} : d.findings.front();
+}
+
+TEST(DrivetrainBacklash, IsFoundAsLargeAsItIsWhereStopsThatSwingBackDoNotCrossIt) {
+  struct {
+    double gap_rad, swing_rad;
+    std::uint64_t seed;
+  } const cases[] = {{0.006, 0.02, 45}, {0.02, 0.03, 48}, {0.01, 0.04, 47}};
+  for (const auto& of : cases) {
+    const Finding play = play_that_swings_do_not_cross(of.gap_rad, of.swing_rad, of.seed);
+    EXPECT_EQ(play.effect, "drivetrain_backlash");
+    EXPECT_EQ(play.component, "left_wheel");
+    ASSERT_FALSE(play.parameters.empty());
+    const FoundParameter& gap = play.parameters.front();
+    EXPECT_NEAR(gap.value, of.gap_rad, 4.0 * gap.stderr_value) << play.form_in_words;
+  }
 }
 
 // To and fro, half a metre and less, in slight bends.

@@ -61,6 +61,14 @@ TEST(DiagnosisJson, WhereHoldsOnlyWhatApplies) {
                                            "zone": {"x_m": 2.2, "y_m": 0.1, "radius_m": 0.7}})")));
 }
 
+TEST(DiagnosisJson, SaysTheFormWhereAnEffectHasSeveral) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.findings[1].form_in_words = "each wheel that is on the patch";
+  const nlohmann::json json = parsed(d);
+  EXPECT_FALSE(json["findings"][0].contains("form"));
+  EXPECT_EQ(json["findings"][1]["form"], "each wheel that is on the patch");
+}
+
 TEST(DiagnosisJson, KnowsEveryVerdictByTheSchemasWord) {
   const std::pair<Verdict, const char*> words[] = {{Verdict::found, "found"},
                                                    {Verdict::nothing_missing, "nothing_missing"},

@@ -157,6 +157,17 @@ TEST(SummaryLines, HoldEachFindingWholeAndSayHowManyMoreThereAre) {
   EXPECT_NE(all.find("-0.09"), std::string::npos) << all;
 }
 
+TEST(Findings, SayInWhichOfSeveralFormsTheyFitBest) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.findings[1].form_in_words = "each wheel that is on the patch";
+  std::string summary;
+  for (const std::string& line : summary_lines(d)) summary += line.substr(line.find_first_not_of(' ')) + " ";
+  EXPECT_EQ(count(summary, "its form: each wheel that is on the patch;"), 1u) << summary;
+  EXPECT_EQ(count(summary, "its form"), 1u) << "the other has but one: " << summary;
+  const std::string page = diagnosis_report(d).text();
+  EXPECT_EQ(count(page, "each wheel that is on the patch"), 1u);
+}
+
 TEST(FaultsTogether, SayOnceWhatHappensInSeveralRecordingsAndWheels) {
   std::vector<Finding> findings(7);
   for (std::size_t k = 0; k < findings.size(); ++k) {
