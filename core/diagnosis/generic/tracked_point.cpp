@@ -39,6 +39,27 @@ std::vector<Motions> motions_of(const DriveView& view, const Offsets& offsets, s
   return out;
 }
 
+// Ahead, to the left and in heading, to one side or the other of a mount with play: which one, the body's turns say,
+// each beginning anew. A wheel's tremble on a straight turns no mount round.
+constexpr std::size_t kOfLooseMount = 3;
+std::vector<Motions> of_loose_mount(const DriveView& view, const std::vector<double>&) {
+  constexpr double kHalfWay_rad = 0.05;
+  std::vector<Motions> out(kOfLooseMount, Motions(view.steps.size()));
+  double turned_rad = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    const EffectStep& s = view.steps[i];
+    turned_rad = std::clamp(turned_rad + s.turn_rad, -kHalfWay_rad, kHalfWay_rad);
+    const double side = turned_rad / kHalfWay_rad;
+    out[0][i].forward_m = out[1][i].sideways_m = out[2][i].turn_rad = side - before;
+    // The offset turns with the body; and a body whose heading is measured turned goes to the other side of that.
+    out[0][i].sideways_m = before * s.turn_rad;
+    out[1][i].forward_m = -before * s.turn_rad;
+    out[2][i].sideways_m = -side * s.forward_m();
+    before = side;
+  }
+  return out;
+}
+
 // Once and twice a turn. Once a turn the same way round is where the point is mounted.
 constexpr std::size_t kOfPosition = 6, kOfHeading = 4;
 
@@ -111,34 +132,33 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
   struct Asked {
     const char *variable, *channel;
     std::size_t amplitudes;
-    Offsets offsets;
+    MotionsOfTerm motions;
     std::vector<GenericCurve> curves;
+  };
+  const auto by = [](const Offsets& offsets, std::size_t count) -> MotionsOfTerm {
+    return [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, offsets, count); };
   };
   std::vector<Asked> all = {
       {"heading",
        "truth's position",
        kOfPosition,
-       position_by_heading,
+       by(position_by_heading, kOfPosition),
        {curve_of("truth off along x [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.x_m; }),
         curve_of("truth off along y [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.y_m; })}},
       {"heading",
        "truth's heading",
        kOfHeading,
-       heading_by_heading,
+       by(heading_by_heading, kOfHeading),
        {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
-                 [](const Off& o) { return o.turned_rad; })}}};
+                 [](const Off& o) { return o.turned_rad; })}},
+      {"which way it turned last", "truth's tracked point, as of a loose mount", kOfLooseMount, of_loose_mount, {}}};
   if (const MountingByRecording mounting(asked.joint.views()); mounting.count() > 0)
-    all.push_back({"recording", "truth's tracked point", mounting.count(), mounting, {}});
+    all.push_back({"recording", "truth's tracked point", mounting.count(), by(mounting, mounting.count()), {}});
   std::vector<GenericTest> tests(all.size());
   parallel_for(static_cast<int>(all.size()), [&](int i) {
-    const auto& [variable, channel, amplitudes, offsets, curves] = all[static_cast<std::size_t>(i)];
+    const auto& [variable, channel, amplitudes, motions, curves] = all[static_cast<std::size_t>(i)];
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    t = asked_of(
-        asked, variable, channel, amplitudes,
-        [of = offsets, count = amplitudes](const DriveView& view, const std::vector<double>&) {
-          return motions_of(view, of, count);
-        },
-        looked_at);
+    t = asked_of(asked, variable, channel, amplitudes, motions, looked_at);
     t.component = "truth";
     t.curves = curves;
   });

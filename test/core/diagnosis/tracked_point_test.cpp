@@ -73,6 +73,34 @@ TEST(TrackedPoint, ShowsACompassBesideIron) {
   EXPECT_NEAR(from_side_to_side, 2.0 * kDeviation_rad, 0.1 * 2.0 * kDeviation_rad);  // points lie 0.13 rad apart
 }
 
+// A mount with play, which the body's turns push to one side or the other: a marker so far ahead of its pin.
+TEST(TrackedPoint, ShowsAMountThatIsLoose) {
+  constexpr double kAhead_m = 0.15, kToEitherSide_rad = 0.008, kPushed_rad = 0.03;
+  test::Case c = calm_case(25);
+  for (Recording& r : c.recordings) {
+    std::vector<double>&x = channel(r, "truth_x_m"), &y = channel(r, "truth_y_m"),
+    &heading = channel(r, "truth_heading_rad");
+    double last = std::nan(""), pushed_rad = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!std::isfinite(heading[i])) continue;
+      const double now = heading[i];
+      if (std::isfinite(last)) pushed_rad = std::clamp(pushed_rad + now - last, -kPushed_rad, kPushed_rad);
+      last = now;
+      const double off_rad = pushed_rad / kPushed_rad * kToEitherSide_rad;
+      x[i] -= kAhead_m * off_rad * std::sin(now);
+      y[i] += kAhead_m * off_rad * std::cos(now);
+      heading[i] += off_rad;
+    }
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  ASSERT_FALSE(d->findings.empty());
+  EXPECT_EQ(d->findings.front().component, "truth");
+  EXPECT_NE(d->findings.front().sentence.find("which way it turned last"), std::string::npos)
+      << d->findings.front().sentence;
+}
+
 // A marker that was put on anew for the second run, 1.5 mm to the side: less than is put right.
 TEST(TrackedPoint, ShowsAMarkerThatWasPutOnAnew) {
   test::Case c = calm_case(24);
