@@ -279,10 +279,12 @@ constexpr double kSaysMore = 1.0;  // by so much of the statistic a shape is tak
 void find_form_again(JointModel& joint, std::size_t k) {
   AcceptedEffect& a = joint.accepted[k];
   if (a.effect->forms.size() < 2 || a.is_held) return;
-  CandidateTest best = tested_in_form(joint, k, static_cast<std::size_t>(a.shape.back()));
+  const auto own = static_cast<std::size_t>(a.shape.back());
+  CandidateTest best = tested_in_form(joint, k, own);
   best.statistic += kSaysMore;
   bool other = false;
   for (std::size_t form = 0; form < a.effect->forms.size(); ++form) {
+    if (form == own) continue;
     CandidateTest t = tested_in_form(joint, k, form);
     if (t.statistic < best.statistic || !is_physical(joint, *a.effect, t.value, t.shape)) continue;
     best = std::move(t);
@@ -300,8 +302,11 @@ void find_form_again(JointModel& joint, std::size_t k) {
 void find_places_again(JointModel& joint) {
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     AcceptedEffect& a = joint.accepted[k];
-    if (a.effect->shape_follows_amplitude) find_form_again(joint, k);
-    if (!a.effect->scan || a.effect->shape_follows_amplitude) continue;
+    if (a.effect->shape_follows_amplitude) {
+      find_form_again(joint, k);
+      continue;
+    }
+    if (!a.effect->scan) continue;
     const int own = static_cast<int>(k);
     const double now = joint.test(joint.columns_of(*a.effect, a.shape), own).statistic;
     const ScoredCandidate again = scored_candidate(joint, CandidateScan(joint, own), *a.effect, own, 1);

@@ -12,19 +12,20 @@ namespace {
 constexpr double kTrail_m = 0.04;  // between the trails that the forms have
 constexpr double kOff_rad = 5.0 * kPi / 180.0;
 
-// Straights forth and back, in which it turns about within half a second, each long enough for a castor to swing round:
-// turned about, it stands five degrees off and obeys d(angle) = -sin(angle) / trail for each metre. The vehicle is
-// turned by the share of half a turn that it swings.
+// Straights forth and back, in which it turns about within half a second, each long enough for a castor to swing round.
+SpeedProfile straights(int run) {
+  return [leg_s = 3.0 + run](double t) {
+    const double pace = 4.0 * std::clamp(4.0 * std::sin(kPi * t / leg_s), -1.0, 1.0), turn = 0.2 * std::sin(0.3 * t);
+    return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
+  };
+}
+
+// On them a castor that swings round: turned about, it stands five degrees off and obeys d(angle) = -sin(angle) / trail
+// for each metre. The vehicle is turned by the share of half a turn that it swings.
 std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& drive, double kick_rad,
                                       double scatter = 0.0) {
   GeneratorSettings g = under_motion_capture(drive, 0.0008, 0.01);
   g.duration_s = 60.0;
-  const auto legs = [](int run) -> SpeedProfile {
-    return [leg_s = 3.0 + run](double t) {
-      const double pace = 4.0 * std::clamp(4.0 * std::sin(kPi * t / leg_s), -1.0, 1.0), turn = 0.2 * std::sin(0.3 * t);
-      return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
-    };
-  };
   const auto swinging = [kick_rad, scatter](int run) {
     return [kick_rad, scatter, each = Random(static_cast<std::uint64_t>(run)), this_rad = kick_rad, angle_rad = 0.0,
             direction = 1](InjectedStep& s) mutable {
@@ -39,7 +40,7 @@ std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& d
       s.turn_rad += this_rad * swung / kPi;
     };
   };
-  return three_runs(g, random, legs, swinging);
+  return three_runs(g, random, straights, swinging);
 }
 
 void expect_measured(const Diagnosis& d, double kick_rad) {
@@ -80,12 +81,6 @@ TEST(CastorReversalKick, IsMeasuredWhereItFadesAsFrictionLetsGo) {
   Random random(64);
   GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0005, 0.01);
   g.duration_s = 60.0;
-  const auto legs = [](int run) -> SpeedProfile {
-    return [leg_s = 3.0 + run](double t) {
-      const double pace = 4.0 * std::clamp(4.0 * std::sin(kPi * t / leg_s), -1.0, 1.0), turn = 0.2 * std::sin(0.3 * t);
-      return WheelSpeedsAt{pace * (1.0 - turn), pace * (1.0 + turn)};
-    };
-  };
   const auto fading = [](int) {
     return [direction = 1, left = 0.0](InjectedStep& s) mutable {
       const double way_m = 0.5 * 0.075 * (s.left_radps + s.right_radps) * s.dt_s;
@@ -96,7 +91,7 @@ TEST(CastorReversalKick, IsMeasuredWhereItFadesAsFrictionLetsGo) {
       s.turn_rad += kKick_rad * gone;
     };
   };
-  const Diagnosis d = diagnose(three_runs(g, random, legs, fading), {}, Vehicle{}).value();
+  const Diagnosis d = diagnose(three_runs(g, random, straights, fading), {}, Vehicle{}).value();
   EXPECT_EQ(d.verdict, Verdict::found);
   ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings.front().effect, "castor_reversal_kick");

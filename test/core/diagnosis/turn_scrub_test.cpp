@@ -9,8 +9,9 @@
 namespace odolab::test {
 namespace {
 
-// The wheelbase grows with the rate at which the vehicle turns, or with that at which its wheels would turn it: at 12 %
-// per rad/s these differ by as much again where it turns at 1 rad/s, and the rate at rest is the other's by a fifth.
+// The wheelbase grows with the rate at which the vehicle turns, or with that at which its wheels would turn it, which
+// at 12 % per rad/s is an eighth more where it turns at 1 rad/s: by the other rate the scrub came out a fifth too
+// large.
 TEST(TurnScrub, IsAsLargeAsItIsByWhicheverRateItGrows) {
   constexpr double kScrub = 0.12, kBase_m = 0.34, kRadius_m = 0.075;
   for (const bool by_wheels : {false, true}) {
