@@ -119,7 +119,7 @@ class JoinedFilter {
   void correct(const Reading& reading, const Seen& seen, const Eigen::VectorXd& off, State& state) const;
   // The pose between two samples; the ends hold beyond them.
   static Pose on_the_way(const Track& track, double time_s);
-  Eigen::MatrixXd turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
+  Small turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
                               const std::vector<Pose>& unit_T_body) const;
   std::vector<Pose> units_T_body(const Vehicle& vehicle, const std::vector<double>& joints) const;
   Eigen::VectorXd read_at(const std::vector<Pose>& units, const std::vector<Pose>& unit_T_body,

@@ -7,22 +7,27 @@
 namespace odolab {
 
 double JoinedModel::fit_sizes(const std::vector<NoiseSize>& sizes) {
+  constexpr double kStep = 1.15;  // a size is known no better
+  constexpr int kMostRounds = 5;  // of each size, beside the others as they are then
   double here = minus_two_log_likelihood(noise_);
-  for (double factor : {2.0, 1.4, 1.15})
-    for (const NoiseSize& one : sizes)
-      for (int tries = 0; tries < 6; ++tries) {  // downhill by factors
-        JoinedNoise more = noise_, less = noise_;
-        more.*one.of = std::min(more.*one.of * factor, one.most);
-        less.*one.of = std::max(less.*one.of / factor, one.least);
-        const double up = minus_two_log_likelihood(more);
-        if (up < here) {
-          noise_ = more, here = up;
-          continue;
-        }
-        const double down = minus_two_log_likelihood(less);
-        if (down >= here) break;
-        noise_ = less, here = down;
-      }
+  const auto goes_downhill = [&](const NoiseSize& one, double factor) {
+    JoinedNoise other = noise_;
+    other.*one.of = std::clamp(other.*one.of * factor, one.least, one.most);
+    const double there = minus_two_log_likelihood(other);
+    if (there >= here) return false;
+    noise_ = other, here = there;
+    return true;
+  };
+  bool moved = true;
+  for (int round = 0; round < kMostRounds && moved; ++round) {
+    moved = false;
+    for (const NoiseSize& one : sizes) {
+      bool up = false, down = false;
+      for (double factor = kStep; goes_downhill(one, factor); factor *= factor) up = true;
+      for (double factor = kStep; !up && goes_downhill(one, 1.0 / factor); factor *= factor) down = true;
+      moved = moved || up || down;
+    }
+  }
   return here;
 }
 

@@ -169,7 +169,8 @@ void JoinedFilter::look(const Reading& reading, const JoinedNoise& noise, const 
     for (std::size_t u = 1; u < units(); ++u)
       by.segment<3>(3 * static_cast<Index>(u) - 3) = in(to_first, moved_by(u) - of_first);
     if (reading.truth) by.tail<3>() = in(to_truth, of_first);
-    err += reading.held[j] * std::pow(noise.joint_steps * joint_step_[j], 2) * by * by.transpose();
+    const double variance = reading.held[j] * std::pow(noise.joint_steps * joint_step_[j], 2);
+    err.noalias() += (variance * by) * by.transpose();
   }
   for (std::size_t u = 0; u < units(); ++u) {  // a count that is not full yet
     const double variance = count_m_[u] * count_m_[u] / 12.0, base_m = drives_[u].wheelbase_m;
@@ -177,7 +178,7 @@ void JoinedFilter::look(const Reading& reading, const JoinedNoise& noise, const 
     for (const double side : {-1.0, 1.0}) {
       by = h.middleCols(k, 3) *
            Eigen::Vector3d(0.5 * std::cos(at[u].heading_rad), 0.5 * std::sin(at[u].heading_rad), side / base_m);
-      err += variance * by * by.transpose();
+      err.noalias() += (variance * by) * by.transpose();
     }
   }
   for (Index k = 0; k < of_joints; ++k) {
@@ -195,7 +196,8 @@ bool JoinedFilter::is_taken(const Reading& reading, const Seen& seen, const Smal
   if (!outliers_show_ || reading.is_believed) return true;
   const Index of_joints = rows() - 3;
   const Small h = seen.by_states.middleRows(of_joints, truth_rows_);
-  Small s = h * p * h.transpose();
+  const Small hp = h.lazyProduct(p);
+  Small s = hp.lazyProduct(h.transpose());
   s += seen.err.block(of_joints, of_joints, truth_rows_, truth_rows_);
   const Eigen::LLT<Small> root(s);
   const VectorXd off = seen.read.segment(of_joints, truth_rows_);
@@ -235,9 +237,9 @@ void JoinedFilter::put_anew(const Reading& reading, State& state) const {
 // joints that are read again and again would seem to tell where the room is (G. P. Huang, A. I. Mourikis and S. I.
 // Roumeliotis, "Observability-based rules for designing consistent EKF SLAM estimators", International Journal of
 // Robotics Research 29(5):502-528, 2010).
-MatrixXd JoinedFilter::turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
-                                   const std::vector<Pose>& unit_T_body) const {
-  MatrixXd turn = MatrixXd::Identity(states(), states());
+JoinedFilter::Small JoinedFilter::turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
+                                              const std::vector<Pose>& unit_T_body) const {
+  Small turn = Small::Identity(states(), states());
   const auto swing = [&](const std::vector<Pose>& poses, std::size_t u) {  // of the body, by the unit's heading
     const Vec2 arm = rotated(unit_T_body[u].position(), poses[u].heading_rad);
     return Eigen::Vector2d(-arm.y_m, arm.x_m);
@@ -327,18 +329,19 @@ double JoinedFilter::run(const JoinedNoise& noise, Wanted wanted) {
     const Index m = of_joints + (with_truth ? truth_rows_ : 0) - from;
     if (m <= 0) continue;
     const Small h = seen.by_states.middleRows(from, m);
-    const Small ph = state.p * h.transpose();
-    Small s = h * ph;
+    const Small ph = state.p.lazyProduct(h.transpose());
+    Small s = h.lazyProduct(ph);
     s += seen.err.block(from, from, m, m);
     const Eigen::LLT<Small> root(s);
     const VectorXd white = root.matrixL().solve(-seen.read.segment(from, m));
     const Small gain = root.solve(ph.transpose()).transpose();
     for (Index a = 0; a < m; ++a) minus_two_log += white[a] * white[a] + 2.0 * std::log(root.matrixLLT()(a, a));
     const VectorXd off = gain * -seen.read.segment(from, m);
-    state.p -= gain * ph.transpose();
+    state.p -= gain.lazyProduct(ph.transpose());
     correct(reading, seen, off, state);
     const Small turn = turned_with(predicted, state.at, reading.unit_T_body);
-    state.p = turn * state.p * turn.transpose();
+    const Small with_turn = turn.lazyProduct(state.p);
+    state.p = with_turn.lazyProduct(turn.transpose());
     state.p = 0.5 * (state.p + state.p.transpose()).eval();
     if (!step) continue;
     residual_.segment(static_cast<Index>(r) * n + from, m) = white;
