@@ -8,6 +8,7 @@
 
 #include "core/base/formatted.h"
 #include "core/calibration/even_stamps.h"
+#include "core/calibration/repeated_stamps.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
@@ -27,6 +28,15 @@ bool is_worth_a_word(const EvenStamps& even) {
 std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
   const std::string text = formatted(": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
                                      1e3 * even.trembling_s, 1.0 / even.period_s);
+  return (name.empty() ? "the recording" : name) + text;
+}
+
+std::string sentence(const std::string& name, const char* what, const SpreadStamps& spread) {
+  const std::string text =
+      spread.repeated == 1
+          ? formatted(": one of its %s stamps repeats the one before; put between its neighbours", what)
+          : formatted(": %d of its %s stamps repeat the one before; put between their neighbours", spread.repeated,
+                      what);
   return (name.empty() ? "the recording" : name) + text;
 }
 
@@ -71,12 +81,12 @@ Recording with(const Recording& old, const std::vector<NewTimes>& evened) {
   return made;
 }
 
-// `even` has a time for each row that `taken` says was sampled.
-std::vector<double> row_times(const std::vector<char>& taken, const EvenStamps& even) {
+// `new_s`: a time for each row that `taken` says was sampled.
+std::vector<double> row_times(const std::vector<char>& taken, const std::vector<double>& new_s) {
   std::vector<double> times(taken.size(), std::numeric_limits<double>::quiet_NaN());
   std::size_t k = 0;
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (taken[i]) times[i] = even.time_s[k++];
+    if (taken[i]) times[i] = new_s[k++];
   return times;
 }
 
@@ -107,15 +117,28 @@ struct ReadEncoders {
   std::function<bool(const std::string&)> belongs;
 };
 
+// Of readings that were taken evenly, or of which some have the stamp of the one before; and what is to be said of it.
+std::optional<std::vector<double>> new_times(const std::string& name, const char* what,
+                                             const std::vector<double>& time_s,
+                                             const std::vector<std::vector<double>>& paths, bool together,
+                                             std::vector<std::string>& said) {
+  if (const auto even = even_stamps(time_s, paths, together)) {
+    if (is_worth_a_word(*even)) said.push_back(sentence(name, what, *even));
+    return even->time_s;
+  }
+  const auto spread = spread_repeated(time_s);
+  if (!spread) return std::nullopt;
+  said.push_back(sentence(name, what, *spread));
+  return spread->time_s;
+}
+
 std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadEncoders& read) {
   EvenedRecording out;
   std::vector<NewTimes> parts;
   if (read.rows &&
       static_cast<std::ptrdiff_t>(read.time_s.size()) == std::count(read.rows->begin(), read.rows->end(), 1))
-    if (const auto even = even_stamps(read.time_s, read.paths)) {
-      if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "encoder", *even));
-      parts.push_back({read.belongs, row_times(*read.rows, *even)});
-    }
+    if (const auto times = new_times(recording.name, "encoder", read.time_s, read.paths, false, out.said))
+      parts.push_back({read.belongs, row_times(*read.rows, *times)});
   if (const auto seen = rows_of(recording, {"truth_x_m", "truth_y_m"})) {
     std::vector<double> time_s, x, y;
     for (const TruthSample& t : truth_samples(recording)) {
@@ -123,10 +146,8 @@ std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadE
       x.push_back(t.position.x_m);
       y.push_back(t.position.y_m);
     }
-    if (const auto even = even_stamps(time_s, {x, y}, true)) {
-      if (is_worth_a_word(*even)) out.said.push_back(sentence(recording.name, "truth", *even));
-      parts.push_back({is_of_truth, row_times(*seen, *even)});
-    }
+    if (const auto times = new_times(recording.name, "truth", time_s, {x, y}, true, out.said))
+      parts.push_back({is_of_truth, row_times(*seen, *times)});
   }
   if (parts.empty()) return std::nullopt;
   out.recording = with(recording, parts);

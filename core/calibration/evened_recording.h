@@ -1,4 +1,5 @@
-// Recordings whose stamps are those of arrival, put back onto the even period at which they were taken.
+// Recordings whose stamps are those of arrival, put back onto the even period at which they were taken; or of which some
+// repeat the one before.
 #pragma once
 
 #include <optional>
@@ -15,8 +16,8 @@ struct EvenedRecording {
   std::vector<std::string> said;  // what was done, for whoever reads the report
 };
 
-// Nothing where all stamps are to be believed (`even_stamps`): the wheels' way decides for the encoders, the truth's
-// own path for the truth.
+// Nothing where all stamps are to be believed (`even_stamps`, `spread_repeated`): the wheels' way decides for the
+// encoders, the truth's own path for the truth.
 std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive);
 
 // The same of a linked or castor vehicle, of which all encoders are read at once: their columns.

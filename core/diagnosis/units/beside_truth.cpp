@@ -6,13 +6,13 @@
 
 #include "core/base/formatted.h"
 #include "core/diagnosis/quality/frozen_truth.h"
-#include "core/diagnosis/units/biases_from_inside.h"
 #include "core/diagnosis/units/errors_of_lengths.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"
 #include "core/diagnosis/units/joined_clocks.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_residuals.h"
+#include "core/diagnosis/units/joints_by_all.h"
 #include "core/diagnosis/units/lone_bias.h"
 #include "core/diagnosis/units/mended_counts.h"
 #include "core/diagnosis/units/merged.h"
@@ -48,6 +48,21 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
     }
   }
   if (dropped && d.findings.empty()) d.verdict = Verdict::nothing_missing;
+}
+
+// Other encoders that alone would do nearly as well.
+void add_instead(const LoneBias& lone, const GeometryFit& geometry, Diagnosis& d) {
+  const JointParameter& named = geometry.joints[lone.joint].parameter;
+  for (Finding& f : d.findings) {
+    if (f.effect != named.effect || f.component != named.component) continue;
+    for (const LoneBias::Instead& other : lone.instead) {
+      const JointParameter& p = geometry.joints[other.joint].parameter;
+      f.alternatives.push_back({p.effect, p.component, 0.5 * other.gain,
+                                "tight bends to both sides: wide ones show how the encoders differ, and of neither "
+                                "which is off"});
+      d.verdict = Verdict::ambiguous;
+    }
+  }
 }
 
 // How the truth's heading is mounted on a vehicle that tows, and whose wheels are not looked at: known by the way it
@@ -162,10 +177,9 @@ class BesideTruth {
     if (told_)
       if (const std::optional<Error> error = judge_beside_names()) return *error;
     if (!goes_on(progress_, 0.9)) return stopped;
-    const bool are_trucks = units_.size() > 1 && !std::holds_alternative<MultiCastor>(nominal_.kind);
-    if (!told_ && are_trucks)
-      put_inside_beside_truth(geometry_, train_.recordings, nominal_, diagnoses_,
-                              [&](double) { return goes_on(progress_, 0.95); });
+    if (!told_ && is_followed_ && may_be_joined())
+      of_joint_ = tell_joints_by_all(train_.runs, train_.recordings, names_of_train(), diagnoses_, nominal_,
+                                     options_.family_wise_error, geometry_);
     if (!goes_on(progress_, 0.95)) return stopped;
     return put_together();
   }
@@ -190,14 +204,16 @@ class BesideTruth {
   }
 
   void tell_together() {
-    if (units_.size() < 2 || units_.size() > kMostJoinedUnits || !may_be_coarse(train_.runs)) return;
-    const std::vector<std::string> names(names_.begin(),
-                                         names_.begin() + static_cast<std::ptrdiff_t>(train_.runs.size()));
-    told_ = told_together(train_.runs, nominal_, geometry_.clock_s, names, options_.family_wise_error,
+    if (!may_be_joined() || !may_be_coarse(train_.runs)) return;
+    told_ = told_together(train_.runs, nominal_, geometry_.clock_s, names_of_train(), options_.family_wise_error,
                           [&](double share) { return goes_on(progress_, 0.1 * share); });
-    if (!told_) return;
-    take_biases(told_->model, geometry_);
-    set_most_pivots_right(geometry_);
+    if (told_) take_biases(told_->model, nominal_, geometry_);
+  }
+
+  bool may_be_joined() const { return units_.size() > 1 && units_.size() <= kMostJoinedUnits; }
+
+  std::vector<std::string> names_of_train() const {
+    return {names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(train_.runs.size())};
   }
 
   std::vector<Recording> own_of(const Set& set, const Read& read, const std::vector<double>& clock_s,
@@ -268,9 +284,9 @@ class BesideTruth {
   }
 
   // One encoder that is off is simpler than several, of which none may be known well.
-  std::vector<std::string> hold_right_encoders() {
-    const std::optional<LoneBias> lone = lone_bias(geometry_);
-    if (!lone || std::abs(lone->off) < kSigmasOfBias * lone->stderr_value) return {};
+  std::optional<LoneBias> hold_right_encoders() {
+    std::optional<LoneBias> lone = lone_bias(geometry_);
+    if (!lone || std::abs(lone->off) < kSigmasOfBias * lone->stderr_value) return std::nullopt;
     const auto put = [&](JointEstimate& e, double value) { e.parameter.of(geometry_.vehicle) = e.value = value; };
     JointEstimate& off = geometry_.joints[lone->joint];
     put(off, off.nominal + lone->off);
@@ -278,19 +294,29 @@ class BesideTruth {
     for (JointEstimate& other : geometry_.joints)
       if (std::find(lone->others.begin(), lone->others.end(), other.parameter.name) != lone->others.end())
         put(other, other.nominal);
-    return lone->others;
+    if (std::holds_alternative<MultiCastor>(nominal_.kind)) turn_about_body(geometry_, lone->turned_rad);
+    return lone;
   }
 
   Diagnosis put_together() {
-    const std::vector<std::string> right = hold_right_encoders();
+    const std::optional<LoneBias> lone = hold_right_encoders();
     Diagnosis d = merged(diagnoses_, geometry_, nominal_, train_.recordings);
     Vehicle as_mounted = nominal_;
     if (is_towed_) as_mounted.truth.axle_T_tracked.heading_rad = geometry_.vehicle.truth.axle_T_tracked.heading_rad;
-    prove_biases(d, train_.runs, geometry_, as_mounted, right);
+    prove_biases(d, train_.runs, geometry_, as_mounted, lone ? lone->others : std::vector<std::string>{});
+    if (lone) add_instead(*lone, geometry_, d);
     if (told_) put_names_into(*told_, d);
     if (erring_ && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
       add_erring_joint(*erring_, nominal_, d);
       leave_out_biases_beside_erring_joints(d.findings);
+    }
+    if (of_joint_ && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
+      d.findings.insert(d.findings.begin(), *of_joint_);
+      if (!leave_out_small_rest(d.findings)) {
+        d.sentences.insert(d.sentences.begin(), of_joint_->sentence);
+        d.verdict = Verdict::unknown_effect;
+        leave_out_biases_beside_erring_joints(d.findings);
+      }
     }
     if (!clocks_.empty()) {
       std::erase_if(d.findings, [](const Finding& f) { return f.effect == "clock_rate"; });
@@ -319,6 +345,7 @@ class BesideTruth {
   std::optional<ToldTogether> told_;
   std::vector<Diagnosis> diagnoses_;  // of each unit
   std::optional<ErringJoint> erring_;
+  std::optional<Finding> of_joint_;  // an encoder that errs otherwise than by a bias
 };
 
 }  // namespace

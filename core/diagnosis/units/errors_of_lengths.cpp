@@ -73,12 +73,10 @@ Length place_of_truth(const std::string& name) {
 UncertainLengths uncertain_lengths(const GeometryFit& geometry, const LeastSquaresCalibration* carrying) {
   UncertainLengths lengths;
   std::vector<Eigen::Index> rows;
-  std::vector<double> widened;  // what the units themselves told better or worse than stretches beside the truth
   for (Eigen::Index k = 0; k < geometry.covariance.rows(); ++k) {
     const JointEstimate& e = geometry.joints[static_cast<std::size_t>(k)];
     if (!e.determined) continue;
     rows.push_back(k);
-    widened.push_back(e.is_from_inside ? e.stderr_value / std::sqrt(geometry.covariance(k, k)) : 1.0);
     lengths.of.push_back(e.parameter.of);
   }
   std::vector<double> variances;
@@ -89,9 +87,8 @@ UncertainLengths uncertain_lengths(const GeometryFit& geometry, const LeastSquar
         variances.push_back(p.stderr_value * p.stderr_value);
       }
   const auto n = static_cast<Eigen::Index>(rows.size()), of_truth = static_cast<Eigen::Index>(variances.size());
-  const auto wider = Eigen::Map<const Eigen::VectorXd>(widened.data(), n).asDiagonal();
   lengths.covariance = MatrixXd::Zero(n + of_truth, n + of_truth);
-  lengths.covariance.topLeftCorner(n, n) = wider * MatrixXd(geometry.covariance(rows, rows)) * wider;
+  lengths.covariance.topLeftCorner(n, n) = geometry.covariance(rows, rows);
   lengths.covariance.bottomRightCorner(of_truth, of_truth).diagonal() =
       Eigen::Map<const Eigen::VectorXd>(variances.data(), of_truth);
   return lengths;

@@ -419,10 +419,12 @@ void set_most_pivots_right(GeometryFit& fit) {
   const auto* platform = std::get_if<MultiCastor>(&fit.vehicle.kind);
   if (!platform || off.size() < 3 || off.size() < platform->castors.size()) return;
   const double turn_rad = median(std::move(off));
-  for (Castor& c : std::get<MultiCastor>(fit.vehicle.kind).castors) {
-    c.pivot_encoder_offset_rad -= turn_rad;
-    c.pivot_angle_rad += turn_rad;
-  }
+  for (Castor& c : std::get<MultiCastor>(fit.vehicle.kind).castors) c.pivot_encoder_offset_rad -= turn_rad;
+  turn_about_body(fit, turn_rad);
+}
+
+void turn_about_body(GeometryFit& fit, double turn_rad) {
+  for (Castor& c : std::get<MultiCastor>(fit.vehicle.kind).castors) c.pivot_angle_rad += turn_rad;
   Pose& mounting = fit.vehicle.truth.axle_T_tracked;
   mounting = Pose{0.0, 0.0, turn_rad} * mounting;
   for (JointEstimate& e : fit.joints)

@@ -56,6 +56,8 @@ Eigen::MatrixXd moved_bodies(const MultiCastor& platform, const std::vector<std:
 // A turn of all pivots' readings, and of the pivots' places the other way, is a turn of the body's own x axis, which
 // nothing tells: most readings are taken to be right. Three castors or more.
 void set_most_pivots_right(GeometryFit& fit);
+// The body's own x axis turned back: the places of all pivots, and where the truth sits, turn by this.
+void turn_about_body(GeometryFit& fit, double turn_rad);
 
 // How much a joint's offset takes off what the units contradict each other in runs that it was not fitted on: the sum
 // of squares with it over that without, each run by a fit to the others. Below 1: the offset is there in all of them. 1

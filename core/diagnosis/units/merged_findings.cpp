@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
@@ -244,13 +245,21 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
 }
 
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all) {
+  const auto is_bias = [](const Finding& f) {
+    return f.effect == "link_angle_bias" || f.effect == "link_length_bias" || f.effect == "pivot_angle_bias";
+  };
   double of_joints = 0.0;
-  for (const Finding& f : all)
-    if (is_of_a_joint(f)) of_joints = std::max(of_joints, f.log_likelihood_gain);
+  std::set<std::string> erring;
+  for (Finding& f : all) {
+    if (!is_of_a_joint(f)) continue;
+    of_joints = std::max(of_joints, f.log_likelihood_gain);
+    erring.insert(f.component);
+    for (const Finding& bias : all)
+      if (is_bias(bias) && bias.component == f.component)
+        f.alternatives.push_back({bias.effect, bias.component, bias.log_likelihood_gain, ""});
+  }
   std::erase_if(all, [&](const Finding& f) {
-    const bool is_bias =
-        f.effect == "link_angle_bias" || f.effect == "link_length_bias" || f.effect == "pivot_angle_bias";
-    return is_bias && f.log_likelihood_gain < of_joints;
+    return is_bias(f) && (erring.count(f.component) > 0 || f.log_likelihood_gain < of_joints);
   });
 }
 

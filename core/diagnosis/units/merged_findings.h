@@ -31,8 +31,8 @@ bool leave_out_small_rest(std::vector<Finding>& all);
 std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vector<VehicleUnit>& units,
                                     std::vector<Finding>& all);
 
-// Where an encoder of a joint errs in a way that has no name, a bias of that or another is what its mean makes of it;
-// not one that says more.
+// Where an encoder of a joint errs in a way that has no name, a bias of it is what its mean makes of it, and stands
+// among what it resembles; so is a bias of another that says less.
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 
 // What has no name first, then the strongest; and of the evidence of all the share of each that has one.

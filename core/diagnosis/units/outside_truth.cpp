@@ -40,6 +40,13 @@ Track tracked_poses(const Recording& recording) { return tracked(recording, true
 
 Track tracked_positions(const Recording& recording) { return tracked(recording, false); }
 
+Track at_least_apart(const Track& tracked, double step_s) {
+  Track fewer;
+  for (const TimedPose& t : tracked)
+    if (fewer.empty() || t.time_s >= fewer.back().time_s + step_s) fewer.push_back(t);
+  return fewer;
+}
+
 bool comes_often(const Track& t) {
   constexpr double kLongest_s = 1.0;
   return t.size() > 1 && t.back().time_s - t.front().time_s <= kLongest_s * static_cast<double>(t.size() - 1);

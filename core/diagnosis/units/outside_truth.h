@@ -12,6 +12,8 @@ namespace odolab {
 Track tracked_poses(const Recording& recording);
 // The same of a truth whose headings are not looked at: they are zero.
 Track tracked_positions(const Recording& recording);
+// Without samples that come sooner after the one before.
+Track at_least_apart(const Track& tracked, double step_s);
 // Once a second, in the mean, or more: else it is too little to judge a unit by.
 bool comes_often(const Track& tracked);
 // Of poses that do not come often each counts: the first and the last may be stamped half a second before and behind

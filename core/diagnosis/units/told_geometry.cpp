@@ -85,16 +85,26 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
   return own;
 }
 
-void take_biases(const JoinedModel& model, GeometryFit& fit) {
-  for (JointEstimate& e : fit.joints) {
-    if (!e.is_of_an_encoder()) continue;
-    const std::optional<JoinedModel::Known> known = model.length(e.parameter.name);
-    if (!known || (e.determined && known->stderr_value > e.stderr_value)) continue;
-    e.value = e.nominal + known->value;
-    e.stderr_value = known->stderr_value;
-    e.parameter.of(fit.vehicle) = e.value;
+void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit) {
+  const GeometryFit told = told_geometry(model, nominal);
+  std::vector<Eigen::Index> taken;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < fit.joints.size(); ++k) {
+    JointEstimate& e = fit.joints[k];
+    const JointEstimate& by_all = told.joints[k];
+    if (!e.is_of_an_encoder() || !by_all.determined || (e.determined && by_all.stderr_value > e.stderr_value)) continue;
+    e.parameter.of(fit.vehicle) = e.value = by_all.value;
+    e.stderr_value = by_all.stderr_value;
     e.determined = e.is_from_inside = true;
+    taken.push_back(static_cast<Eigen::Index>(k));
+    names.push_back(e.parameter.name);
   }
+  if (fit.covariance.rows() == 0) return;
+  for (const Eigen::Index k : taken) {
+    fit.covariance.row(k).setZero();
+    fit.covariance.col(k).setZero();
+  }
+  fit.covariance(taken, taken) = model.covariance_of(names);
 }
 
 Pose start_of(const JoinedModel& model, std::size_t run) {

@@ -21,8 +21,8 @@ GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal);
 Recording recording_by_positions(const Recording& recording, const std::vector<UnitSample>& samples,
                                  const JoinedRun& run, double clock_s, const JoinedModel& model);
 
-// Biased encoders, where all units together tell them better than what the geometry has.
-void take_biases(const JoinedModel& model, GeometryFit& fit);
+// Biased encoders, with how they err together, where all units together tell them better than what the geometry has.
+void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit);
 
 // Where the vehicle's reference point is in the room when a recording starts.
 Pose start_of(const JoinedModel& model, std::size_t run);

@@ -47,8 +47,6 @@ std::size_t functions_of(const Group& group, const DriveView& view) {
 std::vector<JoinedGroup> joined_groups(const JoinedModel& model) {
   std::vector<JoinedGroup> all;
   const std::vector<VehicleUnit> units = units_of(model.vehicle());
-  std::vector<std::vector<UnitSample>> samples;
-  for (const JoinedRun& run : model.given()) samples.push_back(with_smooth_joints(run.samples));
   for (std::size_t u = 0; u < units.size(); ++u) {
     const std::vector<DriveView>& views = model.views(u);
     const std::string component = units[u].name.empty() ? "vehicle" : units[u].name;
@@ -65,6 +63,16 @@ std::vector<JoinedGroup> joined_groups(const JoinedModel& model) {
                        },
                        {}});
     }
+  }
+  for (JoinedGroup& of_joint : groups_of_joints(model)) all.push_back(std::move(of_joint));
+  return all;
+}
+
+std::vector<JoinedGroup> groups_of_joints(const JoinedModel& model) {
+  std::vector<JoinedGroup> all;
+  std::vector<std::vector<UnitSample>> samples;
+  for (const JoinedRun& run : model.given()) samples.push_back(with_smooth_joints(run.samples));
+  for (std::size_t u = 0; u < model.units(); ++u) {
     const auto errors = joint_errors(samples, model.names(), model.vehicle(), u);
     if (!errors) continue;
     for (const TruthError& error : *errors) {

@@ -20,5 +20,6 @@ struct JoinedGroup {
 // in each channel; of each joint's encoder an error that goes with what it reads, with which way it went, with how fast
 // it turns, and with how hard its unit is pulled aside.
 std::vector<JoinedGroup> joined_groups(const JoinedModel& model);
+std::vector<JoinedGroup> groups_of_joints(const JoinedModel& model);  // those of the encoders alone
 
 }  // namespace odolab

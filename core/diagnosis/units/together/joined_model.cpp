@@ -255,6 +255,21 @@ std::optional<JoinedModel::Known> JoinedModel::length(const std::string& name) c
   return std::nullopt;
 }
 
+MatrixXd JoinedModel::covariance_of(const std::vector<std::string>& lengths) const {
+  const auto n = static_cast<Index>(lengths.size());
+  MatrixXd picked = MatrixXd::Zero(z_.cols(), n);
+  VectorXd error = VectorXd::Zero(n);
+  for (Index k = 0; k < n; ++k)
+    for (std::size_t l = 0; l < lengths_.size(); ++l)
+      if (lengths_[l].name == lengths[static_cast<std::size_t>(k)]) {
+        picked(static_cast<Index>(l), k) = 1.0;
+        error[k] = stderr_of(picked.col(k));
+      }
+  const MatrixXd white = picked.transpose() * gram_.solve(picked);
+  const VectorXd wider = error.cwiseQuotient(white.diagonal().cwiseMax(1e-300).cwiseSqrt());
+  return wider.asDiagonal() * white * wider.asDiagonal();
+}
+
 double JoinedModel::stderr_of_aside_m(std::size_t castor) const {
   const std::optional<Known> known = length(aside_name(castor));
   return known ? known->stderr_value : kAsidePrior_m;

@@ -59,6 +59,8 @@ class JoinedModel {
     double value = 0.0, stderr_value = 0.0;  // of what it is more than in the file
   };
   std::optional<Known> length(const std::string& name) const;
+  // Of these lengths with each other; none with what is not in the model.
+  Eigen::MatrixXd covariance_of(const std::vector<std::string>& lengths) const;
   // Of where a castor's axle lies beside its pivot's line.
   double stderr_of_aside_m(std::size_t castor) const;
   // Of the share by which all wheels together may be larger than they are taken to be.

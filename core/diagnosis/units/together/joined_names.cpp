@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/naming/in_each_run.h"
@@ -185,7 +186,10 @@ class Naming {
     while (std::count_if(named_.begin(), named_.end(), is_more) < kMostNames && goes_on(progress, 0.5)) {
       ScoredTogether* best = nullptr;
       std::vector<ScoredTogether> now = scored_;
-      if (!named_.empty()) ask_again(with, now);
+      if (!named_.empty()) {
+        scatter_ = usual_scatter(with);
+        ask_again(with, now);
+      }
       for (ScoredTogether& s : scored_moments(with)) now.push_back(std::move(s));
       for (ScoredTogether& s : now) {
         if (!holds(s) || !is_physical(s) || is_named(s)) continue;
@@ -217,8 +221,29 @@ class Naming {
     std::erase_if(scored_, [](const ScoredTogether& s) { return !s.columns; });
     std::erase_if(scores, [](const ScoreByBatches& s) { return s.u.empty(); });
     believed_white_ = batches_of_prior(scores);
+    scatter_ = usual_scatter(scores);
     parallel_for(static_cast<int>(scored_.size()),
                  [&](int k) { ask_again(model_, scored_[static_cast<std::size_t>(k)]); });
+  }
+
+  // Wheels that slip on as they did just now scatter the scores of all that lasts: none is believed to scatter less
+  // than most do.
+  static double usual_scatter(const std::vector<ScoreByBatches>& scores) {
+    constexpr double kFewestToTell = 3.0;  // batches that matter
+    std::vector<double> scatters;
+    for (const ScoreByBatches& s : scores)
+      if (s.count >= kFewestToTell) scatters.push_back(s.scatter);
+    return scatters.empty() ? 1.0 : std::max(1.0, median(std::move(scatters)));
+  }
+
+  // Beside what was let in.
+  double usual_scatter(const JoinedModel& with) const {
+    std::vector<ScoreByBatches> scores(scored_.size());
+    parallel_for(static_cast<int>(scored_.size()), [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!scored_[i].candidate.effect->scan) scores[i] = with.score_by_batches(*scored_[i].columns);
+    });
+    return usual_scatter(scores);
   }
 
   // The strongest moments, each as a bump, as one that comes back at its place, and as a push, as it suits them.
@@ -299,7 +324,7 @@ class Naming {
 
   void ask_again(const JoinedModel& with, ScoredTogether& s) const {
     s.test = with.test(*s.columns, s.of_moments > 0.0 ? -1.0 : believed_white_);
-    s.test.inflation = s.of_moments > 0.0 ? s.of_moments : std::max(s.test.inflation, s.least_inflation);
+    s.test.inflation = s.of_moments > 0.0 ? s.of_moments : std::max({s.test.inflation, s.least_inflation, scatter_});
     judge(s, scored_.size());
   }
 
@@ -440,7 +465,7 @@ class Naming {
 
   JoinedModel& model_;
   double least_ = least_said(model_.vehicle());
-  double p_, believed_white_ = kFewestBatchesBelieved;
+  double p_, believed_white_ = kFewestBatchesBelieved, scatter_ = 1.0;
   std::vector<ScoredTogether> scored_, named_;
 };
 

@@ -28,8 +28,8 @@ Alternative as_alternative(const ScoredTogether& named) {
   return {named.candidate.effect->name, named.candidate.component, 0.5 * named.test.judged(), ""};
 }
 
-std::optional<Finding> strongest_group(const JoinedModel& model, const std::vector<ScoredTogether>& names,
-                                       double family_wise_error) {
+std::optional<Finding> strongest_of(const std::vector<JoinedGroup>& groups, const JoinedModel& model,
+                                    const std::vector<ScoredTogether>& names, double family_wise_error) {
   JoinedModel with = model;
   double named = 0.0;
   for (const ScoredTogether& s : names) {
@@ -37,7 +37,6 @@ std::optional<Finding> strongest_group(const JoinedModel& model, const std::vect
     named += s.test.judged();
   }
   const double least = std::max(kLeastUnnamed, least_said(model.vehicle()));
-  const std::vector<JoinedGroup> groups = joined_groups(model);
   const auto tests = static_cast<double>(groups.size());
   std::vector<Finding> found(groups.size());
   std::vector<double> excess(groups.size(), 0.0);
@@ -93,8 +92,12 @@ std::optional<Finding> pushed_again_and_again(const std::vector<ScoredTogether>&
 
 std::optional<Finding> unnamed_together(const JoinedModel& model, const std::vector<ScoredTogether>& named,
                                         double family_wise_error) {
-  std::optional<Finding> unknown = strongest_group(model, named, family_wise_error);
+  std::optional<Finding> unknown = strongest_of(joined_groups(model), model, named, family_wise_error);
   return unknown ? unknown : pushed_again_and_again(named);
+}
+
+std::optional<Finding> unnamed_joint(const JoinedModel& model, double family_wise_error) {
+  return strongest_of(groups_of_joints(model), model, {}, family_wise_error);
 }
 
 }  // namespace odolab

@@ -13,4 +13,7 @@ namespace odolab {
 std::optional<Finding> unnamed_together(const JoinedModel& model, const std::vector<ScoredTogether>& named,
                                         double family_wise_error);
 
+// The encoder of a joint that errs otherwise than by a bias.
+std::optional<Finding> unnamed_joint(const JoinedModel& model, double family_wise_error);
+
 }  // namespace odolab

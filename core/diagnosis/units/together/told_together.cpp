@@ -11,6 +11,7 @@
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/merged_findings.h"
+#include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/vehicle/key_words.h"
 
@@ -82,12 +83,7 @@ std::string usual_in_words(const std::vector<JoinedName>& names) {
 std::optional<ToldTogether> told_together(std::vector<JoinedRun> runs, const Vehicle& nominal,
                                           std::vector<double> clock_s, std::vector<std::string> names,
                                           double family_wise_error, const Progress& progress) {
-  for (JoinedRun& run : runs) {
-    Track fewer;
-    for (const TimedPose& t : run.tracked)
-      if (fewer.empty() || t.time_s >= fewer.back().time_s + kShortestStep_s) fewer.push_back(t);
-    run.tracked = std::move(fewer);
-  }
+  for (JoinedRun& run : runs) run.tracked = at_least_apart(run.tracked, kShortestStep_s);
   ToldTogether told{JoinedModel(std::move(runs), nominal, std::move(clock_s), std::move(names)), {}};
   told.model.fit_all();
   const std::vector<JoinedRun>& given = told.model.given();

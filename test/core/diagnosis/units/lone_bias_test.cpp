@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace odolab {
 namespace {
@@ -40,16 +41,49 @@ TEST(LoneBias, IsThatOfTheEncoderThatAloneSaysWhatAllSay) {
   EXPECT_EQ(lone->others, (std::vector<std::string>{"link_angle_a_offset_rad", "link_length_offset_m"}));
 }
 
-TEST(LoneBias, IsNoneWhereTwoAreOffOrTheTwoAreAsLikely) {
+TEST(LoneBias, IsNoneWhereTwoAreOffOrNoneIs) {
   EXPECT_FALSE(lone_bias(geometry_with(-2e-3, 2e-3, 0.0)));
-  EXPECT_FALSE(lone_bias(geometry_with(-0.4e-3, 0.4e-3, 0.0)));
   EXPECT_FALSE(lone_bias(geometry_with(0.0, 0.0, 0.0)));
 }
 
-TEST(LoneBias, IsNotAskedForWhereAnOffsetIsKnownOtherwiseThanByTheFit) {
+// Their difference is known far better than either: both ends are as likely.
+TEST(LoneBias, MayBeThatOfTheOtherEndWhereOnlyTheDifferenceShows) {
+  const std::optional<LoneBias> lone = lone_bias(geometry_with(-0.4e-3, 0.4e-3, 0.0));
+  ASSERT_TRUE(lone);
+  ASSERT_EQ(lone->instead.size(), 1u);
+  EXPECT_EQ(lone->joint + lone->instead[0].joint, 1u);
+}
+
+// All pivots read more by what the body's x axis is turned; beyond that one does, and the mean of the two others, each
+// with its own error, says how much: s^2 (1 + 1/2).
+TEST(LoneBias, OfAPivotIsWhatItReadsMoreThanTheOthers) {
+  constexpr double kOwn = 1e-4, kAll = 6e-4, kTurned = 5e-4, kOff = 2.7e-3;
+  GeometryFit fit;
+  for (int k = 0; k < 3; ++k) {
+    JointEstimate e;
+    e.parameter.name = "castor[" + std::to_string(k + 1) + "].pivot_encoder_offset_rad";
+    e.parameter.effect = "pivot_angle_bias";
+    e.value = kTurned + (k == 2 ? kOff : k == 1 ? kOwn : -kOwn);
+    e.determined = true;
+    fit.joints.push_back(e);
+  }
+  fit.covariance = kOwn * kOwn * Eigen::Matrix3d::Identity() + kAll * kAll * Eigen::Matrix3d::Ones();
+  const std::optional<LoneBias> lone = lone_bias(fit);
+  ASSERT_TRUE(lone);
+  EXPECT_EQ(lone->joint, 2u);
+  EXPECT_TRUE(lone->instead.empty());
+  EXPECT_NEAR(lone->off, kOff, 1e-9);
+  EXPECT_NEAR(lone->stderr_value, kOwn * std::sqrt(1.5), 1e-9);
+  EXPECT_NEAR(lone->turned_rad, kTurned, 1e-9);
+  fit.joints.pop_back();
+  fit.covariance = Eigen::Matrix2d(fit.covariance.topLeftCorner<2, 2>());
+  EXPECT_FALSE(lone_bias(fit));  // of two either may be off
+}
+
+TEST(LoneBias, IsNotAskedForWhereAnOffsetIsNotKnownOrHowTheyErr) {
   GeometryFit fit = geometry_with(0.0, 3e-3, 0.0);
   ASSERT_TRUE(lone_bias(fit));
-  fit.joints[0].is_from_inside = true;
+  fit.joints[0].determined = false;
   EXPECT_FALSE(lone_bias(fit));
   fit = geometry_with(0.0, 3e-3, 0.0);
   fit.covariance.resize(0, 0);
