@@ -325,6 +325,30 @@ TEST(DiagnoseTogether, LeaveATruthThatIsBentToTheUnitThatCarriesIt) {
   EXPECT_EQ(d->findings[0].component, "truth");
 }
 
+// Of a wheel that slips by 2 % at random, a fifth of a second on end, the scores of all that lasts scatter by more than
+// white noise makes: a push, two patches of floor and a load, once.
+TEST(DiagnoseTogether, HaveNoNameForAWheelThatSlipsOnAsItDidJustNow) {
+  constexpr double kSlip = 0.02, kOn_s = 0.2;
+  LinkedRunSettings s = under_a_coarse_truth();
+  s.truth_m = 0.015;
+  s.truth_rad = 0.01;
+  Random random(3528);
+  double slip = 0.0;
+  s.b_left = [&](double, double, double by_rad) {
+    const double kept = std::exp(-s.step_s / kOn_s);
+    slip = kept * slip + std::sqrt(1.0 - kept * kept) * kSlip * random.normal();
+    return slip * by_rad;
+  };
+  const Clapper trucks = fine_clapper();
+  std::vector<Recording> runs;
+  for (const std::uint64_t seed : {5040u, 5041u, 5042u}) runs.push_back(linked_run(trucks, s, seed));
+  const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(trucks));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  ASSERT_EQ(d->findings.size(), 1u);
+  EXPECT_EQ(d->findings[0].component, "truck_b");
+}
+
 // A tracker that takes another marker for its own for a second and a half, and finds it again.
 TEST(DiagnoseTogether, TakeATruthThatComesBackForNoPush) {
   const LinkedRunSettings s = under_a_coarse_truth();
