@@ -32,7 +32,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const double least[3] = {least_m, least_m, 0.0005};
   Finding mounting;
   double gain = 0.0;
-  bool moved = false, shifted_too = false, turned_too = false;
+  bool moved = false, shifted = false, shifted_far = false, turned_too = false;
   for (int k = 0; k < 3; ++k) {
     const column::Name& name = column::names[static_cast<std::size_t>(column::mounting_x + k)];
     const ParameterEstimate* p = determined(name.key);
@@ -43,7 +43,8 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
       gain += 0.5 * z * z;
       moved = true;
-      shifted_too = shifted_too || (k < 2 && std::abs(by[k]) > sits_right_m(wheelbase_m));
+      shifted = shifted || k < 2;
+      shifted_far = shifted_far || (k < 2 && std::abs(by[k]) > sits_right_m(wheelbase_m));
       turned_too = turned_too || k == 2;
     }
   }
@@ -55,17 +56,18 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   mounting.sentence = "the tracked point is not where the vehicle's file has it";
   // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
   // besides is the simpler cause of both.
-  const double turned = now.heading_rad - then.heading_rad, shifted = std::hypot(by[0], by[1]);
-  if (shifted_too || !turned_too || shifted >= 0.01 || std::abs(turned) >= 0.1 ||
+  const double turned = now.heading_rad - then.heading_rad, away_m = std::hypot(by[0], by[1]);
+  if (shifted_far || !turned_too || away_m >= 0.01 || std::abs(turned) >= 0.1 ||
       mounting.parameters.back().name != "heading_rad") {
     findings.push_back(mounting);
     return;
   }
-  // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too.
+  // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little
+  // as shows, and it comes first.
   constexpr double kMostOfAnAxle_rad = 0.02;
   const bool sits_where_it_should =
       mounting.parameters.size() == 3 &&
-      shifted + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) <
+      away_m + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) <
           sits_right_m(wheelbase_m);
   const char* told_apart_by = "a look at how the markers sit: the motion is the same";
   const FoundParameter& heading = mounting.parameters.back();
@@ -78,7 +80,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   toe.p_value = chi_square_tail(z * z, 1);
   toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
   toe.where.regime = "wherever it drives, in proportion to the way";
-  if (sits_where_it_should || std::abs(turned) < kMostOfAnAxle_rad) {
+  if (!shifted && (sits_where_it_should || std::abs(turned) < kMostOfAnAxle_rad)) {
     toe.alternatives.push_back({mounting.effect, mounting.component, gain, told_apart_by});
     findings.push_back(toe);
   } else {
@@ -96,15 +98,18 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const In
   const double off = clock.offset_s - nominal.truth.time_offset_s, z = off / clock.stderr_s;
   if (std::abs(z) < kSigmasOfBias || std::abs(off) < kLeastClock_s) return;
   Finding f;
-  const bool delay = from_commands && off > 0.0;
+  // Clocks that were set by a network or by hand are off by so much; a motor's loop, a bus and a gear take longer.
+  constexpr double kMostOfAClock_s = 0.05;
+  const bool is_late = from_commands && off > 0.0, delay = is_late && off > kMostOfAClock_s;
   f.effect = delay ? "actuator_delay" : "truth_time_offset";
   f.component = delay ? "vehicle" : "truth";
   f.parameters = {{delay ? "delay_s" : "offset_s", delay ? off : clock.offset_s, clock.stderr_s, "s"}};
   f.log_likelihood_gain = 0.5 * z * z;
   f.p_value = chi_square_tail(z * z, 1);
   f.sentence = delay ? "the base follows its commands late" : "the truth's clock is off against the vehicle's";
-  if (delay) {
-    f.alternatives.push_back({"truth_time_offset", "truth", f.log_likelihood_gain,
+  if (is_late) {
+    f.alternatives.push_back({delay ? "truth_time_offset" : "actuator_delay", delay ? "truth" : "vehicle",
+                              f.log_likelihood_gain,
                               "one clock for commands and truth: on their own the two are the same"});
     if (std::none_of(joint.accepted.begin(), joint.accepted.end(),
                      [](const AcceptedEffect& a) { return a.effect->only_commands; }))

@@ -24,7 +24,8 @@ inline double sits_right_m(double wheelbase_m) { return std::min(0.002, 0.02 * w
 void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
                   const LeastSquaresCalibration& fit, const Vehicle& nominal);
 
-// A late base that follows commands, and a late truth, are the same: both are said.
+// A late base that follows commands, and a late truth, are the same: both are said, the base first where it is later
+// than a clock that was set.
 void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
                const LeastSquaresCalibration& fit, const Vehicle& nominal, bool from_commands);
 

@@ -42,17 +42,19 @@ TEST(ActuatorLag, IsToldFromADelayThatTakesAlmostAllOfIt) {
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "actuator_delay");
 }
 
-// Twelve milliseconds: within the noise of its wheels a base that lags is one that is late.
+// Twelve milliseconds: within the noise of its wheels a base that lags is one that is late, and by so little any clock
+// may be off.
 TEST(ActuatorLag, StaysBesideADelayThatSaysNoMore) {
   constexpr double kShortLag_s = 0.012;
   std::vector<Recording> recordings;
   for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, kShortLag_s));
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_EQ(d.verdict, Verdict::ambiguous);
-  EXPECT_EQ(d.findings.front().effect, "actuator_delay");
+  EXPECT_EQ(d.findings.front().effect, "truth_time_offset");
   const std::vector<Alternative>& beside = d.findings.front().alternatives;
-  EXPECT_TRUE(
-      std::any_of(beside.begin(), beside.end(), [](const Alternative& a) { return a.effect == "actuator_lag"; }));
+  for (const char* also : {"actuator_delay", "actuator_lag"})
+    EXPECT_TRUE(std::any_of(beside.begin(), beside.end(), [&](const Alternative& a) { return a.effect == also; }))
+        << also;
 }
 
 // Of commands a tenth of a second apart: what the base does within one is no straight line. Lags of 60 and 80 ms of

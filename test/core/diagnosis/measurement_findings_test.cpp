@@ -29,6 +29,20 @@ TEST(MeasurementFindings, SayAMarkerThatSitsAMillimetreElsewhere) {
   EXPECT_NEAR(y.value, -0.0006, 4.0 * y.stderr_value);
 }
 
+// A hand that turned it has shifted it; where it sits to the tenth of a millimetre an axle may be at fault as well.
+TEST(MeasurementFindings, SayOfAMarkerThatIsTurnedWhatElseMayBe) {
+  for (const double shifted_m : {0.0, 0.001}) {
+    TruthMounting truth;
+    truth.axle_T_tracked = {shifted_m, -shifted_m, 0.004};
+    const Diagnosis d = diagnose(three_runs_of(truth), {}, Vehicle{}).value();
+    ASSERT_EQ(d.findings.size(), 1u);
+    const bool is_marker_first = shifted_m > 0.0;
+    EXPECT_EQ(d.findings[0].effect, is_marker_first ? "truth_mounting_offset" : "wheel_toe");
+    ASSERT_EQ(d.findings[0].alternatives.size(), 1u);
+    EXPECT_EQ(d.findings[0].alternatives[0].effect, is_marker_first ? "wheel_toe" : "truth_mounting_offset");
+  }
+}
+
 TEST(MeasurementFindings, SayATruthThatIsThreeMillisecondsLate) {
   TruthMounting truth;
   truth.time_offset_s = 0.003;
