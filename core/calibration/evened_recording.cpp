@@ -25,10 +25,12 @@ bool is_worth_a_word(const EvenStamps& even) {
   return even.trembling_s > kOfThePeriod * even.period_s;
 }
 
+std::string name_or_words(const std::string& name) { return name.empty() ? "the recording" : name; }
+
 std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
   const std::string text = formatted(": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
                                      1e3 * even.trembling_s, 1.0 / even.period_s);
-  return (name.empty() ? "the recording" : name) + text;
+  return name_or_words(name) + text;
 }
 
 std::string sentence(const std::string& name, const char* what, const SpreadStamps& spread) {
@@ -37,7 +39,7 @@ std::string sentence(const std::string& name, const char* what, const SpreadStam
           ? formatted(": one of its %s stamps repeats the one before; put between its neighbours", what)
           : formatted(": %d of its %s stamps repeat the one before; put between their neighbours", spread.repeated,
                       what);
-  return (name.empty() ? "the recording" : name) + text;
+  return name_or_words(name) + text;
 }
 
 // New times of the rows that hold a value of the channels that belong together; NaN elsewhere.

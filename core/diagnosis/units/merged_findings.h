@@ -32,7 +32,7 @@ std::vector<std::string> add_biases(const GeometryFit& geometry, const std::vect
                                     std::vector<Finding>& all);
 
 // Where an encoder of a joint errs in a way that has no name, a bias of it is what its mean makes of it, and stands
-// among what it resembles; so is a bias of another that says less.
+// among what it resembles; a bias of another is left out where it says less.
 void leave_out_biases_beside_erring_joints(std::vector<Finding>& all);
 
 // What has no name first, then the strongest; and of the evidence of all the share of each that has one.

@@ -120,7 +120,7 @@ class JoinedFilter {
   // The pose between two samples; the ends hold beyond them.
   static Pose on_the_way(const Track& track, double time_s);
   Small turned_with(const std::vector<Pose>& before, const std::vector<Pose>& after,
-                              const std::vector<Pose>& unit_T_body) const;
+                    const std::vector<Pose>& unit_T_body) const;
   std::vector<Pose> units_T_body(const Vehicle& vehicle, const std::vector<double>& joints) const;
   Eigen::VectorXd read_at(const std::vector<Pose>& units, const std::vector<Pose>& unit_T_body,
                           const std::optional<Pose>& truth) const;
