@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/chi_square.h"
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/together/joined_moments.h"
@@ -101,6 +102,11 @@ void ScoredTogether::take_if_better(const JoinedTest& other, const std::vector<d
   test = other;
   shape = at;
   columns = std::make_shared<const JoinedColumns>(std::move(of));
+}
+
+void ScoredTogether::judge_among(std::size_t looked_at) {
+  const double p = test.freedom > 0 ? chi_square_tail(test.judged(), test.freedom) : 1.0;
+  p_value = std::min(1.0, p * static_cast<double>(looked_at) * std::exp(log_tests));
 }
 
 double least_said(const Vehicle& vehicle) {

@@ -30,6 +30,8 @@ struct ScoredTogether {
   double says() const { return test.judged() - 2.0 * test.freedom - 2.0 * log_tests; }
   // Takes another shape where that says more.
   void take_if_better(const JoinedTest& other, const std::vector<double>& at, JoinedColumns of);
+  // p_value, where so many candidates were looked at.
+  void judge_among(std::size_t looked_at);
 };
 
 // Twice what the likelihood of all gains by what is said, at least. Castors on one rigid frame drag each other along as

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
-#include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/intervals.h"
 #include "core/diagnosis/naming/select.h"
-#include "core/diagnosis/units/component_names.h"
+#include "core/diagnosis/units/together/beyond_rounding.h"
 #include "core/diagnosis/units/together/joined_candidates.h"
+#include "core/diagnosis/units/together/joined_errors.h"
 #include "core/diagnosis/units/together/joined_moments.h"
 #include "core/diagnosis/units/together/joined_unnamed.h"
+#include "core/diagnosis/units/together/scored_moments.h"
 #include "core/diagnosis/units/together/usual.h"
 
 namespace odolab {
@@ -27,58 +27,14 @@ constexpr std::ptrdiff_t kMostNames = 3;  // beside what is usual
 constexpr double kLeastSought = 35.0, kLeastOfOneUnit = 60.0;
 constexpr double kAsMuchOfAPush = 0.85;
 constexpr double kSaysSomething = 6.0;  // less by itself says nothing beside others either
-constexpr double kNearlyLeast = 20.0;   // of a moment, before its form and time are sought
 constexpr double kTrace = 0.03;         // of the strongest name: what is less is its form's
 constexpr double kSaysAsMuch = 0.8;     // beside the name: then it is no other name for the same
 constexpr double k95 = 1.96;
-
-void judge(ScoredTogether& s, std::size_t looked_at) {
-  const double p = s.test.freedom > 0 ? chi_square_tail(s.test.judged(), s.test.freedom) : 1.0;
-  s.p_value = std::min(1.0, p * static_cast<double>(looked_at) * std::exp(s.log_tests));
-}
 
 // In many places, or from many times on.
 bool is_sought(const Effect& e) {
   return e.local ||
          std::any_of(e.shapes.begin(), e.shapes.end(), [](const auto& shape) { return shape.name == "at_s"; });
-}
-
-// What counts and the joints' rounding make of nothing.
-double rounding_m(const ScoredTogether& s, const Vehicle& vehicle) {
-  constexpr double kCounts = 1.5;
-  double least_m = 0.0;
-  const std::vector<VehicleUnit> units = units_of(vehicle);
-  for (std::size_t u : s.candidate.units) {
-    const DifferentialDrive& d = units[u].drive;
-    least_m = std::max({least_m, kCounts * 2.0 * kPi * d.wheel_radius_left_m / d.counts_per_wheel_turn(),
-                        rounding_of_joints(vehicle, u).position_m});
-  }
-  return least_m;
-}
-
-// Of what happens at a moment.
-bool is_more_than_rounding(const ScoredTogether& s, const Vehicle& vehicle) {
-  const double least_m = rounding_m(s, vehicle);
-  if (s.test.value.size() < 3) return std::abs(s.test.value[0]) > least_m;
-  const double base_m = units_of(vehicle)[s.candidate.units.front()].drive.wheelbase_m;
-  return std::max(std::hypot(s.test.value[0], s.test.value[1]), 0.5 * base_m * std::abs(s.test.value[2])) > least_m;
-}
-
-// Of what lasts from a time on: by the end of some run.
-bool goes_beyond_rounding(const ScoredTogether& s, const JoinedModel& model) {
-  const double least_m = rounding_m(s, model.vehicle());
-  const std::vector<double> value(s.test.value.begin(), s.test.value.end());
-  for (std::size_t u : s.candidate.units)
-    for (const DriveView& view : model.views(u)) {
-      const Motions moved = motion_of(*s.candidate.effect, view, s.shape, value);
-      double forward_m = 0.0, turn_rad = 0.0;
-      for (std::size_t i = 0; i < view.steps.size(); ++i) {
-        forward_m += moved.at(i).forward_m;
-        turn_rad += moved.at(i).turn_rad;
-        if (std::max(std::abs(forward_m), 0.5 * view.drive.wheelbase_m * std::abs(turn_rad)) > least_m) return true;
-      }
-    }
-  return false;
 }
 
 // Whether values lie within what any vehicle has.
@@ -168,7 +124,7 @@ class Naming {
                                                                                       : 0.0);
     const bool is_from_a_time = is_sought(*s.candidate.effect) && !s.candidate.effect->local;
     return s.p_value < p_ && s.test.judged() > least && (s.of_moments > 0.0 || s.test.lasts_throughout()) &&
-           (!is_from_a_time || goes_beyond_rounding(s, model_));
+           (!is_from_a_time || lasts_beyond_rounding(s, model_));
   }
 
   std::vector<JoinedModel::Acting> acting() const {
@@ -190,7 +146,7 @@ class Naming {
         scatter_ = usual_scatter(with);
         ask_again(with, now);
       }
-      for (ScoredTogether& s : scored_moments(with)) now.push_back(std::move(s));
+      for (ScoredTogether& s : scored_moments(with, scored_.size())) now.push_back(std::move(s));
       for (ScoredTogether& s : now) {
         if (!holds(s) || !is_physical(s) || is_named(s)) continue;
         if (!named_.empty() && s.test.judged() < kTrace * named_.front().test.judged()) continue;
@@ -246,76 +202,6 @@ class Naming {
     return usual_scatter(scores);
   }
 
-  // The strongest moments, each as a bump, as one that comes back at its place, and as a push, as it suits them.
-  std::vector<ScoredTogether> scored_moments(const JoinedModel& with) const {
-    struct Asked {
-      const Effect* effect;
-      const JoinedMoments* kind;
-      const JoinedMoment* moment;
-    };
-    std::vector<Asked> asked;
-    const std::vector<JoinedMoments> kinds = joined_moments(with);
-    for (const JoinedMoments& kind : kinds)
-      for (const Effect& e : catalogue()) {
-        const bool is_push = kind.wheel == Wheel::both;
-        if (e.name != (is_push ? "collision" : "bump") || (!is_push && e.component != component_of(kind.wheel)))
-          continue;
-        for (const JoinedMoment& moment : kind.strongest)
-          if (moment.statistic / kind.inflation > kNearlyLeast) asked.push_back({&e, &kind, &moment});
-      }
-    std::vector<ScoredTogether> all(asked.size());
-    parallel_for(static_cast<int>(asked.size()), [&](int k) {
-      const Asked& one = asked[static_cast<std::size_t>(k)];
-      all[static_cast<std::size_t>(k)] = scored_moment(with, *one.effect, *one.kind, *one.moment);
-    });
-    std::erase_if(all, [&](const ScoredTogether& s) { return !is_more_than_rounding(s, model_.vehicle()); });
-    return all;
-  }
-
-  ScoredTogether scored_moment(const JoinedModel& with, const Effect& e, const JoinedMoments& kind,
-                               const JoinedMoment& moment) const {
-    ScoredTogether best;
-    best.candidate = {&e, kind.units,
-                      kind.units.size() > 1
-                          ? "vehicle"
-                          : component_of_unit(units_of(model_.vehicle())[kind.units.front()].name, e.component)};
-    best.of_moments = kind.inflation;
-    best.log_tests = std::log(std::max(1.0, kind.count));
-    const std::vector<double> first = shape_at(e, moment, kind, with);
-    for (std::size_t form = 0; form < std::max<std::size_t>(1, e.forms.size()); ++form) {
-      std::vector<double> shape = first;
-      if (e.forms.size() > 1) shape.push_back(static_cast<double>(form));
-      try_moment(with, shape, best);
-    }
-    for (double step : {0.1, 0.05, 0.025})
-      for (std::size_t i = 0; i < e.shapes.size(); ++i)
-        for (double side : {-step, step}) {
-          if (!is_estimated(e.shapes[i])) continue;
-          std::vector<double> shape = best.shape;
-          shape[i] += side;
-          try_moment(with, shape, best);
-        }
-    judge(best, scored_.size());
-    return best;
-  }
-
-  static std::vector<double> shape_at(const Effect& e, const JoinedMoment& moment, const JoinedMoments& kind,
-                                      const JoinedModel& model) {
-    if (e.of_one_recording) return {static_cast<double>(moment.run), moment.time_s};
-    const DriveView& view = model.views(kind.units.front())[static_cast<std::size_t>(moment.run)];
-    const EffectStep& s = view.steps[std::min(view.step_at(moment.time_s), view.steps.size() - 1)];
-    const double side = kind.wheel == Wheel::left ? 0.5 : -0.5;
-    const Vec2 place = s.position + rotated({0.0, side * view.drive.wheelbase_m}, s.heading_rad);
-    return {place.x_m, place.y_m};
-  }
-
-  static void try_moment(const JoinedModel& with, const std::vector<double>& shape, ScoredTogether& best) {
-    JoinedColumns columns = columns_at(with, best.candidate, shape);
-    JoinedTest test = with.test(columns, -1.0);
-    test.inflation = best.of_moments;
-    best.take_if_better(test, shape, std::move(columns));
-  }
-
   // Of all that said something by itself.
   void ask_again(const JoinedModel& with, std::vector<ScoredTogether>& all) const {
     std::erase_if(all, [](const ScoredTogether& s) { return s.test.statistic < kSaysSomething; });
@@ -325,7 +211,7 @@ class Naming {
   void ask_again(const JoinedModel& with, ScoredTogether& s) const {
     s.test = with.test(*s.columns, s.of_moments > 0.0 ? -1.0 : believed_white_);
     s.test.inflation = s.of_moments > 0.0 ? s.of_moments : std::max({s.test.inflation, s.least_inflation, scatter_});
-    judge(s, scored_.size());
+    s.judge_among(scored_.size());
   }
 
   bool is_named(const ScoredTogether& s) const {
@@ -385,7 +271,8 @@ class Naming {
     AcceptedEffect accepted{&e, s.shape, {}, false};
     for (Eigen::Index a = 0; a < s.test.value.size(); ++a) accepted.value.push_back(s.test.value[a]);
     JoinedModel others = without(k), with = others;
-    f.parameters = parameters_of(accepted, covariance_of(others, s), model_.views(s.candidate.units.front()));
+    f.parameters =
+        parameters_of(accepted, joined_covariance(others, s, believed_white_), model_.views(s.candidate.units.front()));
     for (const FoundParameter& p : f.parameters)
       if (p.name == "at_s") f.where.time_s = {{p.value - k95 * p.stderr_value, p.value + k95 * p.stderr_value}};
 
@@ -394,7 +281,7 @@ class Naming {
     std::vector<ScoredTogether> instead = scored_;
     std::erase_if(instead, [&](const ScoredTogether& other) { return other.test.judged() < 0.3 * s.test.judged(); });
     if (s.of_moments > 0.0)
-      for (ScoredTogether& other : scored_moments(others))
+      for (ScoredTogether& other : scored_moments(others, scored_.size()))
         if (other.candidate.effect->of_one_recording == e.of_one_recording &&
             (!e.of_one_recording || is_one_moment(other, s)))
           instead.push_back(std::move(other));
@@ -414,53 +301,6 @@ class Naming {
       return a.log_likelihood_gain > b.log_likelihood_gain;
     });
     return name;
-  }
-
-  // By how much a time can be another until that says less by one, in the mean of both sides.
-  double stderr_of_time(const JoinedModel& others, const ScoredTogether& s, std::size_t shape) const {
-    constexpr double kLeast_s = 0.05, kMost_s = 3.2;
-    double sum_s = 0.0;
-    for (double side : {-1.0, 1.0}) {
-      double by_s = kLeast_s;
-      for (; by_s < kMost_s; by_s *= 2.0) {
-        std::vector<double> moved = s.shape;
-        moved[shape] += side * by_s;
-        const JoinedTest test = others.test(columns_at(others, s.candidate, moved), believed_white_);
-        const double less = s.test.judged() - test.statistic / s.test.inflation;
-        if (less < 1.0) continue;
-        by_s /= std::sqrt(less);
-        break;
-      }
-      sum_s += 0.5 * std::max(by_s, kLeast_s);
-    }
-    return sum_s;
-  }
-
-  // With what a form is wrong by; of places and limits as wide as what was scanned.
-  Eigen::MatrixXd covariance_of(const JoinedModel& others, const ScoredTogether& s) const {
-    constexpr double kForm = 0.03, kOneOfSeveral = 0.05;
-    const Effect& e = *s.candidate.effect;
-    Eigen::MatrixXd covariance = s.test.inflation * s.test.covariance;
-    const double size = s.test.value.norm();
-    covariance.diagonal().array() += std::pow((e.forms.size() > 1 ? kOneOfSeveral : kForm) * size, 2);
-    const std::vector<int> free = free_shapes(e);
-    const Eigen::Index amplitudes = covariance.rows(), shapes = static_cast<Eigen::Index>(free.size());
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(amplitudes + shapes, amplitudes + shapes);
-    all.topLeftCorner(amplitudes, amplitudes) = covariance;
-    // The scanned shapes that the likelihood does not tell apart say how well a shape is known.
-    const std::vector<std::vector<double>> shapes_tried = shapes_of(e, model_.views(s.candidate.units.front()));
-    for (Eigen::Index f = 0; f < shapes; ++f) {
-      double nearest = 1e300;
-      const auto k = static_cast<std::size_t>(free[static_cast<std::size_t>(f)]);
-      if (e.shapes[k].name == "at_s") {
-        all(amplitudes + f, amplitudes + f) = std::pow(stderr_of_time(others, s, k), 2);
-        continue;
-      }
-      for (const std::vector<double>& shape : shapes_tried)
-        if (std::abs(shape[k] - s.shape[k]) > 1e-9) nearest = std::min(nearest, std::abs(shape[k] - s.shape[k]));
-      if (nearest < 1e300) all(amplitudes + f, amplitudes + f) = nearest * nearest;
-    }
-    return all;
   }
 
   JoinedModel& model_;
