@@ -30,6 +30,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   const double wheelbase_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
   const double least_m = least_mounting_m(wheelbase_m);
   const double least[3] = {least_m, least_m, 0.0005};
+  constexpr double kSigmasOfShift = 3.0;  // which of two names comes first is no matter of alarms
   Finding mounting;
   double gain = 0.0;
   bool moved = false, shifted = false, shifted_far = false, turned_too = false;
@@ -40,10 +41,10 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     const double se = intervals.stderr_of_nuisance(column::mounting_x + k);
     const double z = by[k] / std::max(p->stderr_value, se);
     mounting.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
+    shifted = shifted || (k < 2 && std::abs(by[k]) > std::max(kSigmasOfShift * se, least[k]));
     if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
       gain += 0.5 * z * z;
       moved = true;
-      shifted = shifted || k < 2;
       shifted_far = shifted_far || (k < 2 && std::abs(by[k]) > sits_right_m(wheelbase_m));
       turned_too = turned_too || k == 2;
     }

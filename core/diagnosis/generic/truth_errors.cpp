@@ -4,6 +4,17 @@
 
 namespace odolab {
 
+namespace {
+
+// Twice what the likelihood gains: bodies that are joined give way a little, and that looks like an instrument's error.
+constexpr double kLeast = 50.0;
+
+bool says_enough(const TruthError& error, const CandidateTest& test) {
+  return !test.value.empty() && test.judged() > kLeast + 2.0 * test.freedom && error.is_more_than_rounding(test.value);
+}
+
+}  // namespace
+
 std::vector<GenericTest> truth_error_tests(const AskedModel& asked, double looked_at) {
   if (!asked.joint.truth_errors) return {};
   const std::vector<TruthError>& errors = *asked.joint.truth_errors;
@@ -17,7 +28,7 @@ std::vector<GenericTest> truth_error_tests(const AskedModel& asked, double looke
     t.curves = error.curves;
     ask(t, asked, error.term, looked_at);
     for (CandidateTest* test : {&t.test, &t.instead})
-      if (test->value.empty() || !error.is_more_than_rounding(test->value)) test->statistic = 0.0;
+      if (!says_enough(error, *test)) test->statistic = 0.0;
     t.p_value = t.p_value_of(t.test);
   });
   return tests;
