@@ -27,15 +27,16 @@
 namespace odolab {
 
 const char* name_of_channel(int channel) {
-  static const char* const kNames[] = {"forward per metre [1]",    "sideways per metre [1]",
-                                       "turn per metre [rad/m]",   "turn per turn [1]",
-                                       "left wheel per metre [1]", "right wheel per metre [1]"};
+  static const char* const kNames[] = {
+      "forward per metre [1]",    "sideways per metre [1]",    "turn per metre [rad/m]",         "turn per turn [1]",
+      "left wheel per metre [1]", "right wheel per metre [1]", "turn per metre forwards [rad/m]"};
   return kNames[channel];
 }
 
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
   if (channel == kLeftWheelAlone) return by_wheel(Wheel::left, step.left_m, wheelbase_m);
   if (channel == kRightWheelAlone) return by_wheel(Wheel::right, step.right_m, wheelbase_m);
+  if (channel == kTurnForwards) return {0.0, 0.0, step.forward_m()};
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;
@@ -126,7 +127,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
       asked.push_back({&g, {channel}});
     if (!g.is_memory) continue;
     asked.push_back({&g, {0, 1, 2}});
-    for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) asked.push_back({&g, {wheel}});
+    for (const int channel : {kLeftWheelAlone, kRightWheelAlone, kTurnForwards}) asked.push_back({&g, {channel}});
   }
   const auto count = static_cast<int>(asked.size());
   const double of_the_truth = joint.truth_errors ? static_cast<double>(joint.truth_errors->size()) : 0.0;

@@ -58,6 +58,8 @@ struct GenericTest {
 constexpr int kGenericChannels = 4, kTurnOfItself = 3;
 // And what one wheel alone does, for each metre that it rolls.
 constexpr int kLeftWheelAlone = 4, kRightWheelAlone = 5;
+// And the turn for each metre forwards, which in reverse is to the other side, as where one wheel drags.
+constexpr int kTurnForwards = 6;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 

@@ -1,6 +1,7 @@
 #include "core/diagnosis/naming/lag_and_delay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>
@@ -123,7 +124,8 @@ double variance_of_held(const JointModel& joint, std::size_t accepted) {
     return there.minus_two_log_likelihood();
   };
   const double bend = misfit_at(here + by) - 2.0 * misfit_at(here) + misfit_at(here - by);
-  return 2.0 * by * by / std::max(bend, 2.0 * kStride * kStride);  // not known to more than itself
+  // Not known to more than itself; nor better than it is known when the base acts on a change of its command.
+  return 2.0 * by * by / std::max(bend, 2.0 * kStride * kStride) + std::pow(joint.model.noise.command_timing_s, 2);
 }
 
 }  // namespace odolab

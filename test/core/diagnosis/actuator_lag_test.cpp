@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/effects/effect.h"
 #include "test/support/commanded_base.h"
 
 namespace odolab {
@@ -40,6 +41,35 @@ TEST(ActuatorLag, IsToldFromADelayThatTakesAlmostAllOfIt) {
   EXPECT_LT(std::abs(p.value - kLag_s), 3.0 * p.stderr_value) << p.value << " +- " << p.stderr_value;
   EXPECT_NEAR(p.value, kLag_s, 0.05 * kLag_s);
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "actuator_delay");
+}
+
+// While commands grow evenly, tau dv/dt = c - v puts the base behind its commands by tau (v - v0); and v, in the mean
+// over a command that is held, is less than that by tau dv/dt. However short the lag is against the step.
+TEST(ActuatorLag, PutsTheBaseBehindByWhatItsEquationSaysInTheMeanOfEachStep) {
+  constexpr double kStep_s = 0.02, kGrows_mps2 = 0.5;
+  const auto lag =
+      std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "actuator_lag"; });
+  ASSERT_NE(lag, catalogue().end());
+  DriveView view;
+  for (int i = 0; i < 400; ++i) {
+    EffectStep s;
+    s.duration_s = kStep_s;
+    s.time_s = (i + 0.5) * kStep_s;
+    s.left_m = s.right_m = kGrows_mps2 * i * kStep_s * kStep_s;
+    view.steps.push_back(s);
+  }
+  for (const double tau_s : {0.002, 0.005, 0.015, 0.06, 0.2}) {
+    const Motions moved = lag->motions(view, {tau_s}).front();
+    double behind_m = 0.0;
+    for (std::size_t i = 0; i < view.steps.size(); ++i) {
+      const double by_m = tau_s * moved.at(i).forward_m, in_the_mean_m = behind_m + 0.5 * by_m;
+      behind_m += by_m;
+      if (static_cast<double>(i) * kStep_s < 12.0 * tau_s + 0.1) continue;  // until it has settled
+      const double command_mps = kGrows_mps2 * static_cast<double>(i) * kStep_s;
+      if (i + 1 == view.steps.size()) break;  // behind the last nothing is known
+      ASSERT_NEAR(in_the_mean_m, -tau_s * (command_mps - kGrows_mps2 * tau_s), 1e-6) << tau_s << " " << i;
+    }
+  }
 }
 
 // Twelve milliseconds: within the noise of its wheels a base that lags is one that is late, and by so little any clock
