@@ -23,6 +23,7 @@ constexpr double kMostLeftOfError = 0.3;
 // A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
 constexpr double kFormOfAName = 0.5;
 constexpr double kTwoExplain = 0.85;  // share of the evidence that the two strongest of three names must have
+constexpr double kAsMuchAsNames = 0.5;
 constexpr std::size_t kMostTried = 4;
 constexpr double kEvenly = 0.05;  // turns of a wheel: as often a turn
 
@@ -379,7 +380,9 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   if (const Left left = what_is_left(joint, left_by_names, of_what_is_left); left.group) {
     const CandidateTest& test = left.group->test;
     const double gain = std::max(0.0, test.statistic - test.freedom * test.inflation);
-    if (!is_worth_saying(joint, calibrated, *left.group))
+    // Names that leave more than half of what they say are as small as that.
+    const bool names_leave_as_much = names > 0 && gain > kAsMuchAsNames * explained;
+    if (!names_leave_as_much && !is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > left.group->most_left * explained || is_in_pieces(of_vehicle))
       out.unnamed = unnamed_by(*left.group, *left.with, left.shape, gain);

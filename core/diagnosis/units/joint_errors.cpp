@@ -199,7 +199,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     range.is_length = name.unit == "m";
     for (const auto& of_run : samples) range.take_in(of_run, j);
     if (range.high - range.low < std::max(kLeastRange * steps[j], 1e-4)) continue;
-    if (range.is_length && scatter_of(samples, j) < kBeyondSlip * moved_by_slip_m(samples, vehicle, j)) continue;
+    const double slip_m = range.is_length ? moved_by_slip_m(samples, vehicle, j) : 0.0;
+    if (scatter_of(samples, j) < kBeyondSlip * slip_m) continue;
 
     OfRuns bare;
     for (std::size_t r = 0; r < samples.size(); ++r)
@@ -225,7 +226,8 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
                          const std::function<std::vector<double>(const std::vector<UnitSample>&)>& of) {
       const OfRuns runs =
           with([&](const std::vector<UnitSample>& of_run) { return std::vector<std::vector<double>>{of(of_run)}; });
-      errors->push_back(error_of(runs, name, variable, kSteps * steps[j]));
+      // Wheels that push and pull a link slip to the one side as it grows and to the other as it shrinks.
+      errors->push_back(error_of(runs, name, variable, std::max(kSteps * steps[j], slip_m)));
     };
     add("which way it went last", [&](const auto& of_run) { return ways_of_reading(of_run, j, steps[j]); });
     if (range.is_length) continue;
