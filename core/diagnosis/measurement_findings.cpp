@@ -56,9 +56,11 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   mounting.p_value = chi_square_tail(2.0 * gain, 3);
   mounting.sentence = "the tracked point is not where the vehicle's file has it";
   // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
-  // besides is the simpler cause of both.
+  // besides is the simpler cause of both, where it is not turned by more than it is shifted.
+  constexpr double kArm_m = 0.2;
   const double turned = now.heading_rad - then.heading_rad, away_m = std::hypot(by[0], by[1]);
-  if (shifted_far || !turned_too || away_m >= 0.01 || std::abs(turned) >= 0.1 ||
+  const bool is_marker_alone = shifted_far && std::abs(turned) < away_m / kArm_m;
+  if (is_marker_alone || !turned_too || away_m >= 0.01 || std::abs(turned) >= 0.1 ||
       mounting.parameters.back().name != "heading_rad") {
     findings.push_back(mounting);
     return;

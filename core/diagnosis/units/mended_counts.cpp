@@ -103,6 +103,25 @@ TimeStretches jumps_of(const Counts& counts, double radius_m, double count_rad) 
   return joined(encoder_jumps(time_s, rad, radius_m, count_rad));
 }
 
+// Where a unit swings round from reading to reading, as a castor does whose vehicle reverses, and faster or more slowly
+// each time: which way it went between them nobody can tell as well as wheels roll.
+TimeStretches swings_of(const std::vector<UnitSample>& samples, std::size_t unit, const DifferentialDrive& drive) {
+  constexpr double kUnevenly_rad2 = 0.01;  // turned, times by how much more or less than before or behind
+  const auto turned_rad = [&](std::size_t i) {
+    const WheelRotation &a = samples[i].wheels[unit], &b = samples[i + 1].wheels[unit];
+    return (drive.wheel_radius_right_m * (b.right_rad - a.right_rad) -
+            drive.wheel_radius_left_m * (b.left_rad - a.left_rad)) /
+           drive.wheelbase_m;
+  };
+  TimeStretches swings;
+  for (std::size_t i = 1; i + 2 < samples.size(); ++i) {
+    const double turned = turned_rad(i),
+                 more = std::max(std::abs(turned - turned_rad(i - 1)), std::abs(turned_rad(i + 1) - turned));
+    if (std::abs(turned) * more > kUnevenly_rad2) swings.emplace_back(samples[i].time_s, samples[i + 1].time_s);
+  }
+  return swings;
+}
+
 }  // namespace
 
 MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& vehicle) {
@@ -152,6 +171,8 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
         guess(held, to_s);
       }
     }
+    const TimeStretches swings = swings_of(samples, u, units[u].drive);
+    guessed.insert(guessed.end(), swings.begin(), swings.end());
     guessed = joined(std::move(guessed));
   }
   return mended;

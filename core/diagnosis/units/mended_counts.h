@@ -14,7 +14,8 @@ namespace odolab {
 // found.
 struct MendedCounts {
   std::vector<UnitSample> samples;
-  std::vector<TimeStretches> guessed;  // of each unit: where what one of its wheels turned is a guess
+  // Of each unit: where what one of its wheels turned is a guess, or which way they went, since it swung round.
+  std::vector<TimeStretches> guessed;
 };
 MendedCounts with_mended_counts(std::vector<UnitSample> samples, const Vehicle& vehicle);
 std::vector<Understood> with_mended_counts(std::vector<Understood> recordings, const Vehicle& vehicle);

@@ -43,6 +43,19 @@ TEST(MeasurementFindings, SayOfAMarkerThatIsTurnedWhatElseMayBe) {
   }
 }
 
+// A marker that is put on four millimetres away is turned by some hundredths of a radian, and no more.
+TEST(MeasurementFindings, SayThatAnAxleMayBeAtFaultWhereAMarkerIsTurnedByMoreThanItIsShifted) {
+  for (const double turned_rad : {0.004, 0.05}) {
+    TruthMounting truth;
+    truth.axle_T_tracked = {0.003, -0.003, turned_rad};
+    const Diagnosis d = diagnose(three_runs_of(truth), {}, Vehicle{}).value();
+    ASSERT_EQ(d.findings.size(), 1u);
+    EXPECT_EQ(d.findings[0].effect, "truth_mounting_offset");
+    ASSERT_EQ(d.findings[0].alternatives.size(), turned_rad > 0.04 ? 1u : 0u);
+    for (const Alternative& other : d.findings[0].alternatives) EXPECT_EQ(other.effect, "wheel_toe");
+  }
+}
+
 TEST(MeasurementFindings, SayATruthThatIsThreeMillisecondsLate) {
   TruthMounting truth;
   truth.time_offset_s = 0.003;

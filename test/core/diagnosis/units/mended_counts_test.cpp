@@ -49,6 +49,33 @@ TEST(MendedCounts, GoOnFromThereWhereACountMovedAloneAtRest) {
   EXPECT_NEAR(mended.back().wheels[1].left_rad, stood_rad, 1e-12);
 }
 
+// Read 20 times a second: a castor that swings round by 2.4 rad in 0.4 s, as where its vehicle reverses, and one that
+// turns evenly by 0.3 rad from reading to reading.
+TEST(MendedCounts, AreAGuessWhereACastorSwingsRoundFasterAndFaster) {
+  constexpr double kStep_s = 0.05, kSwings_s = 2.5, kSwing_rad = 2.4, kLasts_s = 0.15, kEvenly_rad = 0.3;
+  const Vehicle platform = vehicle_of(three_castor_vehicle());
+  std::vector<UnitSample> samples;
+  for (int i = 0; i < 100; ++i) {
+    UnitSample s;
+    s.time_s = i * kStep_s;
+    s.joints.assign(3, 0.0);
+    const double turned_rad[3] = {0.5 * kSwing_rad * (1.0 + std::tanh((s.time_s - kSwings_s) / kLasts_s)),
+                                  kEvenly_rad * i, 0.0};
+    for (std::size_t u = 0; u < 3; ++u) {
+      const DifferentialDrive drive = units_of(platform)[u].drive;
+      const double way_m = 0.2 * s.time_s, by_m = 0.5 * drive.wheelbase_m * turned_rad[u];
+      s.wheels.push_back({(way_m - by_m) / drive.wheel_radius_left_m, (way_m + by_m) / drive.wheel_radius_right_m});
+    }
+    samples.push_back(std::move(s));
+  }
+  const MendedCounts mended = with_mended_counts(samples, platform);
+  ASSERT_EQ(mended.guessed[0].size(), 1U);
+  EXPECT_NEAR(mended.guessed[0][0].first, kSwings_s - kLasts_s, 2.0 * kStep_s);
+  EXPECT_NEAR(mended.guessed[0][0].second, kSwings_s + kLasts_s, 2.0 * kStep_s);
+  EXPECT_TRUE(mended.guessed[1].empty());
+  EXPECT_TRUE(mended.guessed[2].empty());
+}
+
 // Both counters of truck B stand for 0.6 s, in which the truck goes on, and truck A with it; what they would have
 // counted is lost.
 Recording with_lost_counts(Recording run, std::size_t from, std::size_t to) {
