@@ -161,6 +161,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     tests[i].variable = g.variable;
     tests[i].of_when_or_where = g.of_turns;
     tests[i].channel = channels.size() == 1 ? name_of_channel(channels[0]) : "forward, sideways and turn, per metre";
+    // A castor's kick at each reversal is its simplest form.
+    constexpr double kLeftByAKick = 0.3;
+    if (channels.front() == kTurnForwards) tests[i].most_left = kLeftByAKick;
     if (channels.size() == 1) {
       tests[i].at = g.at;
       tests[i].waves = g.waves;
