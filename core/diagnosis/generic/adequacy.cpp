@@ -354,9 +354,9 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
                      const std::vector<ScoredCandidate>& evidence, double error) {
   // Groups share most of what they ask, and the bound over all of them is wide: of 116 sets of four programs in which
   // nothing was missing the least p was below a tenth in two. Beside names less of that is taken, so that none is
-  // wronged (beside the right names of 70 sets of another the least was 0.03); and nothing of it of
-  // a base that is driven by its commands, whose lag may be too small to be let in; where there are few innovations,
-  // which groups of so many terms fit by chance; and where counts are coarse, of whose feigning only so much is known.
+  // wronged (beside the right names of 70 sets of another the least was 0.03); and nothing of it of a base that is
+  // driven by its commands, whose lag may be too small to be let in; where there are few innovations, which groups of
+  // so many terms fit by chance; and where counts are coarse, of whose feigning only so much is known.
   constexpr double kShared = 6.0, kSharedBesideNames = 2.0;
   const std::ptrdiff_t names = names_held_against(joint, Base::goes);
   const bool commands = std::any_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands));

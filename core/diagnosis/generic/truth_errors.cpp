@@ -6,11 +6,9 @@ namespace odolab {
 
 namespace {
 
-// Twice what the likelihood gains: bodies that are joined give way a little, and that looks like an instrument's error.
-constexpr double kLeast = 50.0;
-
 bool says_enough(const TruthError& error, const CandidateTest& test) {
-  return !test.value.empty() && test.judged() > kLeast + 2.0 * test.freedom && error.is_more_than_rounding(test.value);
+  return !test.value.empty() && test.judged() > kLeastOfJoinedBodies + 2.0 * test.freedom &&
+         error.is_more_than_rounding(test.value);
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ struct TruthError {
   std::vector<GenericCurve> curves;
 };
 
+// Twice what the likelihood gains, at least, and two more for each number: bodies that are joined give way a little,
+// and that looks like an instrument's error.
+constexpr double kLeastOfJoinedBodies = 50.0;
+
 // Each as a group without a name. p values are over `looked_at` tests.
 std::vector<GenericTest> truth_error_tests(const AskedModel& asked, double looked_at);
 

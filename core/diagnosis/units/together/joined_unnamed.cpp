@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/generic/truth_errors.h"
 #include "core/diagnosis/units/together/joined_groups.h"
 
 namespace odolab {
@@ -14,8 +15,6 @@ namespace odolab {
 namespace {
 
 constexpr double kUnnamedInstead = 1.15;
-// Twice what the likelihood gains: many groups bend to what joints and wheels are not quite.
-constexpr double kLeastUnnamed = 50.0;
 
 // Says of a finding that it has no name, and what it goes with.
 void put_words(Finding& unknown, const std::string& goes_with) {
@@ -36,7 +35,7 @@ std::optional<Finding> strongest_of(const std::vector<JoinedGroup>& groups, cons
     with.let_in(*s.columns);
     named += s.test.judged();
   }
-  const double least = std::max(kLeastUnnamed, least_said(model.vehicle()));
+  const double least = std::max(kLeastOfJoinedBodies, least_said(model.vehicle()));
   const auto tests = static_cast<double>(groups.size());
   std::vector<Finding> found(groups.size());
   std::vector<double> excess(groups.size(), 0.0);
