@@ -17,79 +17,104 @@ bool comes_first(const Finding& a, const Finding& b) {
   return a.log_likelihood_gain > b.log_likelihood_gain;
 }
 
-void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
-                  const LeastSquaresCalibration& fit, const Vehicle& nominal) {
-  const auto determined = [&](const std::string& name) -> const ParameterEstimate* {
-    for (const ParameterEstimate& p : fit.parameters)
-      if (p.name == name && p.determined) return &p;
-    return nullptr;
-  };
+namespace {
+
+// Where the tracked point is found, against where the file has it.
+struct FoundMounting {
+  Finding finding;  // truth_mounting_offset, with what is determined
+  double turned_rad = 0.0, away_m = 0.0;
+  bool is_moved = false;        // by something that is beyond six standard errors and large enough to say
+  bool is_turned = false;       // its heading is among that
+  bool is_shifted = false;      // its place is off by three standard errors
+  bool is_shifted_far = false;  // and by more than a marker that sits right
+};
+
+FoundMounting mounting_found(const JointModel& joint, const Intervals& intervals, const LeastSquaresCalibration& fit,
+                             const Vehicle& nominal) {
+  constexpr double kSigmasOfShift = 3.0;  // which of two names comes first is no matter of alarms
   const Pose &now = joint.model.truth.axle_T_tracked, &then = nominal.truth.axle_T_tracked;
   const double by[3] = {now.x_m - then.x_m, now.y_m - then.y_m, now.heading_rad - then.heading_rad};
   const double value[3] = {now.x_m, now.y_m, now.heading_rad};
   const double wheelbase_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
   const double least_m = least_mounting_m(wheelbase_m);
   const double least[3] = {least_m, least_m, 0.0005};
-  constexpr double kSigmasOfShift = 3.0;  // which of two names comes first is no matter of alarms
-  Finding mounting;
+  FoundMounting m;
+  m.turned_rad = by[2], m.away_m = std::hypot(by[0], by[1]);
   double gain = 0.0;
-  bool moved = false, shifted = false, shifted_far = false, turned_too = false;
   for (int k = 0; k < 3; ++k) {
     const column::Name& name = column::names[static_cast<std::size_t>(column::mounting_x + k)];
-    const ParameterEstimate* p = determined(name.key);
-    if (!p) continue;
+    const auto p = std::find_if(fit.parameters.begin(), fit.parameters.end(), [&](const ParameterEstimate& estimate) {
+      return estimate.name == name.key && estimate.determined;
+    });
+    if (p == fit.parameters.end()) continue;
     const double se = intervals.stderr_of_nuisance(column::mounting_x + k);
     const double z = by[k] / std::max(p->stderr_value, se);
-    mounting.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
-    shifted = shifted || (k < 2 && std::abs(by[k]) > std::max(kSigmasOfShift * se, least[k]));
-    if (std::abs(z) > kSigmasOfBias && std::abs(by[k]) > least[k]) {
-      gain += 0.5 * z * z;
-      moved = true;
-      shifted_far = shifted_far || (k < 2 && std::abs(by[k]) > sits_right_m(wheelbase_m));
-      turned_too = turned_too || k == 2;
-    }
+    const bool is_of_place = k < 2;
+    m.finding.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
+    m.is_shifted = m.is_shifted || (is_of_place && std::abs(by[k]) > std::max(kSigmasOfShift * se, least[k]));
+    if (std::abs(z) <= kSigmasOfBias || std::abs(by[k]) <= least[k]) continue;
+    gain += 0.5 * z * z;
+    m.is_moved = true;
+    m.is_shifted_far = m.is_shifted_far || (is_of_place && std::abs(by[k]) > sits_right_m(wheelbase_m));
+    m.is_turned = m.is_turned || !is_of_place;
   }
-  if (!moved) return;
-  mounting.effect = "truth_mounting_offset";
-  mounting.component = "truth";
-  mounting.log_likelihood_gain = gain;
-  mounting.p_value = chi_square_tail(2.0 * gain, 3);
-  mounting.sentence = "the tracked point is not where the vehicle's file has it";
-  // A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
-  // besides is the simpler cause of both, where it is not turned by more than it is shifted.
-  constexpr double kArm_m = 0.2;
-  const double turned = now.heading_rad - then.heading_rad, away_m = std::hypot(by[0], by[1]);
-  const bool is_marker_alone = shifted_far && std::abs(turned) < away_m / kArm_m;
-  if (is_marker_alone || !turned_too || away_m >= 0.01 || std::abs(turned) >= 0.1 ||
-      mounting.parameters.back().name != "heading_rad") {
-    findings.push_back(mounting);
-    return;
-  }
-  // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little
-  // as shows, and it comes first.
+  m.finding.effect = "truth_mounting_offset";
+  m.finding.component = "truth";
+  m.finding.log_likelihood_gain = gain;
+  m.finding.p_value = chi_square_tail(2.0 * gain, 3);
+  m.finding.sentence = "the tracked point is not where the vehicle's file has it";
+  return m;
+}
+
+// A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
+// besides is the simpler cause of both, where it is not turned by more than it is shifted.
+bool may_be_toe(const FoundMounting& m) {
+  constexpr double kArm_m = 0.2, kFarthest_m = 0.01, kMostOfWheels_rad = 0.1;
+  const bool is_marker_alone = m.is_shifted_far && std::abs(m.turned_rad) < m.away_m / kArm_m;
+  return m.is_turned && !is_marker_alone && m.away_m < kFarthest_m && std::abs(m.turned_rad) < kMostOfWheels_rad;
+}
+
+// Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little as
+// shows, and it comes first.
+bool is_toe_first(const FoundMounting& m, const Vehicle& nominal) {
   constexpr double kMostOfAnAxle_rad = 0.02;
+  const std::vector<FoundParameter>& found = m.finding.parameters;
   const bool sits_where_it_should =
-      mounting.parameters.size() == 3 &&
-      away_m + 2.0 * std::hypot(mounting.parameters[0].stderr_value, mounting.parameters[1].stderr_value) <
-          sits_right_m(wheelbase_m);
-  const char* told_apart_by = "a look at how the markers sit: the motion is the same";
-  const FoundParameter& heading = mounting.parameters.back();
-  const double z = turned / heading.stderr_value;
+      found.size() == 3 && m.away_m + 2.0 * std::hypot(found[0].stderr_value, found[1].stderr_value) <
+                               sits_right_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
+  return !m.is_shifted && (sits_where_it_should || std::abs(m.turned_rad) < kMostOfAnAxle_rad);
+}
+
+// The toe that crawls as the tracked point that is turned seems to.
+Finding toe_instead(const FoundMounting& m) {
+  const FoundParameter& heading = m.finding.parameters.back();
+  const double z = m.turned_rad / heading.stderr_value;
   Finding toe;
   toe.effect = "wheel_toe";
   toe.component = "vehicle";
-  toe.parameters = {{"sideways_per_metre", -turned, heading.stderr_value, "1"}};
+  toe.parameters = {{"sideways_per_metre", -m.turned_rad, heading.stderr_value, "1"}};
   toe.log_likelihood_gain = 0.5 * z * z;
   toe.p_value = chi_square_tail(z * z, 1);
   toe.sentence = "the vehicle crawls sideways as it drives: its wheels do not stand square to the axle";
   toe.where.regime = "wherever it drives, in proportion to the way";
-  if (!shifted && (sits_where_it_should || std::abs(turned) < kMostOfAnAxle_rad)) {
-    toe.alternatives.push_back({mounting.effect, mounting.component, gain, told_apart_by});
-    findings.push_back(toe);
-  } else {
-    mounting.alternatives.push_back({toe.effect, toe.component, toe.log_likelihood_gain, told_apart_by});
-    findings.push_back(mounting);
+  return toe;
+}
+
+}  // namespace
+
+void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,
+                  const LeastSquaresCalibration& fit, const Vehicle& nominal) {
+  const FoundMounting mounting = mounting_found(joint, intervals, fit, nominal);
+  if (!mounting.is_moved) return;
+  if (!may_be_toe(mounting)) {
+    findings.push_back(mounting.finding);
+    return;
   }
+  Finding first = toe_instead(mounting), second = mounting.finding;
+  if (!is_toe_first(mounting, nominal)) std::swap(first, second);
+  first.alternatives.push_back({second.effect, second.component, second.log_likelihood_gain,
+                                "a look at how the markers sit: the motion is the same"});
+  findings.push_back(first);
 }
 
 void add_clock(std::vector<Finding>& findings, const JointModel& joint, const Intervals& intervals,

@@ -49,7 +49,7 @@ std::vector<Effect> actuator_lag() {
   e.looks_like = {"actuator_delay", "traction_slip"};
   e.told_apart_by = "sharp steps of the command, each held for a second or more";
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    return std::vector<Motions>{lagging(view, std::max(shape[0], 1e-3))};
+    return motions_by_number(lagging(view, std::max(shape[0], 1e-3)));
   };
   e.scan = [](const std::vector<DriveView>&) {
     return std::vector<std::vector<double>>{{0.05}, {0.1}, {0.2}, {0.3}, {0.5}, {0.8}, {1.2}};

@@ -60,13 +60,14 @@ void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, st
   for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
   if (total <= 0.01) return;
   double gone = 0.0, before = 0.0;
-  for (std::size_t i = from; i <= to; ++i) {
+  BodyMotion* at = m.from(from);
+  for (std::size_t i = from; i <= to; ++i, ++at) {
     const double goes = way(wheel, view.steps[i]);
     gone = std::min(gone + std::abs(goes) / total, 1.0);
     const double now = climb.share_before(gone);
     const BodyMotion by = by_wheel(wheel, std::copysign(now - before, -goes), view.drive.wheelbase_m);
-    m[i].forward_m += by.forward_m;
-    m[i].turn_rad += by.turn_rad;
+    at->forward_m += by.forward_m;
+    at->turn_rad += by.turn_rad;
     before = now;
   }
 }
@@ -184,8 +185,8 @@ Effect once(Wheel wheel) {
              "as a wheel climbs what takes 15 mm"};
   e.of_one_recording = true;
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>{Motions()};
-    return std::vector<Motions>{at_moment(view, wheel, shape[1], kOnce[static_cast<int>(shape.back())])};
+    if (view.number != static_cast<int>(shape[0])) return motions_by_number(Motions());
+    return motions_by_number(at_moment(view, wheel, shape[1], kOnce[static_cast<int>(shape.back())]));
   };
   e.scan = [](const std::vector<DriveView>& views) {
     return moments(views, 0.15,
@@ -238,7 +239,7 @@ Effect each_time(Wheel wheel) {
   // As long as it is wide, and under either wheel, it would be a patch of floor.
   if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    return std::vector<Motions>{at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())])};
+    return motions_by_number(at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())]));
   };
   // It is met anywhere within reach, and no wheel comes to the same line twice.
   e.place_known_to_m = [](const std::vector<double>& shape) {

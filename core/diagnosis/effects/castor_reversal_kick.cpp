@@ -200,15 +200,15 @@ std::vector<Effect> castor_reversal_kick() {
     const auto& [in_words, to_one_side, course, length_m] = kForms[static_cast<std::size_t>(shape.back())];
     switch (course) {
       case Course::evenly:
-        return std::vector<Motions>{even_kicks(view, to_one_side, length_m)};
+        return motions_by_number(even_kicks(view, to_one_side, length_m));
       case Course::fading:
-        return std::vector<Motions>{fading_kicks(view, to_one_side, length_m)};
+        return motions_by_number(fading_kicks(view, to_one_side, length_m));
       case Course::of_a_castor:
-        return std::vector<Motions>{kicks_of_a_castor(view, to_one_side, length_m)};
+        return motions_by_number(kicks_of_a_castor(view, to_one_side, length_m));
       case Course::shortly:
         break;
     }
-    return std::vector<Motions>{short_kicks(view)};
+    return motions_by_number(short_kicks(view));
   };
   return {e};
 }

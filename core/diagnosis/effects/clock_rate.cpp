@@ -18,7 +18,7 @@ Effect clocks_run_apart() {
   e.told_apart_by = "starts and stops early and late in a long run";
   e.clock_rate = true;
   e.motions = [](const DriveView& view, const std::vector<double>&) {
-    return std::vector<Motions>{Motions(view.steps.size())};
+    return motions_by_number(Motions(view.steps.size()));
   };
   return e;
 }

@@ -135,7 +135,7 @@ Effect of_wheel(Wheel wheel) {
     };
     if (wheel != Wheel::right) add(Wheel::left);
     if (wheel != Wheel::left) add(Wheel::right);
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   e.scan = [](const std::vector<DriveView>&) { return std::vector<std::vector<double>>{{0.01}, {0.06}}; };
   return e;

@@ -76,7 +76,7 @@ Effect of_wheel(Wheel wheel) {
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if ((wheel != Wheel::right && hovers_about(shape[0], view, &EffectStep::left_radps, &EffectStep::left_m)) ||
         (wheel != Wheel::left && hovers_about(shape[0], view, &EffectStep::right_radps, &EffectStep::right_m)))
-      return std::vector<Motions>{Motions(view.steps.size())};
+      return motions_by_number(Motions(view.steps.size()));
     Motions m;
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) {
@@ -87,7 +87,7 @@ Effect of_wheel(Wheel wheel) {
       else
         m.push_back(by_wheel(wheel, wheel == Wheel::left ? l : r, view.drive.wheelbase_m));
     }
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   e.scan = [wheel](const std::vector<DriveView>& views) { return limits(views, wheel); };
   return e;

@@ -28,7 +28,7 @@ std::vector<Effect> floor_slope_creep() {
       x.push_back({c * dt, -sn * dt, 0.0});
       y.push_back({sn * dt, c * dt, 0.0});
     }
-    return std::vector<Motions>{x, y};
+    return motions_by_number(std::move(x), std::move(y));
   };
   e.to_parameters = [](const std::vector<double>& v, const std::vector<double>& se) {
     const double a = std::hypot(v[0], v[1]);

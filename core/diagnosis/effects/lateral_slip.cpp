@@ -77,7 +77,7 @@ std::vector<Effect> lateral_slip() {
   e.looks_like = {"truth_mounting_offset", "tyre_compression"};
   e.told_apart_by = "arcs at two speeds or more, and turns on the spot";
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    return std::vector<Motions>{slipped_by(view, kForms[std::lround(shape.back())])};
+    return motions_by_number(slipped_by(view, kForms[std::lround(shape.back())]));
   };
   e.stated_at_mps = [](const std::vector<double>& shape, const std::vector<DriveView>& views) {
     return kForms[std::lround(shape.back())].at_an_angle ? speed_of_bends_mps(views) : 0.0;

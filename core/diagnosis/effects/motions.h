@@ -41,6 +41,10 @@ class Motions {
   // `step` is within one of its stretches.
   BodyMotion& operator[](std::size_t step) { return of_[place_of(step)]; }
   const BodyMotion& operator[](std::size_t step) const { return of_[place_of(step)]; }
+  // The motion in a step that is within one of its stretches; behind it in memory those of the stretch's steps after
+  // it.
+  BodyMotion* from(std::size_t step) { return &of_[place_of(step)]; }
+  const BodyMotion* from(std::size_t step) const { return &of_[place_of(step)]; }
   // Of any step of the run.
   BodyMotion at(std::size_t step) const {
     const std::size_t place = place_of(step);
@@ -75,5 +79,14 @@ class Motions {
   std::vector<BodyMotion> of_;  // of all stretches, one behind the other
   std::vector<Stretch> stretches_;
 };
+
+// What an effect's numbers do, in their order, none copied that is moved here.
+template <typename... Each>
+std::vector<Motions> motions_by_number(Each... each) {
+  std::vector<Motions> columns;
+  columns.reserve(sizeof...(each));
+  (columns.push_back(std::move(each)), ...);
+  return columns;
+}
 
 }  // namespace odolab

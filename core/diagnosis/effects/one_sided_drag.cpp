@@ -18,7 +18,7 @@ std::vector<Effect> one_sided_drag() {
     Motions m;
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) m.push_back(BodyMotion{0.0, 0.0, std::abs(s.forward_m())});
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return {e};
 }

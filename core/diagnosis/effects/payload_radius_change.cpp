@@ -54,7 +54,7 @@ Effect from_when(std::function<double(const DriveView&, const std::vector<double
       left[i] = by_wheel(Wheel::left, s.left_m, b);
       right[i] = by_wheel(Wheel::right, s.right_m, b);
     }
-    return std::vector<Motions>{left, right};
+    return motions_by_number(std::move(left), std::move(right));
   };
   return e;
 }

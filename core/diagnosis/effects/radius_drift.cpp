@@ -65,7 +65,7 @@ Effect of_wheel(Wheel wheel) {
       else
         m.push_back(by_wheel(wheel, t * (wheel == Wheel::left ? s.left_m : s.right_m), view.drive.wheelbase_m));
     }
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return e;
 }

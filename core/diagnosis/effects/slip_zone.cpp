@@ -76,7 +76,7 @@ std::vector<Effect> slip_zone() {
     const double b = view.drive.wheelbase_m, r2 = shape[2] * shape[2];
     std::vector<std::size_t> near;
     view.steps_near(centre, shape[2] + 0.5 * b, [&](std::size_t i) { near.push_back(i); });
-    if (near.empty()) return std::vector<Motions>{Motions()};
+    if (near.empty()) return motions_by_number(Motions());
     std::vector<Motions::Stretch> visits;
     for (const std::size_t i : near) {
       if (visits.empty() || visits.back().end != i) visits.push_back({i, i});
@@ -84,7 +84,9 @@ std::vector<Effect> slip_zone() {
     }
     Motions m(std::move(visits));
     double left_way_m = 0.0, right_way_m = 0.0;  // on the patch
+    BodyMotion* at = m.from(near.front());       // steps that are near and what moves in them are in the same order
     for (const std::size_t i : near) {
+      BodyMotion& moved = *at++;
       const EffectStep& s = view.steps[i];
       const Vec2 to = s.position - centre;
       const Vec2 side{-0.5 * b * s.sin_heading, 0.5 * b * s.cos_heading};
@@ -93,15 +95,15 @@ std::vector<Effect> slip_zone() {
         const double l = dot(left, left) < r2 ? -s.left_m : 0.0, r = dot(right, right) < r2 ? -s.right_m : 0.0;
         left_way_m += std::abs(l);
         right_way_m += std::abs(r);
-        m[i] = {0.5 * (l + r), 0.0, (r - l) / b};
+        moved = {0.5 * (l + r), 0.0, (r - l) / b};
       } else if (dot(to, to) < r2) {
         left_way_m += std::abs(s.left_m);
         right_way_m += std::abs(s.right_m);
-        m[i] = {-s.forward_m(), 0.0, shape.back() < 1.5 ? -s.turn_rad : 0.0};
+        moved = {-s.forward_m(), 0.0, shape.back() < 1.5 ? -s.turn_rad : 0.0};
       }
     }
-    if (std::max(left_way_m, right_way_m) < kLeastWay_m) return std::vector<Motions>{Motions()};
-    return std::vector<Motions>{m};
+    if (std::max(left_way_m, right_way_m) < kLeastWay_m) return motions_by_number(Motions());
+    return motions_by_number(std::move(m));
   };
   e.scan = patches_met;
   return {e};

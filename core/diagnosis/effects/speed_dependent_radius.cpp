@@ -32,7 +32,7 @@ Effect of_wheel(Wheel wheel) {
       const double right_m = s.right_m * (own ? drive.wheel_radius_right_m * std::abs(s.right_radps) : v) * of_right;
       m.push_back({0.5 * (left_m + right_m), 0.0, (right_m - left_m) / drive.wheelbase_m});
     }
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return e;
 }

@@ -99,7 +99,7 @@ Effect of_wheel(Wheel wheel) {
     e.form_goes_with = stays_behind_so;
   }
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    return std::vector<Motions>{lost_by(wheel, view, kForms[wheel == Wheel::both ? std::lround(shape.back()) : 0])};
+    return motions_by_number(lost_by(wheel, view, kForms[wheel == Wheel::both ? std::lround(shape.back()) : 0]));
   };
   return e;
 }

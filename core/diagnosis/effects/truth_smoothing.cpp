@@ -33,7 +33,7 @@ Motions changes(const DriveView& view) {
 }
 
 std::vector<Motions> as_it_is_smoothed(const DriveView& view, const std::vector<double>&) {
-  if (view.from_commands) return std::vector<Motions>{Motions()};  // a base that lags behind them is the same
+  if (view.from_commands) return motions_by_number(Motions());  // a base that lags behind them is the same
   Motions m(view.steps.size());
   BodyMotion was;
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -46,7 +46,7 @@ std::vector<Motions> as_it_is_smoothed(const DriveView& view, const std::vector<
             is.turn_rad - was.turn_rad};
     was = is;
   }
-  return std::vector<Motions>{m};
+  return motions_by_number(std::move(m));
 }
 }  // namespace
 

@@ -32,7 +32,7 @@ std::vector<Effect> turn_scrub() {
       const double rate = by_wheels ? of_wheels : does_turn;
       m.push_back(BodyMotion{0.0, 0.0, -rate * s.turn_rad / (1.0 + shape[0] * rate)});
     }
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return {e};
 }

@@ -19,7 +19,7 @@ std::vector<Effect> turn_speed_loss() {
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps)
       m.push_back(BodyMotion{-std::abs(s.yaw_rate_radps) * s.forward_m(), 0.0, 0.0});
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return {e};
 }

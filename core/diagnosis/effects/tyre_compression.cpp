@@ -28,7 +28,7 @@ std::vector<Effect> tyre_compression() {
     Motions m;
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) m.push_back(outer_squeezed(s, view.drive, shape.back() > 0.5));
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return {e};
 }

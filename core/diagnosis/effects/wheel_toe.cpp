@@ -19,7 +19,7 @@ std::vector<Effect> wheel_toe() {
     Motions m;
     m.reserve(view.steps.size());
     for (const EffectStep& s : view.steps) m.push_back(BodyMotion{0.0, s.forward_m(), 0.0});
-    return std::vector<Motions>{m};
+    return motions_by_number(std::move(m));
   };
   return {e};
 }

@@ -156,12 +156,13 @@ void LinearisedRun::move(const std::vector<std::vector<Motions>>& candidates, Mo
         if (first >= last) continue;
         const Moved::Part& part = *std::prev(std::upper_bound(moved.parts.begin(), moved.parts.end(),
                                                               Moved::Part{pieces_[first].truth, 0, 0}, in_order));
+        const BodyMotion* of_stretch = motions.from(stretch.first);
         for (int p = first; p < last;) {
           const int truth = pieces_[p].truth;
           double x = 0.0, y = 0.0, h = 0.0;
           for (; p < last && pieces_[p].truth == truth; ++p) {
             const Piece& piece = pieces_[p];
-            const BodyMotion m = motions.at(static_cast<std::size_t>(piece.interval));
+            const BodyMotion& m = of_stretch[static_cast<std::size_t>(piece.interval) - stretch.first];
             x += piece.forward_x * m.forward_m - piece.forward_y * m.sideways_m + piece.turn_x * m.turn_rad;
             y += piece.forward_y * m.forward_m + piece.forward_x * m.sideways_m + piece.turn_y * m.turn_rad;
             h += piece.share * m.turn_rad;
