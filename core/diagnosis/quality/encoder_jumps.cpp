@@ -57,18 +57,26 @@ Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& ang
   return rates;
 }
 
-// Off the pace before and behind, which is steady: a wheel that slows and speeds up again takes more than one reading
-// for it.
-bool is_off_a_steady_pace(const Rates& rates, std::size_t i, double gap_s, double count_rad) {
+// Off the pace before and behind, which is steady: a wheel that slows and speeds up again takes more than so many
+// readings for it. Of two in a row counts are lost that a counter did not count from within the one until within the
+// next.
+bool is_off_a_steady_pace(const Rates& rates, std::size_t first, std::size_t readings, double gap_s, double count_rad) {
   constexpr double kOfUsual = 0.25, kTrembles = 4.0, kCounts = 3.0, kBeside = 0.3;
   constexpr double kFarFromTrembling = 20.0;  // of counts that are lost: no bump loses any
+  const std::size_t behind = first + readings;
+  if (first == 0 || behind >= rates.each.size()) return false;
+  const double by_first = rates.out_by[first], by_next = rates.out_by[first + 1];
+  const std::size_t i = readings > 1 && std::abs(by_next) > std::abs(by_first) ? first + 1 : first;
   const double out_by = std::abs(rates.out_by[i]);
   const bool loses = rates.out_by[i] * (rates.each[i] - rates.out_by[i]) < 0.0;
+  const bool both_lose =
+      loses && by_first * by_next > 0.0 && std::min(std::abs(by_first), std::abs(by_next)) > kBeside * out_by;
+  if (readings > 1 && !both_lose) return false;
   const double least =
       loses ? std::min(kOfUsual * rates.usual, kFarFromTrembling * rates.trembles) : kOfUsual * rates.usual;
   return out_by >= least && out_by >= kTrembles * rates.trembles && out_by * gap_s >= kCounts * count_rad &&
          !rates.is_of_the_stamp(i, gap_s) &&
-         std::max(std::abs(rates.out_by[i - 1]), std::abs(rates.out_by[i + 1])) <= kBeside * out_by;
+         std::max(std::abs(rates.out_by[first - 1]), std::abs(rates.out_by[behind])) <= kBeside * out_by;
 }
 
 }  // namespace
@@ -110,30 +118,38 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
   const Rates of_left = rates_of(time_s, left_rad), of_right = rates_of(time_s, right_rad);
   const double count = count_rad(run, calibrated.drive);
   JumpsOfWheels jumps;
-  for (std::size_t i = 1; i + 1 < of_left.each.size(); ++i) {
-    const double gap_s = time_s[i + 1] - time_s[i];
-    const bool left = is_off_a_steady_pace(of_left, i, gap_s, count),
-               right = is_off_a_steady_pace(of_right, i, gap_s, count);
-    if (!left && !right) continue;
-    const InnovationRun as_read = part_of_run(run, time_s[i], time_s[i], calibrated.truth.time_offset_s);
-    const auto misfit = [&](double share) {
-      InnovationRun part = as_read;
-      for (WheelSample& w : part.wheels) {
-        if (w.time_s <= time_s[i]) continue;
-        if (left) w.left_rad -= share * of_left.out_by[i] * gap_s;
-        if (right) w.right_rad -= share * of_right.out_by[i] * gap_s;
-      }
-      return misfit_of(part, calibrated);
-    };
-    const std::optional<ShownShare> shown = shown_share(misfit);
-    const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
-                 slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
-    const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
-                               slowed_mps2 > kNoVehicle_mps2;
-    if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt)) continue;
-    if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
-    (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + 1]);
-  }
+  for (std::size_t i = 1; i + 1 < of_left.each.size(); ++i)
+    for (const std::size_t readings : {1u, 2u}) {
+      const double gap_s = time_s[i + 1] - time_s[i];
+      const bool left = is_off_a_steady_pace(of_left, i, readings, gap_s, count),
+                 right = is_off_a_steady_pace(of_right, i, readings, gap_s, count);
+      if (!left && !right) continue;
+      const double end_s = time_s[i + readings];
+      const InnovationRun as_read = part_of_run(run, time_s[i], end_s, calibrated.truth.time_offset_s);
+      // What a wheel stands out by until then.
+      const auto out_rad = [&](const Rates& rates, double until_s) {
+        double sum_rad = 0.0;
+        for (std::size_t k = i; k < i + readings && time_s[k] < until_s; ++k)
+          sum_rad += rates.out_by[k] * (time_s[k + 1] - time_s[k]);
+        return sum_rad;
+      };
+      const auto misfit = [&](double share) {
+        InnovationRun part = as_read;
+        for (WheelSample& w : part.wheels) {
+          if (left) w.left_rad -= share * out_rad(of_left, w.time_s);
+          if (right) w.right_rad -= share * out_rad(of_right, w.time_s);
+        }
+        return misfit_of(part, calibrated);
+      };
+      const std::optional<ShownShare> shown = shown_share(misfit);
+      const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
+                   slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
+      const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
+                                 slowed_mps2 > kNoVehicle_mps2;
+      if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt)) continue;
+      if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
+      (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], end_s);
+    }
   return jumps;
 }
 

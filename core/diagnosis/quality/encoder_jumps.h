@@ -19,8 +19,9 @@ struct JumpsOfWheels {
 };
 
 // Readings of a wheel, or of both at once, that are off the pace before and behind them by a quarter of its usual speed,
-// or that lose so much of an even pace as it never trembles by, though a wheel might, where the truth shows beyond doubt
-// that the vehicle went on at its pace: each from one reading to the next.
+// or that lose so much of an even pace as it never trembles by, though a wheel might, where the truth shows beyond
+// doubt that the vehicle went on at its pace: each from one reading to the next, or to the next but one where a counter
+// did not count from within the one until within the other.
 JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated);
 
 }  // namespace odolab

@@ -142,6 +142,22 @@ TEST(EncoderJumps, AreWhereAnEvenPaceLosesLittle) {
   }
 }
 
+// A counter that does not count for 33 ms, beginning within one reading of 40 ms and ending within the next.
+TEST(EncoderJumps, AreWhereTwoReadingsInARowShareWhatIsLost) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  for (const bool followed : {false, true}) {
+    InnovationRun run = falls_behind(model, followed);
+    run.wheels[151].left_rad += 0.065;  // and the rest in the next
+    const TimeStretches found = jumps_against_truth(run, model).left;
+    ASSERT_EQ(found.size(), followed ? 0u : 1u);
+    if (followed) continue;
+    EXPECT_NEAR(found.front().first, 6.0, 1e-9);
+    EXPECT_NEAR(found.front().second, 6.08, 1e-9);
+  }
+}
+
 // A truth whose clock is late by a tenth of a second knows nothing yet of a wheel that stops for a moment.
 TEST(EncoderJumps, AreNotWhereAWheelSlowsAndSpeedsUpAgain) {
   InnovationModel model;
