@@ -266,7 +266,9 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
     const bool says_more = is_more(*g, kept);
     if (!says_more && !is_as_much(*g, kept)) continue;
-    if (!is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
+    // One number in the place of several names bends to nothing.
+    const bool is_simplest = g->test.freedom == 1 && evidence.size() > 1 && kept > by_names;
+    if (!is_simplest && !is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = says_more ? beyond(*g, kept, kMostLeft) : kept;
     if (!which || more > which->gain) which = unnamed_by(*g, with, shape_of(*g, with), more);
