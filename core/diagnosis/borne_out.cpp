@@ -2,15 +2,31 @@
 
 #include <algorithm>
 
+#include "core/diagnosis/naming/own_noise.h"
+
 namespace odolab {
 
 namespace {
+
+// In the place of the k-th accepted effect, under the noise that its model leaves; of few innovations, under what is
+// left without it, unless it is beyond doubt: without what is large no fit is linear.
+CandidateTest tested_in_place(const JointModel& of_all, std::size_t k, const Effect& effect,
+                              const std::vector<double>& shape) {
+  constexpr double kBeyondDoubt = 200.0;
+  CandidateTest test = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
+  if (of_all.scalars() > kFewestToTellNoise || test.statistic > kBeyondDoubt) return test;
+  JointModel without = of_all;
+  without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
+  without.fit(3);
+  without.fit_noise_and_all();
+  return without.test(without.columns_of(effect, shape));
+}
 
 // A name's evidence in all recordings together, those held out among them, by its own count of tries: in the place of
 // the k-th accepted effect.
 ScoredCandidate of_all_recordings(const JointModel& of_all, std::size_t k, ScoredCandidate c, const Effect& effect,
                                   const std::vector<double>& shape) {
-  const CandidateTest of = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
+  const CandidateTest of = tested_in_place(of_all, k, effect, shape);
   const AcceptedEffect& accepted = of_all.accepted[k];
   const bool is_itself = accepted.is_held && accepted.effect == &effect;
   c.test.statistic = is_itself ? of_all.lost_without(static_cast<int>(k)) : of.statistic;

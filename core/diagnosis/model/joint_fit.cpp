@@ -30,6 +30,19 @@ std::vector<int> JointModel::held_columns() const {
   return held;
 }
 
+int JointModel::columns_fitted() const {
+  std::vector<char> is_fitted(static_cast<std::size_t>(columns()), 1);
+  const auto leave = [&](int column) { is_fitted[static_cast<std::size_t>(column)] = 0; };
+  for (int c = 0; c < 6; ++c)
+    if (!nuisance_active[static_cast<std::size_t>(c)]) leave(c);
+  for (std::size_t r = 0; r < runs_.size(); ++r)
+    if (!clock_active[r]) leave(clock_column(static_cast<int>(r)));
+  if (std::none_of(runs_.begin(), runs_.end(), [](const InnovationRun& run) { return run.counts_show; }))
+    for (const int wheel : {0, 1}) leave(half_count_column(wheel));
+  for (const int c : held_columns()) leave(c);
+  return static_cast<int>(std::count(is_fitted.begin(), is_fitted.end(), 1));
+}
+
 double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
   constexpr double kStraight = 0.1;  // a third: over so little the model is linear

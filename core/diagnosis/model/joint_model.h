@@ -288,6 +288,7 @@ class JointModel {
   Eigen::Matrix2d of_mean_radius() const;
   int columns() const;
   std::vector<int> held_columns() const;
+  int columns_fitted() const;  // those that some run has and that are not held
   int clock_column(int run) const { return 6 + run; }
   int half_count_column(int wheel) const { return 6 + static_cast<int>(runs_.size()) + wheel; }
   int first_amplitude() const { return 6 + static_cast<int>(runs_.size()) + 2; }

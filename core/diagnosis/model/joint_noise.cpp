@@ -80,7 +80,7 @@ void JointModel::fit_noise() {
     int samples = 0;
     for (const Part& part : parts) samples += static_cast<int>(part.run->truth.size());
     const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
-    const double parameters = columns();
+    const double parameters = columns_fitted();
     std::vector<NoiseSlopes> of_run(parts.size());
     const auto sum_run = [&](int r) {
       const InnovationRun& run = *parts[r].run;

@@ -11,6 +11,7 @@
 #include "core/diagnosis/naming/let_in.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
+#include "core/diagnosis/naming/own_noise.h"
 #include "core/diagnosis/naming/standing.h"
 
 namespace odolab {
@@ -25,9 +26,6 @@ constexpr double kLeastShareWhereBothShow = 0.5;  // of the shares above
 
 // Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
 constexpr double kComparable = 0.5;
-
-// Innovations that tell their noise from what one name takes away: poses at both ends of ten runs do not.
-constexpr double kFewestForTheirNoise = 100.0;
 
 // One name after the other, then what each of them is worth beside the others.
 class Selection {
@@ -166,7 +164,7 @@ class Selection {
     constexpr std::size_t kMostTried = 3;
     constexpr double kLeastKept = 8.0;
     std::vector<ScoredCandidate> scored = scored_candidates(joint_);
-    if (joint_.scalars() > kFewestForTheirNoise) look_again(joint_, scored);
+    if (joint_.scalars() > kFewestToTellNoise) look_again(joint_, scored);
     Standing standing = standing_of(scored);
     if (out_.first_look.empty()) out_.first_look = scored;
     const std::vector<Fitted> fitted = put_best_first(standing);
