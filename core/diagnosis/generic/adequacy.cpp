@@ -370,7 +370,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   const double of_what_is_left = shared * error;
   Adequacy out;
   out.generic = generic_tests(joint);
-  look_again(joint, out.generic, of_what_is_left);
+  if (joint.scalars() > kFewestToTellNoise) look_again(joint, out.generic, of_what_is_left);
   const GenericTest* sway = clearest_sway(out.generic, error);
   if (sway) out.sway = {sway->variable, sway->sway->to_either_side_m};
   double explained = 0.0;

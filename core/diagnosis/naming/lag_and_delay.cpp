@@ -106,10 +106,15 @@ std::optional<Alternative> lag_instead(const JointModel& joint, double delay_s, 
   constexpr double kClearlyLess = 20.0;  // in twice the log-likelihood: forms of both are nobody's
   const Effect* lag = lag_behind_commands();
   if (!lag) return std::nullopt;
-  JointModel late = joint, lagging = with_lag_at(with_lag_for(joint, *lag, delay_s), delay_s);
+  JointModel late = joint;
   late.fit(3);
-  for (JointModel* each : {&late, &lagging}) each->fit_noise_and_all();
-  const double likelier = likelier_by(lagging, late);
+  late.fit_noise_and_all();
+  double likelier = -1e300;
+  for (const double share : {0.5, 1.0}) {  // the rest is the clock's
+    JointModel lagging = with_lag_at(with_lag_for(joint, *lag, share * delay_s), share * delay_s);
+    lagging.fit_noise_and_all();
+    likelier = std::max(likelier, likelier_by(lagging, late));
+  }
   if (likelier < -kClearlyLess) return std::nullopt;
   return Alternative{lag->name, lag->component, gain_of_delay + 0.5 * likelier, lag->told_apart_by};
 }

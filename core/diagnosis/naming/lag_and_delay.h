@@ -19,7 +19,8 @@ void put_lag_where_likeliest(JointModel& joint);
 // The model must have been linearised.
 void let_lag_in(JointModel& joint);
 
-// Whether a lag as long as a delay that was found describes the recordings too: then it stays beside it.
+// Whether a lag as long as a delay that was found, or half as long beside a clock's offset, describes the recordings
+// too: then it stays beside it.
 std::optional<Alternative> lag_instead(const JointModel& joint, double delay_s, double gain_of_delay);
 
 // The variance of an accepted effect's size that is held so, by how the likelihood bends along the valley: its column
