@@ -37,7 +37,7 @@ std::map<std::string, Entry> entries_of(const DrawnCase& drawn) {
   std::map<std::string, Entry> entries;
   for (const Effect& e : catalogue()) {
     if (e.only_commands) continue;
-    const ScoredCandidate c = scored_candidate(*joint, scan, e, JointModel::kNone, 1);
+    const ScoredCandidate c = scored_candidate(*joint, scan, e, {});
     Entry& entry = entries[e.name + ", " + e.component + ", " + e.regime];
     ++entry.asked;
     for (std::size_t k = 0; k < kChances.size(); ++k) entry.below[k] += c.beyond_counts && c.p_value < kChances[k];

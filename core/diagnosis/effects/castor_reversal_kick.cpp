@@ -36,6 +36,8 @@ constexpr struct {
     {"always to the same side, within 0.15 s, also of a stop that swings back", true, Course::shortly},
     {"always to the same side, fading over 7 cm of way", true, Course::fading, 0.07},
     {"to one side forwards and the other in reverse, fading over 7 cm", false, Course::fading, 0.07},
+    {"always to the same side, fading over 2 cm of way", true, Course::fading, 0.02},
+    {"to one side forwards and the other in reverse, fading over 2 cm", false, Course::fading, 0.02},
 };
 
 struct Reversal {

@@ -139,14 +139,15 @@ void judge(ScoredCandidate& c) {
       1.0, scaled_chi_square_tail(c.test.judged(), c.test.freedom, c.test.feigned.squares) * std::exp(c.log_tests));
 }
 
-ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e, int without,
-                                 int tests, const std::vector<std::vector<double>>& also_from) {
+ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& e,
+                                 const Sought& sought) {
+  const int without = sought.without;
   ScoredCandidate best;
   best.effect = &e;
-  SearchedShapes searched = best_shape(joint.views(), scan, e, also_from);
+  SearchedShapes searched = best_shape(joint.views(), scan, e, sought.also_from, sought.worth_refining);
   best.test = std::move(searched.best);
   if (best.test.statistic <= 0.0) return best;
-  const double log_tests = std::log(static_cast<double>(tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
+  const double log_tests = std::log(static_cast<double>(sought.tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
                            std::log(e.tests_of_a_shape * static_cast<double>(searched.tried));
   std::vector<double>& statistics = searched.statistics;
   const std::vector<double> shape = best.test.shape;
@@ -212,7 +213,7 @@ void look_where_others_lie(const JointModel& joint, const CandidateScan& scan, i
   parallel_for(static_cast<int>(scored.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
     if (also_from[k].empty()) return;
-    ScoredCandidate again = scored_candidate(joint, scan, *scored[k].effect, without, tests, also_from[k]);
+    ScoredCandidate again = scored_candidate(joint, scan, *scored[k].effect, {without, tests, also_from[k]});
     if (again.test.statistic > scored[k].test.statistic) scored[k] = std::move(again);
   });
 }
@@ -250,6 +251,12 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
   // was looked for so often that it needs the larger share to be seen at all.
   const auto local = std::count_if(all.begin(), all.end(), [](const Effect* e) { return e->local; });
   const int entries[2] = {2 * static_cast<int>(std::ssize(all) - local), 2 * static_cast<int>(local)};
+  constexpr double kMayCatchUp = 0.2;  // a sharp place shows half of what it says, or less, beside itself
+  double worth_refining = 0.0;
+  if (without >= 0) {
+    const AcceptedEffect& a = joint.accepted[static_cast<std::size_t>(without)];
+    worth_refining = kMayCatchUp * joint.test(joint.columns_of(*a.effect, a.shape), without).statistic;
+  }
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Effect& e = *all[i];
     scored[i].effect = &e;
@@ -257,7 +264,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
     if (joint.truth_jumps && is_short(e)) return;
     // What reads the encoders does not exist where there are none.
     if (commands && (e.name == "encoder_missed_counts" || e.name == "wheel_eccentricity")) return;
-    scored[i] = scored_candidate(joint, scan, e, without, entries[e.local ? 1 : 0]);
+    scored[i] = scored_candidate(joint, scan, e, {without, entries[e.local ? 1 : 0], {}, worth_refining});
   });
   look_where_others_lie(joint, scan, without, entries[1], scored);
   hold_against_readings(joint, scored);
@@ -309,7 +316,7 @@ void find_places_again(JointModel& joint) {
     if (!a.effect->scan) continue;
     const int own = static_cast<int>(k);
     const double now = joint.test(joint.columns_of(*a.effect, a.shape), own).statistic;
-    const ScoredCandidate again = scored_candidate(joint, CandidateScan(joint, own), *a.effect, own, 1);
+    const ScoredCandidate again = scored_candidate(joint, CandidateScan(joint, own), *a.effect, {.without = own});
     if (again.test.statistic < now + kSaysMore) continue;
     a.shape = again.test.shape;
     a.value = again.test.value;

@@ -16,13 +16,21 @@ struct ScoredCandidate {
   bool beyond_counts = true;  // more than whole counts can feign
 };
 
-// Best first. `without`: an accepted effect that is taken out for the question.
+// Best first. `without`: an accepted effect that is taken out for the question; what at the points of its scan says
+// less than a fifth of that one is not looked for more closely.
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int without = -1);
 
-// The best shape of one entry, which is one of so many `tests`; `scan` is of the same question. `also_from`: see
-// best_shape.
-ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& effect, int without,
-                                 int tests, const std::vector<std::vector<double>>& also_from = {});
+// How one entry is looked for.
+struct Sought {
+  int without = -1;                            // an accepted effect that is taken out for the question
+  int tests = 1;                               // that it is one of
+  std::vector<std::vector<double>> also_from;  // see best_shape
+  double worth_refining = 0.0;
+};
+
+// The best shape of one entry; `scan` is of the same question.
+ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& scan, const Effect& effect,
+                                 const Sought& sought);
 
 // Places and times were found under the noise that they made themselves: each is sought once more beside the others,
 // and all is fitted anew where another says more. So is the form of what goes by its own size: by which it went best

@@ -134,7 +134,22 @@ class Selection {
   Fitted fitted_with(const ScoredCandidate* c) const {
     Fitted f{c, joint_, 0.0};
     f.gained = let_in(f.model, *c);
-    return f;
+    return is_at_its_bound(f.model.accepted.back()) ? fitted_in_other_forms(std::move(f)) : f;
+  }
+
+  // What is large leaves its physical bounds in one form and not in another.
+  Fitted fitted_in_other_forms(Fitted at_bound) const {
+    Fitted best = std::move(at_bound);
+    for (std::size_t form = 0; form < best.candidate->effect->forms.size(); ++form) {
+      ScoredCandidate other = *best.candidate;
+      other.test.shape.back() = static_cast<double>(form);
+      Fitted f{best.candidate, joint_, 0.0};
+      f.gained = let_in(f.model, other);
+      if (!is_at_its_bound(f.model.accepted.back()) &&
+          (is_at_its_bound(best.model.accepted.back()) || f.gained > best.gained))
+        best = std::move(f);
+    }
+    return best;
   }
 
   // Puts first what is simpler, or else what comes to more once it is fitted; what was fitted for it.

@@ -72,8 +72,13 @@ std::vector<std::vector<double>> patches_about(const std::vector<double>& patch,
 
 class ShapeSearch {
  public:
-  ShapeSearch(const CandidateScan& scan, const Effect& effect, const std::vector<std::vector<double>>& also_from)
-      : scan_(scan), e_(effect), also_from_(also_from), forms_(std::max<std::size_t>(1, effect.forms.size())) {}
+  ShapeSearch(const CandidateScan& scan, const Effect& effect, const std::vector<std::vector<double>>& also_from,
+              double worth_refining)
+      : scan_(scan),
+        e_(effect),
+        also_from_(also_from),
+        worth_refining_(worth_refining),
+        forms_(std::max<std::size_t>(1, effect.forms.size())) {}
 
   SearchedShapes run(const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
@@ -92,7 +97,7 @@ class ShapeSearch {
     if (forms_ > 1 && !in_every_form && places_.empty()) try_other_forms();
     // Refined only where there is something to refine: a place, or a limit of speed, is sharp, and half of what it
     // says, or less, shows beside it.
-    if (e_.scan && best().statistic > kWorthRefining) refine();
+    if (e_.scan && best().statistic > std::max(kWorthRefining, worth_refining_)) refine();
     return std::move(out_);
   }
 
@@ -158,6 +163,15 @@ class ShapeSearch {
         if (!take_best_of(shapes_near(e_, best().shape, scale))) break;
   }
 
+  // Goes on in small steps only where that may still come to more than a summit that is known.
+  bool climbs_towards(double summit) {
+    constexpr double kHopeless = 0.5;
+    climb({1.0, 0.5});
+    if (best().statistic < kHopeless * summit) return false;
+    climb({0.25, 0.12, 0.06});
+    return true;
+  }
+
   void refine() {
     const std::vector<double> begun = best().shape;
     climb();
@@ -176,7 +190,7 @@ class ShapeSearch {
       std::vector<double> start = begun;
       start.back() = static_cast<double>(form);
       best().statistic = 0.0;
-      if (take(scan_.test(e_, start), start)) climb();
+      if (take(scan_.test(e_, start), start)) climbs_towards(summit.statistic);
       if (best().statistic > summit.statistic) summit = best();
     }
     best() = summit;
@@ -237,16 +251,14 @@ class ShapeSearch {
   void climb_from(const std::vector<double>& start) {
     const CandidateTest top = best();
     best().statistic = 0.0;
-    if (take(scan_.test(e_, start), start)) {
-      climb();
-      if (forms_ > 1) try_other_forms(), climb();
-    }
+    if (take(scan_.test(e_, start), start) && climbs_towards(top.statistic) && forms_ > 1) try_other_forms(), climb();
     if (best().statistic <= top.statistic) best() = top;
   }
 
   const CandidateScan& scan_;
   const Effect& e_;
   const std::vector<std::vector<double>>& also_from_;
+  double worth_refining_;
   std::size_t forms_;
   SearchedShapes out_;
   std::vector<std::pair<double, std::size_t>> places_;  // minus the statistic, shape
@@ -295,8 +307,8 @@ Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<dou
 }
 
 SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect,
-                          const std::vector<std::vector<double>>& also_from) {
-  return ShapeSearch(scan, effect, also_from).run(views);
+                          const std::vector<std::vector<double>>& also_from, double worth_refining) {
+  return ShapeSearch(scan, effect, also_from, worth_refining).run(views);
 }
 
 }  // namespace odolab

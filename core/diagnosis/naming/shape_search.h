@@ -16,9 +16,10 @@ struct SearchedShapes {
   std::vector<std::size_t> of_shape;
 };
 
-// `also_from`: places, without a form, from which it is looked for too, whatever the scan says of them.
+// `also_from`: places, without a form, from which it is looked for too, whatever the scan says of them. Between the
+// points of the scan it is looked for only where one of them has a statistic that is `worth_refining`.
 SearchedShapes best_shape(const std::vector<DriveView>& views, const CandidateScan& scan, const Effect& effect,
-                          const std::vector<std::vector<double>>& also_from = {});
+                          const std::vector<std::vector<double>>& also_from = {}, double worth_refining = 0.0);
 
 bool is_a_patch(const Effect& effect);  // a disc of the floor: x, y and a radius
 

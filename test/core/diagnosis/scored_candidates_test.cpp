@@ -23,7 +23,7 @@ TEST(ScoredCandidate, OfOneSignIsLookedForHalfAsOften) {
   for (const Effect& e : catalogue()) {
     if (e.name != "turn_speed_loss" && e.name != "one_sided_drag") continue;
     const double sides = e.name == "one_sided_drag" ? 2.0 : 1.0;
-    EXPECT_DOUBLE_EQ(scored_candidate(joint, scan, e, JointModel::kNone, 10).log_tests, std::log(10.0 * sides / 2.0))
+    EXPECT_DOUBLE_EQ(scored_candidate(joint, scan, e, {.tests = 10}).log_tests, std::log(10.0 * sides / 2.0))
         << e.name;
     ++seen;
   }
