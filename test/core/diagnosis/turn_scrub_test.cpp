@@ -31,7 +31,7 @@ void expect_measured(double scrub, bool by_wheels) {
   EXPECT_EQ(d.verdict, Verdict::found);
   ASSERT_FALSE(d.findings.empty());
   const Finding& f = d.findings.front();
-  EXPECT_EQ(f.effect, "turn_scrub");
+  ASSERT_EQ(f.effect, "turn_scrub");
   const FoundParameter& found = f.parameters.front();
   EXPECT_LT(std::abs(found.value - scrub), 3.0 * found.stderr_value) << found.value << " +- " << found.stderr_value;
   EXPECT_EQ(f.form_in_words.find("by the rate at which its wheels") == 0, by_wheels) << f.form_in_words;
