@@ -52,7 +52,7 @@ FoundMounting mounting_found(const JointModel& joint, const Intervals& intervals
     const bool is_of_place = k < 2;
     m.finding.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
     m.is_shifted = m.is_shifted || (is_of_place && std::abs(by[k]) > std::max(kSigmasOfShift * se, least[k]));
-    if (std::abs(z) <= kSigmasOfBias || std::abs(by[k]) <= least[k]) continue;
+    if (std::abs(z) <= kSigmasOfTruth || std::abs(by[k]) <= least[k]) continue;
     gain += 0.5 * z * z;
     m.is_moved = true;
     m.is_shifted_far = m.is_shifted_far || (is_of_place && std::abs(by[k]) > sits_right_m(wheelbase_m));
@@ -124,7 +124,7 @@ void add_clock(std::vector<Finding>& findings, const JointModel& joint, const In
     return;
   const SharedClock clock = intervals.shared_clock(joint);
   const double off = clock.offset_s - nominal.truth.time_offset_s, z = off / clock.stderr_s;
-  if (std::abs(z) < kSigmasOfBias || std::abs(off) < kLeastClock_s) return;
+  if (std::abs(z) < kSigmasOfTruth || std::abs(off) < kLeastClock_s) return;
   Finding f;
   // Clocks that were set by a network or by hand are off by so much; a motor's loop, a bus and a gear take longer.
   constexpr double kMostOfAClock_s = 0.05;
