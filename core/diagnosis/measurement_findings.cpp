@@ -23,7 +23,7 @@ namespace {
 struct FoundMounting {
   Finding finding;  // truth_mounting_offset, with what is determined
   double turned_rad = 0.0, away_m = 0.0;
-  bool is_moved = false;        // by something that is beyond six standard errors and large enough to say
+  bool is_moved = false;        // by something that is beyond doubt and large enough to say
   bool is_turned = false;       // its heading is among that
   bool is_shifted = false;      // its place is off by three standard errors
   bool is_shifted_far = false;  // and by more than a marker that sits right
