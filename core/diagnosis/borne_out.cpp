@@ -16,8 +16,7 @@ CandidateTest tested_in_place(const JointModel& of_all, std::size_t k, const Eff
   CandidateTest test = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
   if (of_all.scalars() > kFewestToTellNoise || test.statistic > kBeyondDoubt) return test;
   JointModel without = of_all;
-  without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
-  without.fit(3);
+  of_all.lost_without(static_cast<int>(k), &without);
   without.fit_noise_and_all();
   return without.test(without.columns_of(effect, shape));
 }

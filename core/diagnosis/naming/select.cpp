@@ -141,6 +141,7 @@ class Selection {
   Fitted fitted_in_other_forms(Fitted at_bound) const {
     Fitted best = std::move(at_bound);
     for (std::size_t form = 0; form < best.candidate->effect->forms.size(); ++form) {
+      if (static_cast<double>(form) == best.candidate->test.shape.back()) continue;
       ScoredCandidate other = *best.candidate;
       other.test.shape.back() = static_cast<double>(form);
       Fitted f{best.candidate, joint_, 0.0};

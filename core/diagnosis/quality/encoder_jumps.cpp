@@ -79,6 +79,36 @@ bool is_off_a_steady_pace(const Rates& rates, std::size_t first, std::size_t rea
          std::max(std::abs(rates.out_by[first - 1]), std::abs(rates.out_by[behind])) <= kBeside * out_by;
 }
 
+// Readings in a row that stand out, of one wheel or both.
+struct StandingOut {
+  std::size_t first, readings;
+  bool left, right;
+};
+
+// What a wheel stands out by in them until then.
+double out_by_rad(const Rates& rates, const std::vector<double>& time_s, const StandingOut& out, double until_s) {
+  double sum_rad = 0.0;
+  for (std::size_t k = out.first; k < out.first + out.readings && time_s[k] < until_s; ++k)
+    sum_rad += rates.out_by[k] * (time_s[k + 1] - time_s[k]);
+  return sum_rad;
+}
+
+// How much of it the truth shows, were those readings on the pace.
+std::optional<ShownShare> shown_on_the_pace(const InnovationRun& run, const InnovationModel& calibrated,
+                                            const std::vector<double>& time_s, const Rates& of_left,
+                                            const Rates& of_right, const StandingOut& out) {
+  const InnovationRun as_read =
+      part_of_run(run, time_s[out.first], time_s[out.first + out.readings], calibrated.truth.time_offset_s);
+  return shown_share([&](double share) {
+    InnovationRun part = as_read;
+    for (WheelSample& w : part.wheels) {
+      if (out.left) w.left_rad -= share * out_by_rad(of_left, time_s, out, w.time_s);
+      if (out.right) w.right_rad -= share * out_by_rad(of_right, time_s, out, w.time_s);
+    }
+    return misfit_of(part, calibrated);
+  });
+}
+
 }  // namespace
 
 TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector<double>& angle_rad, double radius_m,
@@ -124,31 +154,15 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
       const bool left = is_off_a_steady_pace(of_left, i, readings, gap_s, count),
                  right = is_off_a_steady_pace(of_right, i, readings, gap_s, count);
       if (!left && !right) continue;
-      const double end_s = time_s[i + readings];
-      const InnovationRun as_read = part_of_run(run, time_s[i], end_s, calibrated.truth.time_offset_s);
-      // What a wheel stands out by until then.
-      const auto out_rad = [&](const Rates& rates, double until_s) {
-        double sum_rad = 0.0;
-        for (std::size_t k = i; k < i + readings && time_s[k] < until_s; ++k)
-          sum_rad += rates.out_by[k] * (time_s[k + 1] - time_s[k]);
-        return sum_rad;
-      };
-      const auto misfit = [&](double share) {
-        InnovationRun part = as_read;
-        for (WheelSample& w : part.wheels) {
-          if (left) w.left_rad -= share * out_rad(of_left, w.time_s);
-          if (right) w.right_rad -= share * out_rad(of_right, w.time_s);
-        }
-        return misfit_of(part, calibrated);
-      };
-      const std::optional<ShownShare> shown = shown_share(misfit);
+      const std::optional<ShownShare> shown =
+          shown_on_the_pace(run, calibrated, time_s, of_left, of_right, {i, readings, left, right});
       const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
                    slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
       const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
                                  slowed_mps2 > kNoVehicle_mps2;
       if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt)) continue;
       if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
-      (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], end_s);
+      (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + readings]);
     }
   return jumps;
 }
