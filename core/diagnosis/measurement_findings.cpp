@@ -19,6 +19,8 @@ bool comes_first(const Finding& a, const Finding& b) {
 
 namespace {
 
+constexpr double kMostOfAnAxle_rad = 0.02;
+
 // Where the tracked point is found, against where the file has it.
 struct FoundMounting {
   Finding finding;  // truth_mounting_offset, with what is determined
@@ -66,18 +68,19 @@ FoundMounting mounting_found(const JointModel& joint, const Intervals& intervals
   return m;
 }
 
-// A heading of the mounting alone is what wheels that are not square to the axle do too; a marker that sits elsewhere
-// besides is the simpler cause of both, where it is not turned by more than it is shifted.
+// A heading of the mounting is to the last digit what wheels that are not square to the axle do. A marker that sits
+// elsewhere besides, and is turned by no more than it is shifted, is the simpler cause of both unless an axle may be
+// that much off.
 bool may_be_toe(const FoundMounting& m) {
   constexpr double kArm_m = 0.2, kFarthest_m = 0.01, kMostOfWheels_rad = 0.1;
   const bool is_marker_alone = m.is_shifted_far && std::abs(m.turned_rad) < m.away_m / kArm_m;
-  return m.is_turned && !is_marker_alone && m.away_m < kFarthest_m && std::abs(m.turned_rad) < kMostOfWheels_rad;
+  const bool sits_near = !is_marker_alone && m.away_m < kFarthest_m;
+  return m.is_turned && std::abs(m.turned_rad) < (sits_near ? kMostOfWheels_rad : kMostOfAnAxle_rad);
 }
 
 // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little as
 // shows, and it comes first.
 bool is_toe_first(const FoundMounting& m, const Vehicle& nominal) {
-  constexpr double kMostOfAnAxle_rad = 0.02;
   const std::vector<FoundParameter>& found = m.finding.parameters;
   const bool sits_where_it_should =
       found.size() == 3 && m.away_m + 2.0 * std::hypot(found[0].stderr_value, found[1].stderr_value) <

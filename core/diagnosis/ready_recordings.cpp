@@ -9,6 +9,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/quality/alike_holds.h"
 #include "core/diagnosis/quality/encoder_jumps.h"
 #include "core/diagnosis/quality/lost_counts.h"
 #include "core/diagnosis/quality/noiseless_truth.h"
@@ -79,6 +80,21 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
   return true;
 }
 
+// What overlaps nothing that was `known` is left out, too, and said. Whether there is any.
+bool leave_out(CheckedRecording& checked, const TimeStretches& known, TimeStretches times, const char* component,
+               const std::string& in_words) {
+  std::erase_if(times, [&](const auto& time) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const auto& k) { return time.first < k.second && time.second > k.first; });
+  });
+  if (times.empty()) return false;
+  checked.faults.push_back({"encoder_data_fault", component, checked.recording.name, times,
+                            in_words + ", " + std::to_string(times.size()) + " time(s); left out"});
+  checked.left_out_s.insert(checked.left_out_s.end(), times.begin(), times.end());
+  checked.left_out_s = joined(std::move(checked.left_out_s));
+  return true;
+}
+
 // Where a reading is off its wheel's pace and the truth knows nothing of it, or a wheel stands and the truth goes on,
 // it is left out. Whether there is any.
 bool leave_out_what_encoders_lose(const ReadyRecordings& ready, const std::vector<CheckedRecording*>& each,
@@ -105,22 +121,32 @@ bool leave_out_what_encoders_lose(const ReadyRecordings& ready, const std::vecto
                     {lost, &JumpsOfWheels::right, "right_wheel", "the right encoder stands still"},
                     {lost, &JumpsOfWheels::both, "both_wheels", "both encoders stand still at once"}};
   for (std::size_t r = 0; r < each.size(); ++r) {
-    TimeStretches& left_out_s = each[r]->left_out_s;
-    const TimeStretches known = left_out_s;
-    for (const Of& of : all) {
-      TimeStretches times = of.found[r].*of.wheel;
-      std::erase_if(times, [&](const auto& time) {
-        return std::any_of(known.begin(), known.end(),
-                           [&](const auto& k) { return time.first < k.second && time.second > k.first; });
-      });
-      if (times.empty()) continue;
-      any = true;
-      each[r]->faults.push_back({"encoder_data_fault", of.component, each[r]->recording.name, times,
-                                 std::string(of.in_words) + ", and the truth goes on as before, " +
-                                     std::to_string(times.size()) + " time(s); left out"});
-      left_out_s.insert(left_out_s.end(), times.begin(), times.end());
-    }
-    left_out_s = joined(std::move(left_out_s));
+    const TimeStretches known = each[r]->left_out_s;
+    for (const Of& of : all)
+      any |= leave_out(*each[r], known, of.found[r].*of.wheel, of.component,
+                       std::string(of.in_words) + ", and the truth goes on as before");
+  }
+  return any;
+}
+
+// Where an encoder stands as long as it is known to stand elsewhere, though its wheel goes too slowly to show it, that
+// is left out. Whether there is any.
+bool leave_out_alike_holds(const std::vector<CheckedRecording*>& each, const Vehicle& nominal) {
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(nominal.kind);
+  bool any = false;
+  for (const Wheel wheel : {Wheel::left, Wheel::right}) {
+    KnownHolds known;
+    for (const CheckedRecording* c : each)
+      for (const DataFault& fault : c->faults)
+        if (!c->from_commands && fault.effect == "encoder_data_fault" && fault.component == component_of(wheel))
+          known.add(fault.time_s, wheel_samples(c->recording, drive), wheel);
+    if (!known.are_alike()) continue;
+    const std::string said = std::string("the ") + (wheel == Wheel::left ? "left" : "right") +
+                             " encoder stands as long as it does elsewhere";
+    for (CheckedRecording* c : each)
+      if (!c->from_commands)
+        any |= leave_out(*c, TimeStretches(c->left_out_s),
+                         holds_alike(wheel_samples(c->recording, drive), wheel, known), component_of(wheel), said);
   }
   return any;
 }
@@ -187,7 +213,8 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
-  if (leave_out_what_encoders_lose(ready, each, nominal))
+  const bool some_is_lost = leave_out_what_encoders_lose(ready, each, nominal);
+  if (leave_out_alike_holds(each, nominal) || some_is_lost)
     if (const Result<Done> done = calibrate(); !done) return done.error();
   if (leave_out_truth_elsewhere(ready, each, nominal))
     if (const Result<Done> done = calibrate(); !done) return done.error();

@@ -113,6 +113,21 @@ Group by_turn_before() {
   return g;
 }
 
+// What settles once a run has begun: grease and tyres that are cold at first.
+Group by_time_since_start_forgotten() {
+  Group g;
+  g.variable = "time since the start, forgotten over seconds";
+  g.is_memory = true;
+  g.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
+    constexpr double kForgotten_s[] = {5.0, 20.0};
+    out.assign(std::size(kForgotten_s), std::vector<double>(view.steps.size()));
+    for (std::size_t k = 0; k < std::size(kForgotten_s); ++k)
+      for (std::size_t i = 0; i < view.steps.size(); ++i)
+        out[k][i] = std::exp(-view.steps[i].since_start_s / kForgotten_s[k]);
+  };
+  return g;
+}
+
 // What heats, or empties, as the vehicle works, and recovers.
 Group forgotten_over_seconds(const char* name, double (*work)(const EffectStep&)) {
   Group g;
@@ -236,6 +251,7 @@ std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& 
   groups.push_back(by_place(views));
   if (views.size() > 1) groups.push_back(by_recording(views.size()));
   groups.push_back(by_turn_before());
+  groups.push_back(by_time_since_start_forgotten());
   groups.push_back(forgotten_over_seconds("turning before, forgotten over seconds", turned_rad));
   groups.push_back(forgotten_over_seconds("way before, forgotten over seconds", rolled_m));
   groups.push_back(by_way_since_rest());

@@ -33,11 +33,12 @@ std::vector<Motions> motions_of(const DriveView& view, const Lateness& lateness,
   return out;
 }
 
-constexpr std::size_t kHats = 8, kPolynomials = 5, kOfMotion = 2;
+constexpr std::size_t kHats = 8, kHatsOfEach = 5, kPolynomials = 5, kOfMotion = 2;
 
-Hats hats_until(double end_s) {
+Hats hats_until(double end_s, std::size_t count) {
   std::vector<double> at_s;
-  for (std::size_t k = 0; k < kHats; ++k) at_s.push_back(end_s * static_cast<double>(k) / (kHats - 1));
+  for (std::size_t k = 0; k < count; ++k)
+    at_s.push_back(end_s * static_cast<double>(k) / static_cast<double>(count - 1));
   return Hats(std::move(at_s));
 }
 
@@ -62,6 +63,25 @@ void by_motion(const EffectStep& s, std::vector<double>& out) {
   out = {std::abs(s.yaw_rate_radps), std::abs(s.speed_mps)};
 }
 
+// A clock that is set anew steps at another time in each recording.
+GenericTest late_in_each(const AskedModel& asked, double looked_at) {
+  const std::vector<DriveView>& views = asked.joint.views();
+  std::vector<Hats> hats;
+  for (const DriveView& v : views)
+    hats.push_back(hats_until(v.steps.empty() ? 1.0 : v.steps.back().since_start_s, kHatsOfEach));
+  const auto motions = [hats](const DriveView& view, const std::vector<double>&) {
+    const auto run = static_cast<std::size_t>(view.number);
+    if (run >= hats.size())  // a run that was not fitted
+      return std::vector<Motions>(hats.size() * kHatsOfEach, Motions(view.steps.size()));
+    std::vector<Motions> out(hats.size() * kHatsOfEach);
+    std::vector<Motions> of_run = motions_of(view, by_time(hats[run]), kHatsOfEach);
+    std::move(of_run.begin(), of_run.end(), out.begin() + static_cast<std::ptrdiff_t>(run * kHatsOfEach));
+    return out;
+  };
+  return asked_of(asked, "time, in each recording", "truth late by [s]", views.size() * kHatsOfEach, motions,
+                  looked_at);
+}
+
 }  // namespace
 
 std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked_at) {
@@ -79,7 +99,7 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
     Lateness lateness;
     std::vector<double> at;
   };
-  const Hats hats = hats_until(end_s);
+  const Hats hats = hats_until(end_s, kHats);
   const std::vector<Asked> all = {{"time since the start [s]", kHats, by_time(hats), hats.at()},
                                   {"place on the floor", kPolynomials, by_place(middle, half_m), {}},
                                   {"yaw rate and speed", kOfMotion, by_motion, {}}};
@@ -95,6 +115,7 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
         looked_at);
     t.at = at;
   });
+  if (views.size() > 1) tests.push_back(late_in_each(asked, looked_at));
   return tests;
 }
 

@@ -10,23 +10,6 @@ namespace odolab {
 
 namespace {
 
-double rotation(const WheelSample& s, Wheel wheel) { return wheel == Wheel::left ? s.left_rad : s.right_rad; }
-
-// Readings of a wheel that are alike: the first and the last of each two and more, from that reading on.
-struct Hold {
-  std::size_t first, last;
-};
-std::vector<Hold> holds_of(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t from = 0) {
-  std::vector<Hold> holds;
-  for (std::size_t i = from; i + 1 < wheels.size();) {
-    std::size_t j = i;
-    while (j + 1 < wheels.size() && rotation(wheels[j + 1], wheel) == rotation(wheels[i], wheel)) ++j;
-    if (j > i) holds.push_back({i, j});
-    i = j + 1;
-  }
-  return holds;
-}
-
 // The truth at a time, by the median of three samples: one of them may err by anything.
 class SteadyTruth {
  public:
@@ -92,7 +75,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
   const double fixed_m = kLeast_m + 2.0 * least_count_rad(wheels, wheel) * radius_m(wheel);
   const double by_place_m = fixed_m + kTimesTheNoise * steady.noise_m(),
                by_turn_m = fixed_m + kTimesTheNoise * drive.wheelbase_m * steady.noise_rad();
-  for (const auto& [i, j] : holds_of(wheels, wheel)) {
+  for (const auto& [i, j] : held_readings(wheels, wheel)) {
     const double from_s = wheels[i].time_s, span_s = wheels[j].time_s - from_s;
     const bool both_hold = rotation(wheels[i], other) == rotation(wheels[j], other);
     const auto of_other_m = [&](std::size_t begin, std::size_t end) {
@@ -156,7 +139,7 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
            would_turn / next < 1.0 / kOfIt &&
            std::abs(rotation(wheels[j + 1], other) - rotation(wheels[i], other)) > kOfTheOther * std::abs(next);
   };
-  for (const auto& [i, j] : holds_of(wheels, wheel, kPace))
+  for (const auto& [i, j] : held_readings(wheels, wheel, kPace))
     if (j >= i + 3 && j + 1 < wheels.size()) {
       const std::size_t end = std::min(j + 1 + kPace, wheels.size() - 1);
       const double before = (rad(i) - rad(i - kPace)) / static_cast<double>(kPace), next = rad(j + 1) - rad(j),
@@ -212,7 +195,7 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
     return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
   };
-  for (const Hold& hold : holds_of(wheels, wheel, kPace + 1)) {
+  for (const HeldReadings& hold : held_readings(wheels, wheel, kPace + 1)) {
     const std::size_t first = hold.first, last = hold.last;
     if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
     const double middle_s = 0.5 * (wheels[first].time_s + wheels[last].time_s);
@@ -246,7 +229,7 @@ TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, 
   TimeStretches found;
   const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
   const double least_rad = kCounts * least_count_rad(wheels, wheel);
-  for (const Hold& hold : holds_of(wheels, wheel, kPace + 1)) {
+  for (const HeldReadings& hold : held_readings(wheels, wheel, kPace + 1)) {
     const std::size_t first = hold.first, last = hold.last;
     if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
     const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
@@ -287,6 +270,17 @@ TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel)
     if (rests) found.push_back({wheels[i].time_s, wheels[i + 1].time_s});
   }
   return found;
+}
+
+std::vector<HeldReadings> held_readings(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t from) {
+  std::vector<HeldReadings> holds;
+  for (std::size_t i = from; i + 1 < wheels.size();) {
+    std::size_t j = i;
+    while (j + 1 < wheels.size() && rotation(wheels[j + 1], wheel) == rotation(wheels[i], wheel)) ++j;
+    if (j > i) holds.push_back({i, j});
+    i = j + 1;
+  }
+  return holds;
 }
 
 double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel) {

@@ -38,6 +38,14 @@ struct EvenlyBetween {
 };
 inline constexpr std::size_t kReadingsOfPace = 5;
 
+inline double rotation(const WheelSample& s, Wheel wheel) { return wheel == Wheel::left ? s.left_rad : s.right_rad; }
+
+// Readings of a wheel that are alike: the first and the last of each two and more, from that reading on.
+struct HeldReadings {
+  std::size_t first, last;
+};
+std::vector<HeldReadings> held_readings(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t from = 0);
+
 // The smallest step that was read of a wheel.
 double least_count_rad(const std::vector<WheelSample>& wheels, Wheel wheel);
 

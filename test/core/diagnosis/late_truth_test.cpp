@@ -59,5 +59,22 @@ TEST(TruthLateByMore, ShowsALinkThatBuffersAndIsEmptied) {
   EXPECT_GT(drawn->value[3] - drawn->value[4], 0.006);
 }
 
+// Clocks that are set anew once in each recording, by as much to and fro, at other times.
+TEST(TruthLateByMore, ShowsClocksThatAreSetAnewAtOtherTimesInEachRecording) {
+  test::Case c = calm_case(22);
+  double at_s = 15.0, by_s = 0.02;
+  for (Recording& r : c.recordings) {
+    delay(r, [=](double t) { return by_s * std::clamp((t - at_s) / 2.0, 0.0, 1.0); });
+    at_s += 14.0, by_s = -by_s;
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("truth late by"), std::string::npos)
+      << d->findings.front().where.regime;
+  EXPECT_NE(d->findings.front().where.regime.find("in each recording"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
 }  // namespace
 }  // namespace odolab
