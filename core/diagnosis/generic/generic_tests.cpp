@@ -7,6 +7,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/after_changes.h"
+#include "core/diagnosis/generic/bands.h"
 #include "core/diagnosis/generic/bent_truth.h"
 #include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/generic/groups.h"
@@ -177,8 +178,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
        {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
         step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
         late_truth_tests(asked_model, n), tracked_point_tests(asked_model, n), moving_frame_tests(asked_model, n),
-        uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), swinging_tests(asked_model, n),
-        truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
+        uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), band_tests(asked_model, shaken, n),
+        swinging_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   hold_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

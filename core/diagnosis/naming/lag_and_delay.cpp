@@ -84,7 +84,7 @@ void put_lag_where_likeliest(JointModel& joint) {
 
 void let_lag_in(JointModel& joint) {
   constexpr double kShortest_s = 0.03;
-  constexpr double kLikelier = 20.0;  // in twice the log-likelihood, as it takes to leave one or the other out
+  constexpr double kLikelier = 40.0;  // in twice the log-likelihood; a lag is one number more than a delay
   if (std::none_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands))) return;
   const Effect* lag = lag_behind_commands();
   const double delay_s = mean_delay_s(joint);

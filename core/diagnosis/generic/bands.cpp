@@ -1,0 +1,149 @@
+#include "core/diagnosis/generic/bands.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/formatted.h"
+#include "core/base/parallel.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr int kBins = 50;
+constexpr int kWidths[] = {1, 2, 3, 5, 8, 12, 17};  // bins
+
+struct Variable {
+  const char *name, *unit;
+  double least = 0.0;  // that a band is wide
+  std::function<double(const EffectStep&)> of;
+  std::vector<int> channels;
+};
+
+std::vector<Variable> variables_of(const Shaken& shaken) {
+  const auto bend_radps = [straight_radps = shaken.straight_radps](const EffectStep& s) {
+    return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
+  };
+  const auto wheel_mps = [half_m = 0.5 * shaken.base_m](double side) {
+    return [by_m = side * half_m](const EffectStep& s) { return s.speed_mps + by_m * s.yaw_rate_radps; };
+  };
+  const auto aside_mps2 = [bend_radps](const EffectStep& s) { return s.speed_mps * bend_radps(s); };
+  return {{"speed", "m/s", shaken.speed_mps, [](const EffectStep& s) { return s.speed_mps; }, {0, 2}},
+          {"yaw rate", "rad/s", shaken.straight_radps, bend_radps, {0, 2}},
+          {"lateral acceleration",
+           "m/s2",
+           shaken.speed_mps / shaken.base_m,
+           aside_mps2,
+           {1, 2, kLeftWheelAlone, kRightWheelAlone}},
+          {"its own speed", "m/s", shaken.speed_mps, wheel_mps(-1.0), {kLeftWheelAlone}},
+          {"its own speed", "m/s", shaken.speed_mps, wheel_mps(1.0), {kRightWheelAlone}}};
+}
+
+// Evenly between the hundredths at both ends of what is met on the way.
+struct Bins {
+  double low = 0.0, width = 0.0;
+  int count = 0;
+  int of(double x) const {
+    const double k = (x - low) / width;
+    return k < 0.0 || k >= count ? -1 : static_cast<int>(k);
+  }
+};
+
+bool goes(const EffectStep& s) { return std::abs(s.speed_mps) + 0.1 * std::abs(s.yaw_rate_radps) > 0.005; }
+
+Bins bins_over(const std::vector<DriveView>& views, const Variable& variable) {
+  std::vector<double> seen;
+  for (const DriveView& v : views)
+    for (std::size_t i = 0; i < v.steps.size(); i += 7)
+      if (goes(v.steps[i])) seen.push_back(variable.of(v.steps[i]));
+  if (seen.size() < kBins) return {};
+  std::sort(seen.begin(), seen.end());
+  const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
+  if (high - low < 1e-6) return {};
+  const int count = std::min(kBins, static_cast<int>((high - low) / std::max(variable.least, 1e-9)));
+  return {low, (high - low) / std::max(1, count), count};
+}
+
+struct Band {
+  double low = 0.0, high = 0.0, strength = 0.0;
+  int looked_at = 0;
+};
+
+// That of the largest score for its way, and how many were compared.
+Band strongest(const Bins& bins, const std::vector<double>& score, const std::vector<double>& way2) {
+  constexpr double kLeastShare = 0.005;  // of all way: of less nothing is known but a moment
+  double all = 0.0;
+  for (const double w : way2) all += w;
+  Band best;
+  for (const int width : kWidths)
+    for (int first = 0; first + width <= bins.count; ++first) {
+      double s = 0.0, w = 0.0;
+      for (int k = first; k < first + width; ++k)
+        s += score[static_cast<std::size_t>(k)], w += way2[static_cast<std::size_t>(k)];
+      if (w < kLeastShare * all) continue;
+      ++best.looked_at;
+      if (s * s / w <= best.strength) continue;
+      best.strength = s * s / w;
+      best.low = bins.low + first * bins.width, best.high = best.low + width * bins.width;
+    }
+  return best;
+}
+
+}  // namespace
+
+std::vector<GenericTest> band_tests(const AskedModel& asked, const Shaken& shaken, double looked_at) {
+  const std::vector<DriveView>& views = asked.joint.views();
+  std::vector<std::vector<BodyMotion>> scores(views.size());
+  parallel_for(static_cast<int>(views.size()),
+               [&](int r) { scores[static_cast<std::size_t>(r)] = asked.joint.score_of_motions(r); });
+  struct Asked {
+    const Variable* variable;
+    int channel;
+    Band band;
+  };
+  const std::vector<Variable> variables = variables_of(shaken);
+  std::vector<Asked> all;
+  for (const Variable& v : variables)
+    for (const int channel : v.channels) all.push_back({&v, channel, {}});
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    Asked& one = all[static_cast<std::size_t>(i)];
+    const Bins bins = bins_over(views, *one.variable);
+    if (bins.count < 2) return;
+    std::vector<double> score(static_cast<std::size_t>(bins.count)), way2(score.size());
+    for (std::size_t r = 0; r < views.size(); ++r)
+      for (std::size_t k = 0; k < views[r].steps.size(); ++k) {
+        const EffectStep& s = views[r].steps[k];
+        const int bin = bins.of(one.variable->of(s));
+        if (bin < 0) continue;
+        const BodyMotion u = unit_of_channel(s, views[r].drive.wheelbase_m, one.channel);
+        score[static_cast<std::size_t>(bin)] += u.forward_m * scores[r][k].forward_m +
+                                                u.sideways_m * scores[r][k].sideways_m +
+                                                u.turn_rad * scores[r][k].turn_rad;
+        way2[static_cast<std::size_t>(bin)] +=
+            u.forward_m * u.forward_m + u.sideways_m * u.sideways_m + u.turn_rad * u.turn_rad;
+      }
+    one.band = strongest(bins, score, way2);
+  });
+  for (const Asked& one : all) looked_at += one.band.looked_at;
+  std::erase_if(all, [](const Asked& one) { return one.band.strength <= 0.0; });
+  std::vector<GenericTest> tests(all.size());
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    const Asked& one = all[static_cast<std::size_t>(i)];
+    const std::string name =
+        formatted("%s between %.3g and %.3g %s", one.variable->name, one.band.low, one.band.high, one.variable->unit);
+    tests[static_cast<std::size_t>(i)] = asked_of(
+        asked, name, name_of_channel(one.channel), 1,
+        [of = one.variable->of, band = one.band, channel = one.channel](const DriveView& view,
+                                                                        const std::vector<double>&) {
+          Motions m(view.steps.size());
+          for (std::size_t k = 0; k < view.steps.size(); ++k)
+            if (const double x = of(view.steps[k]); x >= band.low && x < band.high)
+              m[k] = unit_of_channel(view.steps[k], view.drive.wheelbase_m, channel);
+          return motions_by_number(std::move(m));
+        },
+        looked_at);
+  });
+  return tests;
+}
+
+}  // namespace odolab
