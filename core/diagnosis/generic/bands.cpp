@@ -45,7 +45,7 @@ struct Bins {
   int count = 0;
   int of(double x) const {
     const double k = (x - low) / width;
-    return k < 0.0 || k >= count ? -1 : static_cast<int>(k);
+    return k >= 0.0 && k < count ? static_cast<int>(k) : -1;
   }
 };
 
@@ -89,40 +89,48 @@ Band strongest(const Bins& bins, const std::vector<double>& score, const std::ve
   return best;
 }
 
+Band strongest(const AskedModel& asked, const Variable& variable, int channel) {
+  const std::vector<DriveView>& views = asked.joint.views();
+  const Bins bins = bins_over(views, variable);
+  if (bins.count < 2) return {};
+  std::vector<double> score(static_cast<std::size_t>(bins.count)), way2(score.size());
+  for (std::size_t r = 0; r < views.size(); ++r)
+    for (std::size_t k = 0; k < views[r].steps.size(); ++k) {
+      const EffectStep& s = views[r].steps[k];
+      const int bin = bins.of(variable.of(s));
+      if (bin < 0) continue;
+      const BodyMotion u = unit_of_channel(s, views[r].drive.wheelbase_m, channel), &by = asked.scores[r][k];
+      score[static_cast<std::size_t>(bin)] +=
+          u.forward_m * by.forward_m + u.sideways_m * by.sideways_m + u.turn_rad * by.turn_rad;
+      way2[static_cast<std::size_t>(bin)] +=
+          u.forward_m * u.forward_m + u.sideways_m * u.sideways_m + u.turn_rad * u.turn_rad;
+    }
+  return strongest(bins, score, way2);
+}
+
+// What goes further, or turns, in a band by one for each metre.
+Motions motions_in(const Band& band, const Variable& variable, int channel, const DriveView& view) {
+  Motions m(view.steps.size());
+  for (std::size_t k = 0; k < view.steps.size(); ++k)
+    if (const double x = variable.of(view.steps[k]); x >= band.low && x < band.high)
+      m[k] = unit_of_channel(view.steps[k], view.drive.wheelbase_m, channel);
+  return m;
+}
+
 }  // namespace
 
 std::vector<GenericTest> band_tests(const AskedModel& asked, const Shaken& shaken, double looked_at) {
-  const std::vector<DriveView>& views = asked.joint.views();
-  std::vector<std::vector<BodyMotion>> scores(views.size());
-  parallel_for(static_cast<int>(views.size()),
-               [&](int r) { scores[static_cast<std::size_t>(r)] = asked.joint.score_of_motions(r); });
   struct Asked {
-    const Variable* variable;
+    Variable variable;
     int channel;
     Band band;
   };
-  const std::vector<Variable> variables = variables_of(shaken);
   std::vector<Asked> all;
-  for (const Variable& v : variables)
-    for (const int channel : v.channels) all.push_back({&v, channel, {}});
+  for (const Variable& v : variables_of(shaken))
+    for (const int channel : v.channels) all.push_back({v, channel, {}});
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     Asked& one = all[static_cast<std::size_t>(i)];
-    const Bins bins = bins_over(views, *one.variable);
-    if (bins.count < 2) return;
-    std::vector<double> score(static_cast<std::size_t>(bins.count)), way2(score.size());
-    for (std::size_t r = 0; r < views.size(); ++r)
-      for (std::size_t k = 0; k < views[r].steps.size(); ++k) {
-        const EffectStep& s = views[r].steps[k];
-        const int bin = bins.of(one.variable->of(s));
-        if (bin < 0) continue;
-        const BodyMotion u = unit_of_channel(s, views[r].drive.wheelbase_m, one.channel);
-        score[static_cast<std::size_t>(bin)] += u.forward_m * scores[r][k].forward_m +
-                                                u.sideways_m * scores[r][k].sideways_m +
-                                                u.turn_rad * scores[r][k].turn_rad;
-        way2[static_cast<std::size_t>(bin)] +=
-            u.forward_m * u.forward_m + u.sideways_m * u.sideways_m + u.turn_rad * u.turn_rad;
-      }
-    one.band = strongest(bins, score, way2);
+    one.band = strongest(asked, one.variable, one.channel);
   });
   for (const Asked& one : all) looked_at += one.band.looked_at;
   std::erase_if(all, [](const Asked& one) { return one.band.strength <= 0.0; });
@@ -130,16 +138,11 @@ std::vector<GenericTest> band_tests(const AskedModel& asked, const Shaken& shake
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const Asked& one = all[static_cast<std::size_t>(i)];
     const std::string name =
-        formatted("%s between %.3g and %.3g %s", one.variable->name, one.band.low, one.band.high, one.variable->unit);
+        formatted("%s between %.3g and %.3g %s", one.variable.name, one.band.low, one.band.high, one.variable.unit);
     tests[static_cast<std::size_t>(i)] = asked_of(
         asked, name, name_of_channel(one.channel), 1,
-        [of = one.variable->of, band = one.band, channel = one.channel](const DriveView& view,
-                                                                        const std::vector<double>&) {
-          Motions m(view.steps.size());
-          for (std::size_t k = 0; k < view.steps.size(); ++k)
-            if (const double x = of(view.steps[k]); x >= band.low && x < band.high)
-              m[k] = unit_of_channel(view.steps[k], view.drive.wheelbase_m, channel);
-          return motions_by_number(std::move(m));
+        [one](const DriveView& view, const std::vector<double>&) {
+          return motions_by_number(motions_in(one.band, one.variable, one.channel, view));
         },
         looked_at);
   });

@@ -51,7 +51,12 @@ double GenericTest::p_value_of(const CandidateTest& of) const {
 }
 
 AskedModel::AskedModel(const JointModel& model)
-    : joint(model), with_and_without{model.asked()}, counts_are_coarse(odolab::counts_are_coarse(model)) {
+    : joint(model),
+      with_and_without{model.asked()},
+      counts_are_coarse(odolab::counts_are_coarse(model)),
+      scores(model.views().size()) {
+  parallel_for(static_cast<int>(scores.size()),
+               [&](int r) { scores[static_cast<std::size_t>(r)] = joint.score_of_motions(r); });
   if (!model.accepted.empty()) with_and_without.push_back(model.asked(JointModel::kAll));
 }
 

@@ -74,6 +74,7 @@ struct AskedModel {
   const JointModel& joint;
   std::vector<std::shared_ptr<const JointModel::Asked>> with_and_without;  // one where nothing was let in
   bool counts_are_coarse;
+  std::vector<std::vector<BodyMotion>> scores;  // of the motion in each step of each run (`score_of_motions`)
 };
 
 // Tests a group's term against the model, as one of so many that were looked at.

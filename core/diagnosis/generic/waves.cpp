@@ -66,9 +66,7 @@ std::string name_of(const Wave& wave) {
 std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests) {
   const std::vector<DriveView>& views = asked.joint.views();
   const std::size_t runs = views.size();
-  std::vector<std::vector<BodyMotion>> scores(runs);
-  parallel_for(static_cast<int>(runs),
-               [&](int r) { scores[static_cast<std::size_t>(r)] = asked.joint.score_of_motions(r); });
+  const std::vector<std::vector<BodyMotion>>& scores = asked.scores;
   constexpr std::size_t kMany = std::size(kAxes) + 1;
   std::array<std::vector<Heard>, kMany> heard_of;
   parallel_for(static_cast<int>(kMany), [&](int i) {
