@@ -5,6 +5,7 @@
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/wave.h"
 
 namespace odolab {
 
@@ -16,27 +17,22 @@ constexpr int kWidths[] = {1, 2, 3, 5, 8, 12, 17};  // bins
 struct Variable {
   const char *name, *unit;
   double least = 0.0;  // that a band is wide
-  std::function<double(const EffectStep&)> of;
+  OfStep of;
   std::vector<int> channels;
 };
 
 std::vector<Variable> variables_of(const Shaken& shaken) {
-  const auto bend_radps = [straight_radps = shaken.straight_radps](const EffectStep& s) {
-    return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
-  };
-  const auto wheel_mps = [half_m = 0.5 * shaken.base_m](double side) {
-    return [by_m = side * half_m](const EffectStep& s) { return s.speed_mps + by_m * s.yaw_rate_radps; };
-  };
-  const auto aside_mps2 = [bend_radps](const EffectStep& s) { return s.speed_mps * bend_radps(s); };
+  const OfStep bend = bend_radps(shaken);
+  const auto aside_mps2 = [bend](const EffectStep& s) { return s.speed_mps * bend(s); };
   return {{"speed", "m/s", shaken.speed_mps, [](const EffectStep& s) { return s.speed_mps; }, {0, 2}},
-          {"yaw rate", "rad/s", shaken.straight_radps, bend_radps, {0, 2}},
+          {"yaw rate", "rad/s", shaken.straight_radps, bend, {0, 2}},
           {"lateral acceleration",
            "m/s2",
            shaken.speed_mps / shaken.base_m,
            aside_mps2,
            {1, 2, kLeftWheelAlone, kRightWheelAlone}},
-          {"its own speed", "m/s", shaken.speed_mps, wheel_mps(-1.0), {kLeftWheelAlone}},
-          {"its own speed", "m/s", shaken.speed_mps, wheel_mps(1.0), {kRightWheelAlone}}};
+          {"its own speed", "m/s", shaken.speed_mps, own_speed_mps(shaken, kLeftWheelAlone), {kLeftWheelAlone}},
+          {"its own speed", "m/s", shaken.speed_mps, own_speed_mps(shaken, kRightWheelAlone), {kRightWheelAlone}}};
 }
 
 // Evenly between the hundredths at both ends of what is met on the way.
@@ -49,15 +45,9 @@ struct Bins {
   }
 };
 
-bool goes(const EffectStep& s) { return std::abs(s.speed_mps) + 0.1 * std::abs(s.yaw_rate_radps) > 0.005; }
-
 Bins bins_over(const std::vector<DriveView>& views, const Variable& variable) {
-  std::vector<double> seen;
-  for (const DriveView& v : views)
-    for (std::size_t i = 0; i < v.steps.size(); i += 7)
-      if (goes(v.steps[i])) seen.push_back(variable.of(v.steps[i]));
+  const std::vector<double> seen = seen_on_the_way(views, variable.of);
   if (seen.size() < kBins) return {};
-  std::sort(seen.begin(), seen.end());
   const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
   if (high - low < 1e-6) return {};
   const int count = std::min(kBins, static_cast<int>((high - low) / std::max(variable.least, 1e-9)));
@@ -100,10 +90,8 @@ Band strongest(const AskedModel& asked, const Variable& variable, int channel) {
       const int bin = bins.of(variable.of(s));
       if (bin < 0) continue;
       const BodyMotion u = unit_of_channel(s, views[r].drive.wheelbase_m, channel), &by = asked.scores[r][k];
-      score[static_cast<std::size_t>(bin)] +=
-          u.forward_m * by.forward_m + u.sideways_m * by.sideways_m + u.turn_rad * by.turn_rad;
-      way2[static_cast<std::size_t>(bin)] +=
-          u.forward_m * u.forward_m + u.sideways_m * u.sideways_m + u.turn_rad * u.turn_rad;
+      score[static_cast<std::size_t>(bin)] += product(u, by);
+      way2[static_cast<std::size_t>(bin)] += product(u, u);
     }
   return strongest(bins, score, way2);
 }

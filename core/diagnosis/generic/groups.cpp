@@ -11,17 +11,12 @@ namespace odolab {
 
 namespace {
 
-Group hats_of(const std::string& name, const std::vector<DriveView>& views,
-              const std::function<double(const EffectStep&)>& variable, int count, double least) {
-  std::vector<double> seen;
-  for (const DriveView& v : views)
-    for (std::size_t i = 0; i < v.steps.size(); i += 7)
-      if (std::abs(v.steps[i].speed_mps) + 0.1 * std::abs(v.steps[i].yaw_rate_radps) > 0.005)
-        seen.push_back(variable(v.steps[i]));
+Group hats_of(const std::string& name, const std::vector<DriveView>& views, const OfStep& variable, int count,
+              double least) {
+  const std::vector<double> seen = seen_on_the_way(views, variable);
   Group g;
   g.variable = name;
   if (seen.size() < 50) return g;
-  std::sort(seen.begin(), seen.end());
   const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
   if (high - low < 1e-6 || high - low < 2.0 * least) return g;
   // Half by quantile, half even: rare regimes are heard too.
@@ -224,16 +219,35 @@ Shaken shaken_by_wheels(const std::vector<DriveView>& views) {
   return {speed_mps, 2.0 * speed_mps / base_m, base_m};
 }
 
+OfStep bend_radps(const Shaken& shaken) {
+  return [straight_radps = shaken.straight_radps](const EffectStep& s) {
+    return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
+  };
+}
+
+OfStep own_speed_mps(const Shaken& shaken, int wheel_alone) {
+  const double side = (wheel_alone == kLeftWheelAlone ? -0.5 : 0.5) * shaken.base_m;
+  return [side](const EffectStep& s) { return s.speed_mps + side * s.yaw_rate_radps; };
+}
+
+std::vector<double> seen_on_the_way(const std::vector<DriveView>& views, const OfStep& variable) {
+  std::vector<double> seen;
+  for (const DriveView& v : views)
+    for (std::size_t i = 0; i < v.steps.size(); i += 7)
+      if (std::abs(v.steps[i].speed_mps) + 0.1 * std::abs(v.steps[i].yaw_rate_radps) > 0.005)
+        seen.push_back(variable(v.steps[i]));
+  std::sort(seen.begin(), seen.end());
+  return seen;
+}
+
 std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& shaken) {
   std::vector<Group> groups;
   groups.push_back(hats_of(
       "speed [m/s]", views, [](const EffectStep& s) { return s.speed_mps; }, 6, shaken.speed_mps));
-  const auto bend_radps = [straight_radps = shaken.straight_radps](const EffectStep& s) {
-    return s.yaw_rate_radps - std::clamp(s.yaw_rate_radps, -straight_radps, straight_radps);
-  };
-  groups.push_back(hats_of("yaw rate [rad/s]", views, bend_radps, 7, shaken.straight_radps));
+  const OfStep bend = bend_radps(shaken);
+  groups.push_back(hats_of("yaw rate [rad/s]", views, bend, 7, shaken.straight_radps));
   groups.push_back(hats_of(
-      "lateral acceleration [m/s2]", views, [=](const EffectStep& s) { return s.speed_mps * bend_radps(s); }, 6,
+      "lateral acceleration [m/s2]", views, [=](const EffectStep& s) { return s.speed_mps * bend(s); }, 6,
       shaken.speed_mps / shaken.base_m));
   groups.push_back(hats_of(
       "acceleration [m/s2]", views, [](const EffectStep& s) { return s.acceleration_mps2; }, 6,
@@ -242,9 +256,7 @@ std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& 
       "time since the start [s]", views, [](const EffectStep& s) { return s.since_start_s; }, 8, 0.0));
   groups.back().of_turns = true;
   for (const int wheel : {kLeftWheelAlone, kRightWheelAlone}) {
-    const double side = (wheel == kLeftWheelAlone ? -0.5 : 0.5) * shaken.base_m;
-    const auto wheel_mps = [side](const EffectStep& s) { return s.speed_mps + side * s.yaw_rate_radps; };
-    groups.push_back(hats_of("its own speed [m/s]", views, wheel_mps, 7, shaken.speed_mps));
+    groups.push_back(hats_of("its own speed [m/s]", views, own_speed_mps(shaken, wheel), 7, shaken.speed_mps));
     groups.back().of_wheel = wheel;
   }
   groups.push_back(by_heading());

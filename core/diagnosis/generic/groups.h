@@ -31,6 +31,13 @@ struct Shaken {
 };
 Shaken shaken_by_wheels(const std::vector<DriveView>& views);
 
+// Of a step: the yaw rate beyond that of a straight, and the speed of one wheel.
+using OfStep = std::function<double(const EffectStep&)>;
+OfStep bend_radps(const Shaken& shaken);
+OfStep own_speed_mps(const Shaken& shaken, int wheel_alone);
+// A variable where the vehicle goes, in order, of every seventh step.
+std::vector<double> seen_on_the_way(const std::vector<DriveView>& views, const OfStep& variable);
+
 // A new one is a function and a line here. Those of which the recordings have too little are left out.
 std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& shaken);
 

@@ -116,7 +116,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     std::vector<double> time_s, angle_rad;
     for (std::size_t i = 0; i < wheels.size(); ++i) {
       time_s.push_back(wheels[i].time_s);
-      angle_rad.push_back(wheel == 0 ? wheels[i].left_rad : wheels[i].right_rad);
+      angle_rad.push_back(rotation(wheels[i], which));
     }
     for (const auto& jump : encoder_jumps(time_s, angle_rad, radius, least_count_rad(wheels, which)))
       fault.time_s.push_back(jump);
