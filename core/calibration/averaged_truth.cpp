@@ -35,7 +35,9 @@ bool rounding_shows(const InnovationRun& run, const InnovationModel& model) {
 }  // namespace
 
 double averaging_s(const InnovationRun& run) {
-  constexpr double kLongest_s = 0.05, kOfATurn = 0.1, kFast = 0.95;
+  constexpr double kOfATurn = 0.1, kFast = 0.95;
+  // How a base follows a change of its command may be over within a few hundredths of a second.
+  const double longest_s = run.speeds_are_held ? 0.02 : 0.05;
   std::vector<double> speeds_radps;
   for (std::size_t i = 1; i < run.wheels.size(); ++i) {
     const WheelSample &a = run.wheels[i - 1], &b = run.wheels[i];
@@ -43,7 +45,7 @@ double averaging_s(const InnovationRun& run) {
                            (b.time_s - a.time_s));
   }
   const double fast_radps = quantile(std::move(speeds_radps), kFast);
-  return fast_radps * kLongest_s > kOfATurn * 2.0 * kPi ? kOfATurn * 2.0 * kPi / fast_radps : kLongest_s;
+  return fast_radps * longest_s > kOfATurn * 2.0 * kPi ? kOfATurn * 2.0 * kPi / fast_radps : longest_s;
 }
 
 InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationModel& model, double longest_s) {

@@ -6,7 +6,7 @@
 namespace odolab {
 
 // How long truth may be averaged over so that a wheel's turn keeps its shape: a tenth of its shortest turn, and no
-// longer than 0.05 s.
+// longer than 0.05 s; where commands stand in for wheels, 0.02 s.
 double averaging_s(const InnovationRun& run);
 
 // The run with its truth averaged over so many samples as come within `longest_s`, each carried to the middle one of

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/model/driven_again.h"
+#include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
 
@@ -233,12 +234,19 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
       by_form_of_base += kMostLeft * e.test.statistic;
       return true;
     });
-  for (const AcceptedEffect& a : joint.accepted)
-    if (is_held_against(a, base))
-      named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
-  double looked_for = 0.0;
+  double said = 0.0, looked_for = 0.0;
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                  [&](const AcceptedEffect& a) { return a.is_held && is_held_against(a, base); })) {
+    named = joint;  // fits from nothing do not find it
+    said = likelier_by(joint, bare);
+  } else {
+    for (const AcceptedEffect& a : joint.accepted)
+      if (is_held_against(a, base))
+        named.accepted.push_back({a.effect, a.shape, std::vector<double>(a.value.size(), 0.0)});
+    said = named.fit(3);
+  }
   for (const ScoredCandidate& e : evidence) looked_for += 2.0 * e.log_tests;
-  const double by_names = std::max(0.0, named.fit(3) - looked_for);
+  const double by_names = std::max(0.0, said - looked_for);
   double fair = beyond_chance(evidence);
   // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
   if (names_held_against(joint, base) > names_held_against(joint, Base::stays)) fair = std::max(fair, by_names);

@@ -9,11 +9,26 @@
 
 namespace odolab {
 
+namespace {
+
+// The rotation of wheels that obey, at times that go on.
+std::vector<WheelSample> told(const Recording& recording, const DifferentialDrive& drive) {
+  std::vector<WheelSample> wheels;
+  for (const WheelSample& w : wheel_samples(recording, drive))
+    if (wheels.empty() || w.time_s > wheels.back().time_s) wheels.push_back(w);
+  return wheels;
+}
+
+}  // namespace
+
 Result<InnovationRun> ready_run(const CheckedRecording& c, const Vehicle& vehicle) {
   Result<InnovationRun> run = innovation_run(c.recording, vehicle, c.left_out_s);
   if (!run) return run;
   run->speeds_are_held = c.from_commands;
-  if (c.from_commands) run->smooth.clear();  // a command is what it is
+  if (!c.from_commands) return run;
+  run->smooth.clear();  // a command is what it is
+  // What a base was told while its truth is left out is known, and it lags behind that: not one step in its mean.
+  if (!run->left_out.empty()) run->wheels = told(c.recording, std::get<DifferentialDrive>(vehicle.kind));
   return run;
 }
 

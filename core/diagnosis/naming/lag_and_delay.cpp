@@ -12,10 +12,21 @@
 
 namespace odolab {
 
+double likelier_by(const JointModel& a, const JointModel& than) {
+  const double misfit = than.minus_two_log_likelihood(), of_each = misfit / std::max(1, than.scalars());
+  return misfit - a.minus_two_log_likelihood() + of_each * (a.scalars() - than.scalars());
+}
+
 namespace {
 
+bool is_lag(const Effect& e) { return e.only_commands && e.shape_follows_amplitude; }
+
+AcceptedEffect& lag_of(JointModel& joint) {
+  return *std::find_if(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) { return is_lag(*a.effect); });
+}
+
 JointModel with_lag_at(JointModel joint, double time_constant_s) {
-  AcceptedEffect& lag = joint.accepted.back();
+  AcceptedEffect& lag = lag_of(joint);
   lag.shape[0] = lag.value[0] = time_constant_s;
   lag.is_held = true;
   joint.fit(3);
@@ -23,8 +34,7 @@ JointModel with_lag_at(JointModel joint, double time_constant_s) {
 }
 
 const Effect* lag_behind_commands() {
-  const auto lag = std::find_if(catalogue().begin(), catalogue().end(),
-                                [](const Effect& e) { return e.only_commands && e.shape_follows_amplitude; });
+  const auto lag = std::find_if(catalogue().begin(), catalogue().end(), is_lag);
   return lag == catalogue().end() ? nullptr : &*lag;
 }
 
@@ -42,28 +52,29 @@ double mean_delay_s(const JointModel& joint) {
   return std::accumulate(joint.clock_s.begin(), joint.clock_s.end(), 0.0) / static_cast<double>(joint.clock_s.size());
 }
 
-// By how much twice the log-likelihood is larger than another's. With another clock a run may begin with one sample of
-// the truth more or less, which counts as all others do.
-double likelier_by(const JointModel& a, const JointModel& than) {
-  const double misfit = than.minus_two_log_likelihood(), of_each = misfit / std::max(1, than.scalars());
-  return misfit - a.minus_two_log_likelihood() + of_each * (a.scalars() - than.scalars());
-}
-
 bool is_likelier(const JointModel& a, const JointModel& b) { return likelier_by(a, b) > 0.0; }
 
-// Under the noise as it is.
+// Under the noise as it is. Uphill by strides until the top lies between two of them, then to that of a parabola.
 void put_where_likeliest(JointModel& joint) {
-  constexpr double kFirstStride = 0.15, kLastStride = 0.005;  // of the size
+  constexpr double kStrides[] = {0.15, 0.04};  // of the size
   constexpr double kLeast_s = 1e-3;
   constexpr int kMostSteps = 24;
-  JointModel best = with_lag_at(joint, std::max(joint.accepted.back().value[0], kLeast_s));
-  for (double stride = kFirstStride; stride > kLastStride; stride *= 0.5)
+  JointModel best = with_lag_at(joint, std::max(lag_of(joint).value[0], kLeast_s));
+  for (const double stride : kStrides)
     for (int step = 0; step < kMostSteps; ++step) {
-      const double here_s = best.accepted.back().value[0];
+      const double here_s = lag_of(best).value[0];
       JointModel more = with_lag_at(best, here_s * (1.0 + stride)), less = with_lag_at(best, here_s / (1.0 + stride));
-      JointModel& better = is_likelier(more, less) ? more : less;
-      if (!is_likelier(better, best)) break;
-      best = std::move(better);
+      const double by_more = likelier_by(more, best), by_less = likelier_by(less, best);
+      if (std::max(by_more, by_less) > 0.0) {
+        best = std::move(by_more > by_less ? more : less);
+        continue;
+      }
+      if (by_more + by_less < 0.0) {
+        const double strides = 0.5 * (by_less - by_more) / (by_more + by_less);
+        JointModel top = with_lag_at(best, here_s * std::pow(1.0 + stride, strides));
+        if (is_likelier(top, best)) best = std::move(top);
+      }
+      break;
     }
   joint = std::move(best);
 }
@@ -82,9 +93,15 @@ void put_lag_where_likeliest(JointModel& joint) {
   if (is_likelier(even, joint)) joint = std::move(even);
 }
 
+void put_lag_anew(JointModel& joint) {
+  if (joint.accepted.empty() || is_lag(*joint.accepted.back().effect)) return;
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) { return is_lag(*a.effect); }))
+    put_lag_where_likeliest(joint);
+}
+
 void let_lag_in(JointModel& joint) {
-  constexpr double kShortest_s = 0.03;
-  constexpr double kLikelier = 40.0;  // in twice the log-likelihood; a lag is one number more than a delay
+  constexpr double kShortest_s = 0.005;
+  constexpr double kLikelier = 25.0;  // in twice the log-likelihood; a lag is one number more than a delay
   if (std::none_of(joint.views().begin(), joint.views().end(), std::mem_fn(&DriveView::from_commands))) return;
   const Effect* lag = lag_behind_commands();
   const double delay_s = mean_delay_s(joint);
@@ -92,14 +109,12 @@ void let_lag_in(JointModel& joint) {
   JointModel late = joint;
   late.fit(3);
   late.fit_noise_and_all();
-  std::optional<JointModel> best;
-  for (const double share : {0.5, 1.0}) {
-    JointModel with = with_lag_for(joint, *lag, share * delay_s);
-    put_lag_where_likeliest(with);
-    with.fit_noise_and_all();
-    if (!best || is_likelier(with, *best)) best = std::move(with);
-  }
-  if (likelier_by(*best, late) > kLikelier) joint = std::move(*best);
+  JointModel half = with_lag_at(with_lag_for(joint, *lag, 0.5 * delay_s), 0.5 * delay_s),
+             whole = with_lag_at(with_lag_for(joint, *lag, delay_s), delay_s);
+  JointModel best = std::move(is_likelier(half, whole) ? half : whole);
+  put_lag_where_likeliest(best);
+  best.fit_noise_and_all();
+  if (likelier_by(best, late) > kLikelier) joint = std::move(best);
 }
 
 std::optional<Alternative> lag_instead(const JointModel& joint, double delay_s, double gain_of_delay) {

@@ -8,11 +8,18 @@
 
 namespace odolab {
 
-// Puts the effect that was let in last, a lag, to the size at which the likelihood is largest, all else fitted anew, and
+// By how much twice the log-likelihood is larger than another's. With another clock a run may begin with one sample of
+// the truth more or less, which counts as all others do.
+double likelier_by(const JointModel& a, const JointModel& than);
+
+// Puts the lag that was let in to the size at which the likelihood is largest, all else fitted anew, and
 // holds it there. The offset that would do nearly as well changes with the lag along a valley that is bent: steps along
 // the columns run out of it, to and fro. What was noise of the moment at which commands are acted on may have been the
 // lag: it is put there as if they were acted on evenly, too, and the noise fitted to both.
 void put_lag_where_likeliest(JointModel& joint);
+
+// The same, where others were let in after it: what they do was the lag's in part.
+void put_lag_anew(JointModel& joint);
 
 // Behind commands: a base that lags is first taken for one that is late, and what is left looks like anything. Where a
 // lag in the place of the clocks' delay, or of half of it, is the likelier beyond doubt, noise and all, it is let in.

@@ -51,6 +51,7 @@ class Selection {
       if (!goes_on(progress, share += 0.08)) return std::move(out_);
       exchange_names();
     }
+    put_lag_anew(joint_);
     if (asks_what_is_undone_ && with_all_.empty() && finds_what_is_undone()) return std::move(out_);
     drop_what_does_not_stand();
     out_.beside_all = std::move(with_all_);
@@ -281,11 +282,14 @@ class Selection {
       if (c.effect == joint_.accepted[k].effect) own = c;
     // Near where it stands a lag looks like a clock, and far from there it does not.
     const bool is_a_lag = own.effect && own.effect->shape_follows_amplitude;
-    if (is_a_lag && !stands(own, family_wise_error_)) {
+    if (is_a_lag) {
       const double lost = joint_.lost_without(static_cast<int>(k));
-      if (lost > own.test.statistic) own.test.statistic = own.test.cross_validated = lost;
-      own.beyond_counts = true;
-      judge(own);
+      if (lost > own.test.statistic) {
+        own.test.statistic = own.test.cross_validated = lost;
+        own.test.shape = joint_.accepted[k].shape;
+        own.beyond_counts = true;
+        judge(own);
+      }
     }
     if (own.effect && own.effect->local && exchanged_ < kMostEffects && puts_better_name(k, own, instead)) {
       ++exchanged_;

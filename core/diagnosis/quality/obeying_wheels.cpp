@@ -12,7 +12,7 @@ constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 
 // Between one sample and the next, evenly.
 std::vector<WheelSample> between(const WheelSample& a, const WheelSample& b) {
-  constexpr double kLongest_s = 0.02, kMostParts = 2000.0, kRounding = 1e-6;
+  constexpr double kLongest_s = 0.01, kMostParts = 4000.0, kRounding = 1e-6;
   const double lasts_s = b.time_s - a.time_s, parts = std::min(kMostParts, std::ceil(lasts_s / kLongest_s - kRounding));
   std::vector<WheelSample> all;
   for (double part = 1.0; part < parts; ++part) {

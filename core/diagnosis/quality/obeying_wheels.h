@@ -12,8 +12,8 @@ namespace odolab {
 std::vector<WheelSample> obeying_wheels(const std::vector<CommandSample>& commands, const DifferentialDrive& drive);
 
 // The recording with these as `left_wheel_rad` and `right_wheel_rad`. A command is held until the next one, for seconds
-// where a log has only what changes: there it gets rows at least every fiftieth of a second (of the longest, a
-// two-thousandth), so that the vehicle drives along an arc and not along its chord.
+// where a log has only what changes: there it gets rows at least every hundredth of a second (of the longest, a
+// four-thousandth): the vehicle drives along an arc and not along its chord, and follows a command not in one go.
 Recording with_obeying_wheels(const Recording& recording, const DifferentialDrive& drive);
 
 }  // namespace odolab

@@ -48,7 +48,7 @@ TEST(ObeyingWheels, LeaveWhatWasRecordedAsItWas) {
 
 TEST(ObeyingWheels, AreReadAtEachCommandAloneWhereTheseComeOftenEnough) {
   Recording often;
-  for (int i = 0; i < 50; ++i) often.time_s.push_back(0.02 * i);
+  for (int i = 0; i < 50; ++i) often.time_s.push_back(0.01 * i);
   often.channels = {{"command_speed_mps", std::vector<double>(50, 0.3)},
                     {"command_yaw_rate_radps", std::vector<double>(50, 0.1)}};
   EXPECT_EQ(with_obeying_wheels(often, kDrive).time_s, often.time_s);
@@ -72,7 +72,7 @@ TEST(ObeyingWheels, StayFewWhereACommandIsHeldForVeryLong) {
   Recording day;
   day.time_s = {0.0, 86400.0};
   day.channels = {{"command_speed_mps", {0.1, 0.0}}, {"command_yaw_rate_radps", {0.0, 0.0}}};
-  EXPECT_LE(with_obeying_wheels(day, kDrive).time_s.size(), 2001u);
+  EXPECT_LE(with_obeying_wheels(day, kDrive).time_s.size(), 4001u);
 }
 
 }  // namespace
