@@ -22,7 +22,8 @@ namespace {
 bool is_lag(const Effect& e) { return e.only_commands && e.shape_follows_amplitude; }
 
 AcceptedEffect& lag_of(JointModel& joint) {
-  return *std::find_if(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) { return is_lag(*a.effect); });
+  return *std::find_if(joint.accepted.begin(), joint.accepted.end(),
+                       [](const AcceptedEffect& a) { return is_lag(*a.effect); });
 }
 
 JointModel with_lag_at(JointModel joint, double time_constant_s) {
@@ -95,7 +96,8 @@ void put_lag_where_likeliest(JointModel& joint) {
 
 void put_lag_anew(JointModel& joint) {
   if (joint.accepted.empty() || is_lag(*joint.accepted.back().effect)) return;
-  if (std::any_of(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) { return is_lag(*a.effect); }))
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                  [](const AcceptedEffect& a) { return is_lag(*a.effect); }))
     put_lag_where_likeliest(joint);
 }
 
