@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -77,6 +78,18 @@ void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
   }
 }
 
+// What has several faces: cubes of tags, prisms of a total station.
+constexpr double kFaces[] = {3.0, 4.0, 6.0};
+constexpr std::size_t kOfFaces = 4 * std::size(kFaces);
+
+void position_by_faces(int, double heading_rad, std::vector<Off>& out) {
+  std::size_t k = 0;
+  for (const double faces : kFaces) {
+    const double c = std::cos(faces * heading_rad), s = std::sin(faces * heading_rad);
+    for (const Vec2 by : {Vec2{c, 0.0}, Vec2{s, 0.0}, Vec2{0.0, c}, Vec2{0.0, s}}) out[k++].by = by;
+  }
+}
+
 // Who hardly turns tells where the point sits by nothing but the rounding of counts and the noise.
 bool turns(const DriveView& view) {
   constexpr double kLeast_rad = 0.3;
@@ -145,6 +158,12 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
        by(position_by_heading, kOfPosition),
        {curve_of("truth off along x [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.x_m; }),
         curve_of("truth off along y [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.y_m; })}},
+      {"heading, three, four and six times a turn",
+       "truth's position",
+       kOfFaces,
+       by(position_by_faces, kOfFaces),
+       {curve_of("truth off along x [m]", position_by_faces, kOfFaces, [](const Off& o) { return o.by.x_m; }),
+        curve_of("truth off along y [m]", position_by_faces, kOfFaces, [](const Off& o) { return o.by.y_m; })}},
       {"heading",
        "truth's heading",
        kOfHeading,

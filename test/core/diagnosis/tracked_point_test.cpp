@@ -58,6 +58,24 @@ TEST(TrackedPoint, ShowsASecondTagThatIsSeenFromBehind) {
               0.25 * from_side_to_side);  // samples beside the step are set aside
 }
 
+// A station far to one side sees a prism of six faces, by so much nearer or farther as these go by.
+TEST(TrackedPoint, ShowsAPrismOfSixFaces) {
+  constexpr double kNearer_m = 0.0015;
+  test::Case c = calm_case(24);
+  for (Recording& r : c.recordings) {
+    std::vector<double>&x = channel(r, "truth_x_m"), &heading = channel(r, "truth_heading_rad");
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x[i] += kNearer_m * std::cos(6.0 * heading[i]);
+      heading[i] = std::nan("");
+    }
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_NE(d->findings.front().where.regime.find("six times a turn"), std::string::npos)
+      << d->findings.front().where.regime;
+}
+
 // Iron on the vehicle turns a compass by so much, once a turn: positions know nothing of it.
 TEST(TrackedPoint, ShowsACompassBesideIron) {
   constexpr double kDeviation_rad = 0.004;
