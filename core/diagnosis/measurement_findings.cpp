@@ -69,13 +69,12 @@ FoundMounting mounting_found(const JointModel& joint, const Intervals& intervals
 }
 
 // A heading of the mounting is to the last digit what wheels that are not square to the axle do. A marker that sits
-// elsewhere besides, and is turned by no more than it is shifted, is the simpler cause of both unless an axle may be
-// that much off.
+// elsewhere besides is the simpler cause of both, where it is not turned by more than it is shifted: two causes for one
+// are no rival then.
 bool may_be_toe(const FoundMounting& m) {
   constexpr double kArm_m = 0.2, kFarthest_m = 0.01, kMostOfWheels_rad = 0.1;
   const bool is_marker_alone = m.is_shifted_far && std::abs(m.turned_rad) < m.away_m / kArm_m;
-  const bool sits_near = !is_marker_alone && m.away_m < kFarthest_m;
-  return m.is_turned && std::abs(m.turned_rad) < (sits_near ? kMostOfWheels_rad : kMostOfAnAxle_rad);
+  return m.is_turned && !is_marker_alone && m.away_m < kFarthest_m && std::abs(m.turned_rad) < kMostOfWheels_rad;
 }
 
 // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little as
@@ -111,6 +110,8 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   if (!mounting.is_moved) return;
   if (!may_be_toe(mounting)) {
     findings.push_back(mounting.finding);
+    if (mounting.is_turned && std::abs(mounting.turned_rad) < kMostOfAnAxle_rad)
+      findings.back().sentence += "; so far as it is turned, an axle that is not square would look the same";
     return;
   }
   Finding first = toe_instead(mounting), second = mounting.finding;
