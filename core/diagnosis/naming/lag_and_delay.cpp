@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <vector>
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/naming/material.h"
@@ -21,9 +22,10 @@ namespace {
 
 bool is_lag(const Effect& e) { return e.only_commands && e.shape_follows_amplitude; }
 
+bool is_of_lag(const AcceptedEffect& a) { return is_lag(*a.effect); }
+
 AcceptedEffect& lag_of(JointModel& joint) {
-  return *std::find_if(joint.accepted.begin(), joint.accepted.end(),
-                       [](const AcceptedEffect& a) { return is_lag(*a.effect); });
+  return *std::find_if(joint.accepted.begin(), joint.accepted.end(), is_of_lag);
 }
 
 JointModel with_lag_at(JointModel joint, double time_constant_s) {
@@ -95,10 +97,8 @@ void put_lag_where_likeliest(JointModel& joint) {
 }
 
 void put_lag_anew(JointModel& joint) {
-  if (joint.accepted.empty() || is_lag(*joint.accepted.back().effect)) return;
-  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
-                  [](const AcceptedEffect& a) { return is_lag(*a.effect); }))
-    put_lag_where_likeliest(joint);
+  const std::vector<AcceptedEffect>& all = joint.accepted;
+  if (std::any_of(all.begin(), all.end(), is_of_lag) && !is_of_lag(all.back())) put_lag_where_likeliest(joint);
 }
 
 void let_lag_in(JointModel& joint) {

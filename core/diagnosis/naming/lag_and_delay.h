@@ -12,9 +12,9 @@ namespace odolab {
 // the truth more or less, which counts as all others do.
 double likelier_by(const JointModel& a, const JointModel& than);
 
-// Puts the lag that was let in to the size at which the likelihood is largest, all else fitted anew, and
-// holds it there. The offset that would do nearly as well changes with the lag along a valley that is bent: steps along
-// the columns run out of it, to and fro. What was noise of the moment at which commands are acted on may have been the
+// Puts the lag that was let in to the size at which the likelihood is largest, all else fitted anew, and holds it
+// there. The offset that would do nearly as well changes with the lag along a valley that is bent: steps along the
+// columns run out of it, to and fro. What was noise of the moment at which commands are acted on may have been the
 // lag: it is put there as if they were acted on evenly, too, and the noise fitted to both.
 void put_lag_where_likeliest(JointModel& joint);
 
