@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/diagnosis/generic/hats.h"
+#include "core/diagnosis/model/wheels_at_rest.h"
 
 namespace odolab {
 
@@ -13,31 +14,23 @@ namespace {
 constexpr double kSince_s[] = {0.0, 0.8, 2.5};
 constexpr std::size_t kHats = std::size(kSince_s);
 
-bool stands(const EffectStep& s) { return s.left_read_rad == 0.0 && s.right_read_rad == 0.0; }
-
 // For each step the time since both wheels came to rest, at its middle; below nothing where they do not. Between two
 // counts of a slow wheel there is none to be read either, for less than that.
-std::vector<double> since_rest_s(const std::vector<EffectStep>& steps) {
+std::vector<double> since_rest_s(const DriveView& view) {
   constexpr double kShortest_s = 0.5, kLongAgo_s = 1e3;  // what was before the run is not known
-  std::vector<double> since(steps.size(), -1.0);
-  for (std::size_t first = 0; first < steps.size();) {
-    std::size_t end = first;
-    double rests_s = 0.0;
-    for (; end < steps.size() && stands(steps[end]); ++end) rests_s += steps[end].duration_s;
-    double at_s = first == 0 ? kLongAgo_s : 0.0;
-    for (std::size_t i = first; i < end && rests_s >= kShortest_s; ++i) {
-      since[i] = at_s + 0.5 * steps[i].duration_s;
-      at_s += steps[i].duration_s;
-    }
-    first = std::max(end, first + 1);
+  std::vector<double> since_s(view.steps.size(), -1.0);
+  for (const Rest& rest : rests(view)) {
+    if (rest.lasts_s() < kShortest_s) continue;
+    const double came_s = rest.first == 0 ? rest.from_s - kLongAgo_s : rest.from_s;
+    for (std::size_t i = rest.first; i < rest.end; ++i) since_s[i] = view.steps[i].time_s - came_s;
   }
-  return since;
+  return since_s;
 }
 
 template <double BodyMotion::*moves>
 std::vector<Motions> motions_of(const DriveView& view, const std::vector<double>&) {
   const Hats hats({std::begin(kSince_s), std::end(kSince_s)});
-  const std::vector<double> since_s = since_rest_s(view.steps);
+  const std::vector<double> since_s = since_rest_s(view);
   std::vector<Motions> out(kHats, Motions(view.steps.size()));
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     if (since_s[i] < 0.0) continue;

@@ -141,8 +141,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const double of_the_truth = joint.truth_errors ? static_cast<double>(joint.truth_errors->size()) : 0.0;
   const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests +
                    std::max(kToldSpeedTests, kAfterChangeTests) + kLateTruthTests + kTrackedPointTests +
-                   kMovingFrameTests + kUnevenFloorTests + kOnTheSpotTests + kAtRestTests +
-                   kSwingingTestsApart + of_the_truth;
+                   kMovingFrameTests + kUnevenFloorTests + kOnTheSpotTests + kAtRestTests + kSwingingTestsApart +
+                   of_the_truth;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -185,8 +185,9 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
        {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
         step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
         late_truth_tests(asked_model, n), tracked_point_tests(asked_model, n), moving_frame_tests(asked_model, n),
-        uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), at_rest_tests(asked_model, n), band_tests(asked_model, shaken, n),
-        swinging_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
+        uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), at_rest_tests(asked_model, n),
+        band_tests(asked_model, shaken, n), swinging_tests(asked_model, n), truth_error_tests(asked_model, n),
+        wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   hold_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

@@ -6,6 +6,7 @@
 
 #include "core/diagnosis/effects/floor.h"
 #include "core/diagnosis/generic/hats.h"
+#include "core/diagnosis/model/wheels_at_rest.h"
 
 namespace odolab {
 
@@ -156,8 +157,7 @@ Group by_way_since_rest() {
     double way_m = 1e3, stood_s = 0.0;  // what was before the run is not known
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
-      const bool stands = s.left_read_rad == 0.0 && s.right_read_rad == 0.0;
-      stood_s = stands ? stood_s + s.duration_s : 0.0;
+      stood_s = wheels_stand(s) ? stood_s + s.duration_s : 0.0;
       way_m = stood_s > kStands_s ? 0.0 : way_m + rolled_m(s);
       for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
     }

@@ -151,19 +151,17 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
   const auto by = [](const Offsets& offsets, std::size_t count) -> MotionsOfTerm {
     return [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, offsets, count); };
   };
+  const auto of_position = [&](const char* variable, const Offsets& offsets, std::size_t count) -> Asked {
+    return {variable,
+            "truth's position",
+            count,
+            by(offsets, count),
+            {curve_of("truth off along x [m]", offsets, count, [](const Off& o) { return o.by.x_m; }),
+             curve_of("truth off along y [m]", offsets, count, [](const Off& o) { return o.by.y_m; })}};
+  };
   std::vector<Asked> all = {
-      {"heading",
-       "truth's position",
-       kOfPosition,
-       by(position_by_heading, kOfPosition),
-       {curve_of("truth off along x [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.x_m; }),
-        curve_of("truth off along y [m]", position_by_heading, kOfPosition, [](const Off& o) { return o.by.y_m; })}},
-      {"heading, three, four and six times a turn",
-       "truth's position",
-       kOfFaces,
-       by(position_by_faces, kOfFaces),
-       {curve_of("truth off along x [m]", position_by_faces, kOfFaces, [](const Off& o) { return o.by.x_m; }),
-        curve_of("truth off along y [m]", position_by_faces, kOfFaces, [](const Off& o) { return o.by.y_m; })}},
+      of_position("heading", position_by_heading, kOfPosition),
+      of_position("heading, three, four and six times a turn", position_by_faces, kOfFaces),
       {"heading",
        "truth's heading",
        kOfHeading,

@@ -4,37 +4,13 @@
 #include <cmath>
 
 #include "core/diagnosis/model/candidate_scan.h"
+#include "core/diagnosis/model/wheels_at_rest.h"
 
 namespace odolab {
 
-namespace {
-
-struct Rest {
-  double from_s, to_s;
-};
-
-// Where neither wheel turns for a third of a second and more.
-std::vector<Rest> rests(const DriveView& view) {
-  constexpr double kLeast_s = 0.33;
-  std::vector<Rest> found;
-  for (std::size_t i = 0; i < view.steps.size();) {
-    std::size_t j = i;
-    while (j < view.steps.size() && view.steps[j].left_read_rad == 0.0 && view.steps[j].right_read_rad == 0.0) ++j;
-    if (j > i) {
-      const EffectStep &first = view.steps[i], &last = view.steps[j - 1];
-      const Rest rest{first.time_s - 0.5 * first.duration_s, last.time_s + 0.5 * last.duration_s};
-      if (rest.to_s - rest.from_s > kLeast_s) found.push_back(rest);
-    }
-    i = std::max(i + 1, j);
-  }
-  return found;
-}
-
-}  // namespace
-
 UncertainTime time_with_rests(const JointModel& joint, int accepted, int entry, const UncertainTime& summit,
                               double inflation) {
-  constexpr double kOdds = 5.0;
+  constexpr double kOdds = 5.0, kLeastRest_s = 0.33;
   constexpr double kStep_s = 0.25, kMostSteps = 600.0;
   constexpr double kOfItsOwn = 2.0;  // standard errors about the summit that is known
   constexpr double kAsGood = 2.0;    // of twice the log-likelihood
@@ -74,6 +50,7 @@ UncertainTime time_with_rests(const JointModel& joint, int accepted, int entry, 
       }
     };
     for (const Rest& rest : rests(*view)) {
+      if (rest.lasts_s() <= kLeastRest_s) continue;
       const double rest_from_s = rest.from_s - began_s(*view), rest_to_s = rest.to_s - began_s(*view);
       drive_until(rest_from_s);
       slices.push_back({0.5 * (rest_from_s + rest_to_s), rest_to_s - rest_from_s, kOdds * each});
