@@ -20,6 +20,7 @@
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/warnings.h"
+#include "core/diagnosis/where.h"
 
 namespace odolab {
 
@@ -86,6 +87,13 @@ bool is_said(const std::string& effect, const std::vector<Finding>& findings) {
     return f.effect == effect || std::any_of(f.alternatives.begin(), f.alternatives.end(),
                                              [&](const Alternative& a) { return a.effect == effect; });
   });
+}
+
+// Whether something that has no name was found on a patch of floor, and this on another.
+bool is_elsewhere(const Finding& f, const std::vector<Finding>& findings) {
+  return f.where.zone && std::any_of(findings.begin(), findings.end(), [&](const Finding& g) {
+           return g.effect == "unknown" && g.where.zone && !overlap(*f.where.zone, *g.where.zone);
+         });
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
@@ -246,6 +254,7 @@ std::optional<Diagnosis> named_beside_held_out(const Diagnosis& given, const std
       return a.effect == f.effect && a.survives.value_or(0.0) < kTakenUp;
     });
     if (!is_hidden && !is_said(f.effect, given.findings)) return std::nullopt;
+    if (is_elsewhere(f, given.findings)) return std::nullopt;
   }
   if (!has_a_name) return std::nullopt;
   d->warnings.push_back(

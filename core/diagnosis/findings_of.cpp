@@ -137,6 +137,12 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
     add_mounting(findings, without, of_it, ready.calibration, nominal);
   add_clock(findings, without, of_it, ready.calibration, nominal, ready.from_commands);
   Finding unknown = unknown_of(more, names);
+  if (more.where.zone)
+    for (const Finding& f : named)
+      if (f.where.zone && overlap(*f.where.zone, *more.where.zone)) {
+        unknown.where = f.where;
+        unknown.where.regime = more.where.regime;
+      }
   if (unknown.alternatives.empty()) add_nearest(unknown, names.selected.first_look, family_wise_error);
   findings.insert(findings.begin(), std::move(unknown));
   return findings;

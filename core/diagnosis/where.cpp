@@ -113,4 +113,8 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
   return w;
 }
 
+bool overlap(const WhereFound::Zone& one, const WhereFound::Zone& other) {
+  return length(Vec2{one.x_m, one.y_m} - Vec2{other.x_m, other.y_m}) < one.radius_m + other.radius_m;
+}
+
 }  // namespace odolab

@@ -10,4 +10,6 @@ namespace odolab {
 // and when the recording that was on it longest was on it. `covariance`: as in Intervals::of_effect.
 WhereFound where_of(const JointModel& joint, const AcceptedEffect& accepted, const Eigen::MatrixXd& covariance);
 
+bool overlap(const WhereFound::Zone& one, const WhereFound::Zone& other);
+
 }  // namespace odolab

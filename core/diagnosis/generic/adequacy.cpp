@@ -181,6 +181,7 @@ Unnamed unnamed_by(const GenericTest& group, const JointModel& with, std::vector
   u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
   u.component = group.component;
   u.where.regime = group.channel + " that depends on " + group.variable;
+  u.where.zone = group.zone;
   u.gain = gain;
   u.p_value = group.p_value;
   u.shape = std::move(shape);

@@ -15,6 +15,7 @@
 #include "core/diagnosis/generic/lagging.h"
 #include "core/diagnosis/generic/late_truth.h"
 #include "core/diagnosis/generic/moving_frame.h"
+#include "core/diagnosis/generic/on_a_patch.h"
 #include "core/diagnosis/generic/on_the_spot.h"
 #include "core/diagnosis/generic/step_response.h"
 #include "core/diagnosis/generic/swinging.h"
@@ -61,9 +62,10 @@ AskedModel::AskedModel(const JointModel& model)
   if (!model.accepted.empty()) with_and_without.push_back(model.asked(JointModel::kAll));
 }
 
-void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at) {
+void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at,
+         const AskedHow& how) {
   CandidateColumns columns = asked.joint.columns_of(*term, {});
-  columns.how = kAskedOfGeneric;
+  columns.how = how;
   const std::vector<CandidateTest> tests = asked.joint.tests(columns, asked.with_and_without);
   t.test = tests.front();
   t.instead = tests.back();
@@ -96,14 +98,14 @@ void hold_against_readings(const JointModel& joint, std::vector<GenericTest>& te
 }  // namespace
 
 GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,
-                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at) {
+                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at, const AskedHow& how) {
   GenericTest t;
   auto term = std::make_shared<Effect>();
   term->name = t.variable = variable;
   term->component = t.channel = channel;
   term->amplitudes.resize(amplitudes);
   term->motions = std::move(motions);
-  ask(t, asked, std::move(term), looked_at);
+  ask(t, asked, std::move(term), looked_at, how);
   return t;
 }
 
@@ -142,7 +144,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests +
                    std::max(kToldSpeedTests, kAfterChangeTests) + kLateTruthTests + kTrackedPointTests +
                    kMovingFrameTests + kUnevenFloorTests + kOnTheSpotTests + kAtRestTests + kSwingingTestsApart +
-                   of_the_truth;
+                   count_of_patch_tests(joint) + of_the_truth;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -186,8 +188,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
         step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
         late_truth_tests(asked_model, n), tracked_point_tests(asked_model, n), moving_frame_tests(asked_model, n),
         uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), at_rest_tests(asked_model, n),
-        band_tests(asked_model, shaken, n), swinging_tests(asked_model, n), truth_error_tests(asked_model, n),
-        wave_tests(asked_model, n)})
+        on_a_patch_tests(asked_model, n), band_tests(asked_model, shaken, n), swinging_tests(asked_model, n),
+        truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   hold_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/model/joint_model.h"
 
 namespace odolab {
@@ -39,6 +40,7 @@ struct GenericTest {
   std::vector<double> at;          // where the hats stand, in units of the variable; empty where it has no axis
   std::vector<GenericWave> waves;  // where it is periodic instead
   std::vector<GenericCurve> curves;
+  std::optional<WhereFound::Zone> zone;     // where it asks of a patch of floor alone
   std::shared_ptr<const Effect> as_effect;  // the group as a term that can be let into a model
   // Where a truth that sways within its own error would do the same (`swaying_truth.h`): what it says of it.
   struct Sway {
@@ -78,11 +80,13 @@ struct AskedModel {
 };
 
 // Tests a group's term against the model, as one of so many that were looked at.
-void ask(GenericTest& test, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at);
+void ask(GenericTest& test, const AskedModel& asked, std::shared_ptr<const Effect> term, double looked_at,
+         const AskedHow& how = kAskedOfGeneric);
 // The same of a term of so many amplitudes, with the motion of each in a drive.
 using MotionsOfTerm = std::function<std::vector<Motions>(const DriveView&, const std::vector<double>& shape)>;
 GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,
-                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at);
+                     std::size_t amplitudes, MotionsOfTerm motions, double looked_at,
+                     const AskedHow& how = kAskedOfGeneric);
 
 // Hats, harmonics and polynomials of what the vehicle does and where it is, waves (`waves.h`) and what bends the truth
 // (`bent_truth.h`). Best first.
