@@ -15,15 +15,14 @@ constexpr double kAllOfTheGrip = 1.0 - 1e-4;
 // The backward difference of second order: of this step's forces, and of the last one's effect (README, Eq. 12).
 constexpr double kNew = 2.0 / 3.0, kOld = 1.0 / 3.0;
 
-Vec2 twice(b2Vec2 v) { return {v.x, v.y}; }
-
 }  // namespace
 
 bool PlanarWorld::Solver::any_wheel_slides() const {
   const float inverse_step = 1.0f / static_cast<float>(step_s);
   for (const Tread& tread : treads) {
     const double bound_n = kAllOfTheGrip * tread.grip_n;
-    const Vec2 force_n = twice(tread.joint->GetReactionForce(inverse_step));
+    const b2Vec2 single_n = tread.joint->GetReactionForce(inverse_step);
+    const Vec2 force_n{single_n.x, single_n.y};
     if (tread.grip_n > 0.0 && dot(force_n, force_n) >= bound_n * bound_n) return true;
   }
   return false;

@@ -10,7 +10,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kPatience = 3.0;  // times the planned duration, then it counts as lost
+constexpr double kCalibrationPatience = 3.0;  // times the planned duration, then it counts as lost
 
 // The robot where it stands, with what it has learned so far.
 class Calibrand {
@@ -26,7 +26,7 @@ class Calibrand {
     part.start = true_pose_;
     part.path = path;
     Simulation simulation(part, seed_of_stream(seed_, ++drives_));
-    const double longest_s = kPatience * simulation.expected_duration_s();
+    const double longest_s = kCalibrationPatience * simulation.expected_duration_s();
     while (!simulation.state().finished && simulation.state().time_s < longest_s) simulation.step();
     log.lost = log.lost || !simulation.state().finished;
     log.duration_s += simulation.state().time_s;

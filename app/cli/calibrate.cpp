@@ -75,7 +75,7 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
 
 bool has_truth(const Recording& recording) { return truth_samples(recording).size() > 1; }
 
-int execute(const CalibrateOptions& options) {
+int execute_calibrate(const CalibrateOptions& options) {
   std::vector<std::string> inputs = options.recordings;
   inputs.push_back(options.vehicle);
   if (const std::optional<Error> lost = overwritten({options.out}, inputs)) return bad_input(*lost);
@@ -154,7 +154,7 @@ Command calibrate_command() {
     arguments.files("RECORDING", options->recordings, "one run each; OdoLab's CSV or a format that import knows", true);
     arguments.option("--out", options->out, "the calibrated vehicle to write (TOML)");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_calibrate(*options); };
   return command;
 }
 

@@ -71,7 +71,7 @@ Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Er
   return Done{};
 }
 
-Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, const FittedModel& model) {
+Result<Done> write_diagnosis(const DiagnoseOptions& options, const Diagnosis& diagnosis, const FittedModel& model) {
   if (!options.json.empty())
     if (Result<Done> done = write_json(options.json, diagnosis_json(diagnosis)); !done) return done;
   if (!options.model.empty())
@@ -81,7 +81,7 @@ Result<Done> write(const DiagnoseOptions& options, const Diagnosis& diagnosis, c
   return Done{};
 }
 
-int execute(const DiagnoseOptions& options) {
+int execute_diagnose(const DiagnoseOptions& options) {
   std::vector<std::string> inputs = options.recordings;
   inputs.insert(inputs.end(), options.hold_out.begin(), options.hold_out.end());
   inputs.push_back(options.vehicle);
@@ -122,7 +122,7 @@ int execute(const DiagnoseOptions& options) {
                                                           *nominal, terminal_progress("diagnosing"));
   if (!diagnosis) return bad_input(diagnosis.error());
 
-  if (Result<Done> written = write(options, *diagnosis, model_of(*diagnosis)); !written)
+  if (Result<Done> written = write_diagnosis(options, *diagnosis, model_of(*diagnosis)); !written)
     return bad_input(written.error());
   for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
   for (const std::string& warning : merged_warnings(diagnosis->warnings)) print_message("warning: " + warning);
@@ -154,7 +154,7 @@ Command diagnose_command() {
     arguments.option("--html", options->html, "the report with pictures to write, one page (HTML)");
     arguments.flag("--skip-broken", options->skip_broken, "go on without recordings that cannot be used");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_diagnose(*options); };
   return command;
 }
 

@@ -50,7 +50,7 @@ Result<Done> write_yaml(const ExportOptions& options) {
   return write_ros2_diff_drive_yaml(options.out, *nominal, *calibrated);
 }
 
-Result<Done> write(const ExportOptions& options) {
+Result<Done> write_export(const ExportOptions& options) {
   const Progress progress = terminal_progress("export");
   if (options.to == "tum") {
     const Result<Track> track = track_of(options.source, progress);
@@ -68,10 +68,10 @@ Result<Done> write(const ExportOptions& options) {
   return Error{"--to", "'" + options.to + "'", "tum, plotjuggler or diff_drive_controller"};
 }
 
-int execute(const ExportOptions& options) {
+int execute_export(const ExportOptions& options) {
   if (const std::optional<Error> lost = overwritten({options.out}, {options.source, options.nominal}))
     return bad_input(*lost);
-  const Result<Done> done = write(options);
+  const Result<Done> done = write_export(options);
   if (!done && interrupted()) {
     print_error("stopped; nothing was written");
     return kCheckFailed;
@@ -101,7 +101,7 @@ Command export_command() {
         "diff_drive_controller: the vehicle before it was calibrated; its lengths stay, the rest goes into "
         "the multipliers");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_export(*options); };
   return command;
 }
 

@@ -86,7 +86,7 @@ std::optional<Error> read_words(ImportOptions& options) {
   return std::nullopt;
 }
 
-int execute(ImportOptions& options) {
+int execute_import(ImportOptions& options) {
   if (options.list) return list(options.sources);
   if (options.out.empty()) return bad_input({"import", "no --out", "--out with the recording to write, or --list"});
   std::vector<std::string> inputs = options.sources;
@@ -140,7 +140,7 @@ Command import_command() {
     arguments.option("--times", options->wishes.times, "KITTI poses: the file with their times");
     arguments.option("--axes", options->axes, "how poses in space lie: z_up (the default), y_up, camera");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_import(*options); };
   return command;
 }
 

@@ -17,7 +17,7 @@ struct PredictOptions {
   std::string vehicle, model, recording, out;
 };
 
-int execute(const PredictOptions& options) {
+int execute_predict(const PredictOptions& options) {
   if (const std::optional<Error> lost = overwritten({options.out}, {options.recording, options.vehicle, options.model}))
     return bad_input(*lost);
   const Result<Vehicle> vehicle = read_vehicle(options.vehicle);
@@ -59,7 +59,7 @@ Command predict_command() {
     arguments.file("RECORDING", options->recording, "the recording");
     arguments.option("--out", options->out, "the track to write (CSV)", true);
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_predict(*options); };
   return command;
 }
 

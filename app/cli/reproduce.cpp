@@ -111,7 +111,7 @@ Result<std::vector<const Experiment*>> chosen(const std::vector<std::string>& na
   return chosen;
 }
 
-int execute(const ReproduceOptions& options) {
+int execute_reproduce(const ReproduceOptions& options) {
   if (options.list) {
     std::vector<std::vector<std::string>> rows;
     for (const Experiment& experiment : experiments()) rows.push_back({experiment.name + "   " + experiment.about});
@@ -163,7 +163,7 @@ Command reproduce_command() {
                      "the folder of real recordings; else ODOLAB_RECORDINGS or ../shared/recordings");
     arguments.option("--json", options->json, "the reports to write for scripts (JSON)");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_reproduce(*options); };
   return command;
 }
 

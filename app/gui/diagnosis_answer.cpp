@@ -46,7 +46,7 @@ Track at_times_of(const Track& track, const std::vector<TruthSample>& times) {
   return out;
 }
 
-Recording named(const DiagnosisDesk::Run& run) {
+Recording named_recording(const DiagnosisDesk::Run& run) {
   Recording recording = *run.recording;
   recording.name = run.name;
   return recording;
@@ -56,7 +56,7 @@ Recording named(const DiagnosisDesk::Run& run) {
 
 std::vector<Recording> DiagnosisDesk::Answer::fitted() const {
   std::vector<Recording> all;
-  for (std::size_t r = 0; r < fitted_on; ++r) all.push_back(named(runs[r]));
+  for (std::size_t r = 0; r < fitted_on; ++r) all.push_back(named_recording(runs[r]));
   return all;
 }
 
@@ -82,7 +82,7 @@ void DiagnosisDesk::find_missing(Jobs& jobs) {
       [answer, problem, simulations](const Progress& progress, const Jobs::Deliver&) {
         std::vector<Recording> held_out;
         for (std::size_t r = answer->fitted_on; r < answer->runs.size(); ++r)
-          held_out.push_back(named(answer->runs[r]));
+          held_out.push_back(named_recording(answer->runs[r]));
         Result<Diagnosis> found = confirmed_diagnosis(answer->fitted(), held_out, answer->nominal, [&](double share) {
           return goes_on(progress, kOfDiagnosis * share);
         });
@@ -154,7 +154,7 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
       static_cast<int>(count),
       [&](int job, const std::atomic<bool>& stopped) {
         const auto r = static_cast<std::size_t>(job);
-        Recording recording = named(answer.runs[r]);
+        Recording recording = named_recording(answer.runs[r]);
         const std::vector<TruthSample> recorded = truth_samples(recording);
         if (r < answer.fitted_on) recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
         const Result<Replay> replayed =

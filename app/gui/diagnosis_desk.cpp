@@ -19,7 +19,7 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kMostUndo = 30;
+constexpr std::size_t kMostDiagnosisUndo = 30;
 
 std::string truth_words(const Recording& recording) {
   const std::vector<TruthSample> truth = truth_samples(recording);
@@ -50,7 +50,7 @@ bool is_same_run(const Recording& a, const Recording& b) {
 
 void DiagnosisDesk::remember() {
   undo_.push_back(given_);
-  if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
+  if (undo_.size() > kMostDiagnosisUndo) undo_.erase(undo_.begin());
   redo_.clear();
   if (!opening_) problem_.clear();
 }

@@ -12,7 +12,7 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kMostUndo = 100;
+constexpr std::size_t kMostGuideUndo = 100;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void GuideDesk::change(const ui::ChangeGuide& change, Jobs& jobs) {
 
 void GuideDesk::remember() {
   undo_.push_back(*session_);
-  if (undo_.size() > kMostUndo) undo_.erase(undo_.begin());
+  if (undo_.size() > kMostGuideUndo) undo_.erase(undo_.begin());
   redo_.clear();
 }
 

@@ -12,7 +12,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kSaveAfter_s = 0.4;  // of changes: less than the second that may be lost
+constexpr double kSaveGuideAfter_s = 0.4;  // of changes: less than the second that may be lost
 
 namespace fs = std::filesystem;
 
@@ -92,7 +92,7 @@ void GuideDesk::leave() {
 void GuideDesk::advance(double wall_s) {
   if (!changed_) return;
   unsaved_s_ += wall_s;
-  if (unsaved_s_ >= kSaveAfter_s) save();
+  if (unsaved_s_ >= kSaveGuideAfter_s) save();
 }
 
 void GuideDesk::save() {

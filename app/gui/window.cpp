@@ -76,7 +76,7 @@ constexpr NamedKey kKeys[] = {{GLFW_KEY_SPACE, Key::space},
                               {GLFW_KEY_Z, Key::z}};
 
 // Letters go by what is written on the keyboard, wherever it stands.
-Key named(int glfw_key, int scancode) {
+Key key_named(int glfw_key, int scancode) {
   const char* written = glfwGetKeyName(glfw_key, scancode);
   if (written && written[0] && !written[1]) {
     if (written[0] == '+') return Key::plus;
@@ -154,7 +154,8 @@ Result<std::unique_ptr<Window>> Window::open(const Options& options) {
   glfwSetWindowUserPointer(parts->window, parts.get());
   glfwSetKeyCallback(parts->window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
     if (action == GLFW_RELEASE) return;
-    Parts::of(w).keys.push_back({named(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
+    Parts::of(w).keys.push_back(
+        {key_named(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
   });
   glfwSetDropCallback(parts->window, [](GLFWwindow* w, int count, const char** paths) {
     for (int i = 0; i < count; ++i) Parts::of(w).dropped.push_back(paths[i]);

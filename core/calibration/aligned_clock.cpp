@@ -17,7 +17,7 @@ constexpr int kLags = 50;             // to each side
 constexpr double kSpan_s = 0.1;       // of what is compared: short beside the turns of a path, long beside rounding
 constexpr double kWindow_s = 8.0;     // in which a lag is taken as constant
 constexpr double kSparsest_s = 0.25;  // truth, from sample to sample
-constexpr std::size_t kFewest = 20;   // increments in a window
+constexpr std::size_t kFewestIncrements = 20;  // increments in a window
 
 // What the wheels add up to, on an even grid.
 struct SummedWay {
@@ -87,7 +87,8 @@ double chi2_at(const std::vector<Increment>& increments, const SummedWay& way, i
 
 std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const InnovationModel& model) {
   const std::vector<TruthSample>& truth = run.truth;
-  if (!run.truth_has_heading || truth.size() < kFewest || run.wheels.size() < kFewest) return std::nullopt;
+  if (!run.truth_has_heading || truth.size() < kFewestIncrements || run.wheels.size() < kFewestIncrements)
+    return std::nullopt;
   const double duration_s = truth.back().time_s - truth.front().time_s;
   const double period_s = duration_s / static_cast<double>(truth.size() - 1);
   const double p = model.noise.truth_position_m, h = model.noise.truth_heading_rad;
@@ -125,7 +126,7 @@ std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const Innova
                per_rad2 = 1.0 / (2.0 * h * h * static_cast<double>(stride));
   std::vector<Window> lagged;
   for (std::size_t w = 0; w < windows; ++w) {
-    if (of[w].size() < kFewest) continue;
+    if (of[w].size() < kFewestIncrements) continue;
     Window window{(static_cast<double>(w) + 0.5) / static_cast<double>(windows), {}};
     for (int lag = -kLags; lag <= kLags; ++lag) window.chi2.push_back(chi2_at(of[w], way, lag, per_m2, per_rad2));
     lagged.push_back(std::move(window));

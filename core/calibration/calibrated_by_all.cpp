@@ -25,7 +25,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kColumns = column::first_extra;
+constexpr int kColumnsOfAll = column::first_extra;
 
 // What wheels and body err along the way together, per root metre: how much of it is whose is often hard to tell.
 double along_in_all(const FittedNoise& noise) {
@@ -281,7 +281,7 @@ class FitOfAll {
   Clock clock_by(const MatrixXd& covariance) const {
     const int n = active_count();
     Clock clock;
-    clock.reported = MatrixXd::Zero(kColumns, n);
+    clock.reported = MatrixXd::Zero(kColumnsOfAll, n);
     double weights = 0.0;
     for (int k = 0; k < n; ++k) {
       if (active_[k] < column::shared) clock.reported(active_[k], k) = 1.0;
@@ -308,7 +308,7 @@ class FitOfAll {
                                       LeastSquaresCalibration& result) const {
     const MatrixXd of_reported = clock.reported * covariance * clock.reported.transpose();
     std::vector<int> shown;
-    for (int c = 0; c < kColumns; ++c) {
+    for (int c = 0; c < kColumnsOfAll; ++c) {
       if (!is_asked_for(c)) continue;
       const bool is_clock = c == column::truth_clock;
       const auto at = std::find(active_.begin(), active_.end(), c);

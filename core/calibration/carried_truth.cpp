@@ -105,14 +105,16 @@ std::optional<SidewaysSteps> steps_of(const std::vector<TruthSample>& truth) {
   return SidewaysSteps(truth);
 }
 
-std::string name_of(const Recording& recording) { return recording.name.empty() ? "the recording" : recording.name; }
+std::string name_to_blame(const Recording& recording) {
+  return recording.name.empty() ? "the recording" : recording.name;
+}
 
 }  // namespace
 
 std::optional<std::string> warning_of_computed_truth(const Recording& recording) {
   const std::optional<SidewaysSteps> steps = steps_of(truth_samples(recording));
   if (!steps || !steps->are_computed()) return std::nullopt;
-  return name_of(recording) +
+  return name_to_blame(recording) +
          ": the truth never errs sideways, not by a hundredth of a millimetre: it is computed, as a robot's own "
          "odometry is, or simulated without noise, and tells of the floor only what that knows";
 }
@@ -126,7 +128,7 @@ std::optional<MeasuredRecording> without_carried_truth(const Recording& recordin
   std::vector<double> carried_s;
   for (std::size_t i = 0; i < corrected->size(); ++i)
     if (!(*corrected)[i]) carried_s.push_back(truth[i + 1].time_s);
-  MeasuredRecording out{recording, name_of(recording)};
+  MeasuredRecording out{recording, name_to_blame(recording)};
   std::vector<char> carried;
   for (const double t : recording.time_s) carried.push_back(std::binary_search(carried_s.begin(), carried_s.end(), t));
   leave_truth_out(out.recording, carried);

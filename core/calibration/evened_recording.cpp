@@ -27,13 +27,13 @@ bool is_worth_a_word(const EvenStamps& even) {
 
 std::string name_or_words(const std::string& name) { return name.empty() ? "the recording" : name; }
 
-std::string sentence(const std::string& name, const char* what, const EvenStamps& even) {
+std::string evened_sentence(const std::string& name, const char* what, const EvenStamps& even) {
   const std::string text = formatted(": its %s stamps tremble by %.2g ms about an even %.3g Hz; evened", what,
                                      1e3 * even.trembling_s, 1.0 / even.period_s);
   return name_or_words(name) + text;
 }
 
-std::string sentence(const std::string& name, const char* what, const SpreadStamps& spread) {
+std::string evened_sentence(const std::string& name, const char* what, const SpreadStamps& spread) {
   const std::string text =
       spread.repeated == 1
           ? formatted(": one of its %s stamps repeats the one before; put between its neighbours", what)
@@ -48,7 +48,7 @@ struct NewTimes {
   std::vector<double> time_s;
 };
 
-Recording with(const Recording& old, const std::vector<NewTimes>& evened) {
+Recording with_new_times(const Recording& old, const std::vector<NewTimes>& evened) {
   struct Row {
     double time_s;
     std::size_t from;
@@ -125,12 +125,12 @@ std::optional<std::vector<double>> new_times(const std::string& name, const char
                                              const std::vector<std::vector<double>>& paths, bool together,
                                              std::vector<std::string>& said) {
   if (const auto even = even_stamps(time_s, paths, together)) {
-    if (is_worth_a_word(*even)) said.push_back(sentence(name, what, *even));
+    if (is_worth_a_word(*even)) said.push_back(evened_sentence(name, what, *even));
     return even->time_s;
   }
   const auto spread = spread_repeated(time_s);
   if (!spread) return std::nullopt;
-  said.push_back(sentence(name, what, *spread));
+  said.push_back(evened_sentence(name, what, *spread));
   return spread->time_s;
 }
 
@@ -152,7 +152,7 @@ std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadE
       parts.push_back({is_of_truth, row_times(*seen, *times)});
   }
   if (parts.empty()) return std::nullopt;
-  out.recording = with(recording, parts);
+  out.recording = with_new_times(recording, parts);
   return out;
 }
 

@@ -13,18 +13,18 @@ namespace odolab {
 namespace {
 
 // A stretch between two truth samples: rotation of the wheels, and the truth's turn and way along its middle heading.
-struct Stretch {
+struct TurningStretch {
   double left_rad = 0.0, right_rad = 0.0;
   double turn_rad = 0.0, way_m = 0.0;
 };
 
 // Long enough that clocks apart by a tenth of a second matter little, short enough that a turn is not taken for
 // another.
-constexpr double kShortest_s = 0.5, kLongest_s = 5.0;
+constexpr double kShortestGuess_s = 0.5, kLongestGuess_s = 5.0;
 constexpr double kLargestTurn_rad = 1.2;
 
-std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
-  std::vector<Stretch> stretches;
+std::vector<TurningStretch> turning_stretches(const std::vector<InnovationRun>& runs) {
+  std::vector<TurningStretch> stretches;
   for (const InnovationRun& run : runs) {
     if (!run.truth_has_heading) continue;
     std::size_t from = 0;
@@ -32,10 +32,10 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
       if (is_cut(run, i)) from = i;
       const TruthSample &a = run.truth[from], &b = run.truth[i];
       const double span_s = b.time_s - a.time_s;
-      if (span_s < kShortest_s) continue;
+      if (span_s < kShortestGuess_s) continue;
       from = i;
-      if (span_s > kLongest_s || !a.heading_rad || !b.heading_rad) continue;
-      Stretch s;
+      if (span_s > kLongestGuess_s || !a.heading_rad || !b.heading_rad) continue;
+      TurningStretch s;
       s.turn_rad = wrapped(*b.heading_rad - *a.heading_rad);
       if (std::abs(s.turn_rad) > kLargestTurn_rad) continue;
       const double middle_rad = *a.heading_rad + 0.5 * s.turn_rad;
@@ -48,17 +48,17 @@ std::vector<Stretch> stretches_of(const std::vector<InnovationRun>& runs) {
   }
   // A robot that crawls is lost in the truth's noise; a single jump of a counter would outweigh all the rest.
   constexpr double kCrawls = 0.02, kJumps = 20.0;
-  const auto size = [](const Stretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad); };
+  const auto size = [](const TurningStretch& s) { return std::abs(s.left_rad) + std::abs(s.right_rad); };
   const auto at_share = [&](double share) {
     std::vector<double> sizes;
-    for (const Stretch& s : stretches) sizes.push_back(size(s));
+    for (const TurningStretch& s : stretches) sizes.push_back(size(s));
     return quantile(std::move(sizes), share);
   };
   if (stretches.empty()) return stretches;
   const double least = kCrawls * at_share(0.9);
-  std::erase_if(stretches, [&](const Stretch& s) { return size(s) < least; });
+  std::erase_if(stretches, [&](const TurningStretch& s) { return size(s) < least; });
   const double largest = kJumps * at_share(0.5);
-  std::erase_if(stretches, [&](const Stretch& s) { return size(s) > largest; });
+  std::erase_if(stretches, [&](const TurningStretch& s) { return size(s) > largest; });
   return stretches;
 }
 
@@ -68,7 +68,7 @@ double turning_ratio(const std::vector<InnovationRun>& runs, const DifferentialD
   for (const InnovationRun& run : runs) {
     std::size_t from = 0;
     for (std::size_t i = 1; i < run.truth.size(); ++i) {
-      if (run.truth[i].time_s - run.truth[from].time_s < kShortest_s) continue;
+      if (run.truth[i].time_s - run.truth[from].time_s < kShortestGuess_s) continue;
       if (run.truth[i].heading_rad && run.truth[from].heading_rad)
         truth_rad += std::abs(*run.truth[i].heading_rad - *run.truth[from].heading_rad);
       from = i;
@@ -87,14 +87,14 @@ struct Plane {
   double left = 0.0, right = 0.0, explained = 0.0;
 };
 
-Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
+Plane fitted_plane(const std::vector<TurningStretch>& stretches, double TurningStretch::*y) {
   Plane plane;
   std::vector<char> used(stretches.size(), 1);
   for (int round = 0; round < 3; ++round) {
     double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0;
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       if (!used[i]) continue;
-      const Stretch& s = stretches[i];
+      const TurningStretch& s = stretches[i];
       ll += s.left_rad * s.left_rad, lr += s.left_rad * s.right_rad, rr += s.right_rad * s.right_rad;
       ly += s.left_rad * s.*y, ry += s.right_rad * s.*y;
     }
@@ -105,7 +105,7 @@ Plane fitted(const std::vector<Stretch>& stretches, double Stretch::*y) {
     double left_over = 0.0, total = 1e-12;
     std::vector<double> misses(stretches.size());
     for (std::size_t i = 0; i < stretches.size(); ++i) {
-      const Stretch& s = stretches[i];
+      const TurningStretch& s = stretches[i];
       misses[i] = std::abs(s.*y - plane.left * s.left_rad - plane.right * s.right_rad);
       if (used[i]) left_over += misses[i] * misses[i], total += s.*y * s.*y;
     }
@@ -121,12 +121,12 @@ struct Planes {
   bool enough = false;  // both wheels were driven apart and together, and not always in one proportion
 };
 
-Planes planes_of(const std::vector<Stretch>& stretches) {
+Planes planes_of(const std::vector<TurningStretch>& stretches) {
   Planes planes;
   // On a circle one wheel is as good as the other, and which of them moves the robot is told by noise alone.
   constexpr double kNotInProportion = 2e-3;
   double left2 = 0.0, right2 = 0.0, both = 0.0;
-  for (const Stretch& s : stretches) {
+  for (const TurningStretch& s : stretches) {
     left2 += s.left_rad * s.left_rad;
     right2 += s.right_rad * s.right_rad;
     both += s.left_rad * s.right_rad;
@@ -135,8 +135,8 @@ Planes planes_of(const std::vector<Stretch>& stretches) {
   planes.enough = stretches.size() >= 8 && together > 0.01 * apart && apart > 0.01 * together &&
                   left2 * right2 - both * both > kNotInProportion * left2 * right2;
   if (!planes.enough) return planes;
-  planes.turn = fitted(stretches, &Stretch::turn_rad);
-  planes.way = fitted(stretches, &Stretch::way_m);
+  planes.turn = fitted_plane(stretches, &TurningStretch::turn_rad);
+  planes.way = fitted_plane(stretches, &TurningStretch::way_m);
   return planes;
 }
 
@@ -146,7 +146,7 @@ constexpr double kExplained = 0.8;
 
 FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
   FirstGuess guess{nominal, false};
-  const Planes p = planes_of(stretches_of(runs));
+  const Planes p = planes_of(turning_stretches(runs));
   if (!p.enough || p.turn.explained < kExplained || p.way.explained < kExplained) return guess;
   // way = (r_L left + r_R right) / 2, turn = (r_R right - r_L left) / b
   const double mean_radius_m = p.way.left + p.way.right, slope = 0.5 * (p.turn.right - p.turn.left);
@@ -183,7 +183,7 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
 
 std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
   // A degree taken for a radian makes 57 of one.
-  const Planes p = planes_of(stretches_of(runs));
+  const Planes p = planes_of(turning_stretches(runs));
   const double turning = turning_ratio(runs, nominal);
   if (turning > 20.0)
     return formatted("headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?",

@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-double duration_s(const std::vector<WheelSample>& readings, std::size_t i) {
+double interval_s(const std::vector<WheelSample>& readings, std::size_t i) {
   return readings[i + 1].time_s - readings[i].time_s;
 }
 
@@ -20,8 +20,8 @@ double reach_s(const std::vector<WheelSample>& readings, std::size_t interval, d
   const WheelSample &a = readings[interval], &b = readings[interval + 1];
   const double turned_rad = std::max(std::abs(b.left_rad - a.left_rad), std::abs(b.right_rad - a.right_rad));
   const double least_s = kLeastShare * usual_s;
-  if (turned_rad * usual_s <= kUnseen_rad * duration_s(readings, interval)) return usual_s + 1e-9;
-  return std::clamp(kUnseen_rad * duration_s(readings, interval) / turned_rad, least_s, usual_s);
+  if (turned_rad * usual_s <= kUnseen_rad * interval_s(readings, interval)) return usual_s + 1e-9;
+  return std::clamp(kUnseen_rad * interval_s(readings, interval) / turned_rad, least_s, usual_s);
 }
 
 // Moves the readings behind the interval so that the wheel turns in it as it did around it, if it turned faster there
@@ -29,12 +29,12 @@ double reach_s(const std::vector<WheelSample>& readings, std::size_t interval, d
 void take_back(std::vector<WheelSample>& readings, double WheelSample::*wheel, std::size_t interval,
                double fastest_radps, double count_rad) {
   const auto by = [&](std::size_t i) { return readings[i + 1].*wheel - readings[i].*wheel; };
-  const double span_s = duration_s(readings, interval);
+  const double span_s = interval_s(readings, interval);
   if (std::abs(by(interval)) <= 2.0 * fastest_radps * span_s + 2.0 * count_rad) return;
   double around_radps = 0.0;
   int known = 0;
-  if (interval > 0) around_radps += by(interval - 1) / duration_s(readings, interval - 1), ++known;
-  if (interval + 2 < readings.size()) around_radps += by(interval + 1) / duration_s(readings, interval + 1), ++known;
+  if (interval > 0) around_radps += by(interval - 1) / interval_s(readings, interval - 1), ++known;
+  if (interval + 2 < readings.size()) around_radps += by(interval + 1) / interval_s(readings, interval + 1), ++known;
   const double expected_rad = known > 0 ? around_radps / known * span_s : 0.0;
   double jump_rad = by(interval) - expected_rad;
   if (count_rad > 0.0) jump_rad = count_rad * std::round(jump_rad / count_rad);
@@ -45,7 +45,7 @@ double fastest_radps(const std::vector<WheelSample>& readings, double WheelSampl
   constexpr double kUsual = 0.97;
   std::vector<double> rates;
   for (std::size_t i = 0; i + 1 < readings.size(); ++i)
-    rates.push_back(std::abs(readings[i + 1].*wheel - readings[i].*wheel) / duration_s(readings, i));
+    rates.push_back(std::abs(readings[i + 1].*wheel - readings[i].*wheel) / interval_s(readings, i));
   return quantile(std::move(rates), kUsual);
 }
 
@@ -56,7 +56,7 @@ std::vector<std::size_t> long_intervals(const std::vector<WheelSample>& readings
   constexpr std::size_t kFewest = 20;
   if (readings.size() < kFewest) return {};
   std::vector<double> lasts_s;
-  for (std::size_t i = 0; i + 1 < readings.size(); ++i) lasts_s.push_back(duration_s(readings, i));
+  for (std::size_t i = 0; i + 1 < readings.size(); ++i) lasts_s.push_back(interval_s(readings, i));
   const double longest_s = std::max(kLeast_s, times_usual * quantile(lasts_s, 0.5));
   std::vector<std::size_t> intervals;
   for (std::size_t i = 0; i < lasts_s.size(); ++i)

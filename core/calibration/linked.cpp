@@ -12,12 +12,22 @@ namespace odolab {
 namespace {
 
 // What is estimated, as departures from the vehicle file.
-enum Unknown { kDifferenceA, kWheelbaseA, kScaleB, kDifferenceB, kWheelbaseB, kOffsetA, kOffsetB, kLength, kUnknowns };
+enum UnknownOfLinked {
+  kDifferenceA,
+  kWheelbaseA,
+  kScaleB,
+  kDifferenceB,
+  kWheelbaseB,
+  kOffsetA,
+  kOffsetB,
+  kLength,
+  kUnknownsOfLinked
+};
 
 // How far from the vehicle file a machine is expected at most.
-constexpr std::array<double, kUnknowns> kPrior = {0.03, 0.05, 0.03, 0.03, 0.05, 0.05, 0.05, 0.02};
+constexpr std::array<double, kUnknownsOfLinked> kLinkedPrior = {0.03, 0.05, 0.03, 0.03, 0.05, 0.05, 0.05, 0.02};
 
-LinkedTrucks with(const LinkedTrucks& nominal, const std::vector<double>& x) {
+LinkedTrucks linked_with(const LinkedTrucks& nominal, const std::vector<double>& x) {
   LinkedTrucks v = nominal;
   const auto truck = [](DifferentialDrive& t, double scale, double difference, double wheelbase) {
     t.wheel_radius_left_m *= (1.0 + scale) * (1.0 - 0.5 * difference);
@@ -33,14 +43,14 @@ LinkedTrucks with(const LinkedTrucks& nominal, const std::vector<double>& x) {
 }
 
 // Consecutive samples of one recording, from `first` to `last`.
-struct Stretch {
+struct LinkedStretch {
   const std::vector<LinkedSample>* samples = nullptr;
   std::size_t first = 0, last = 0;
 };
 
-std::vector<Stretch> stretches_of(const std::vector<LinkedSample>& samples, const LinkedTrucks& v,
-                                  const LinkedCalibrationOptions& options) {
-  std::vector<Stretch> stretches;
+std::vector<LinkedStretch> linked_stretches(const std::vector<LinkedSample>& samples, const LinkedTrucks& v,
+                                            const LinkedCalibrationOptions& options) {
+  std::vector<LinkedStretch> stretches;
   double travel_m = 0.0, turn_rad = 0.0;
   std::size_t first = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -60,7 +70,7 @@ std::vector<Stretch> stretches_of(const std::vector<LinkedSample>& samples, cons
 }
 
 // What the link's encoders read at the stretch's end, less what its start and the wheels predict: alpha, beta, length.
-std::vector<double> contradictions(const Stretch& stretch, const LinkedTrucks& v) {
+std::vector<double> linked_contradictions(const LinkedStretch& stretch, const LinkedTrucks& v) {
   const std::vector<LinkedSample>& s = *stretch.samples;
   LinkedSample start = s[stretch.first];
   start.link_angle_a_rad -= v.link_angle_a_offset_rad;
@@ -80,17 +90,17 @@ std::vector<double> contradictions(const Stretch& stretch, const LinkedTrucks& v
           end.link_length_m - v.link_length_offset_m - length(link)};
 }
 
-StretchProblem problem_of(const std::vector<Stretch>& stretches, const LinkedTrucks& nominal) {
+StretchProblem linked_problem(const std::vector<LinkedStretch>& stretches, const LinkedTrucks& nominal) {
   StretchProblem problem;
   problem.stretches = static_cast<int>(stretches.size());
-  problem.prior.assign(kPrior.begin(), kPrior.end());
+  problem.prior.assign(kLinkedPrior.begin(), kLinkedPrior.end());
   const double angle = nominal.link_angle_resolution_rad, way = nominal.link_length_resolution_m;
   problem.least_deviation = {angle / std::sqrt(6.0), angle / std::sqrt(6.0), way / std::sqrt(6.0)};
   problem.contradictions = [&stretches, nominal](int stretch, const std::vector<double>& x) {
-    return contradictions(stretches[static_cast<std::size_t>(stretch)], with(nominal, x));
+    return linked_contradictions(stretches[static_cast<std::size_t>(stretch)], linked_with(nominal, x));
   };
   const auto sample = [&stretches](int stretch, bool at_end) -> const LinkedSample& {
-    const Stretch& s = stretches[static_cast<std::size_t>(stretch)];
+    const LinkedStretch& s = stretches[static_cast<std::size_t>(stretch)];
     return (*s.samples)[at_end ? s.last : s.first];
   };
   problem.encoders = {
@@ -99,7 +109,7 @@ StretchProblem problem_of(const std::vector<Stretch>& stretches, const LinkedTru
   return problem;
 }
 
-const std::vector<StretchParameter<LinkedTrucks>>& parameters() {
+const std::vector<StretchParameter<LinkedTrucks>>& linked_parameters() {
   static const std::vector<StretchParameter<LinkedTrucks>> list = {
       {"truck_a.wheel_radius_left_m",
        "m",
@@ -140,9 +150,9 @@ Result<InternalCalibration> calibrate_linked(const std::vector<Recording>& recor
                    "the encoders of a " + kind_name(nominal)};
     samples.push_back(linked_samples(recording));
   }
-  std::vector<Stretch> stretches;
+  std::vector<LinkedStretch> stretches;
   for (const std::vector<LinkedSample>& s : samples)
-    for (const Stretch& stretch : stretches_of(s, before, options)) stretches.push_back(stretch);
+    for (const LinkedStretch& stretch : linked_stretches(s, before, options)) stretches.push_back(stretch);
   if (stretches.size() < 8)
     return Error{"recordings", std::to_string(stretches.size()) + " stretches of travel", "two metres or more"};
 
@@ -151,7 +161,7 @@ Result<InternalCalibration> calibrate_linked(const std::vector<Recording>& recor
   std::vector<int> with_angles = free;
   with_angles.insert(with_angles.end() - (options.fit_link_length ? 1 : 0), {kOffsetA, kOffsetB});
   InternalCalibration result;
-  const StretchProblem problem = problem_of(stretches, before);
+  const StretchProblem problem = linked_problem(stretches, before);
   StretchFit found = fit_stretches(problem, options.fit_link_angles ? with_angles : free, progress);
   if (options.fit_link_angles && !(found.determined(kOffsetA) && found.determined(kOffsetB))) {
     found = fit_stretches(problem, free, progress);
@@ -165,11 +175,11 @@ Result<InternalCalibration> calibrate_linked(const std::vector<Recording>& recor
   if (options.fit_link_length && !found.determined(kLength))
     result.cannot_tell.push_back("the link length's bias: drive turns, a full one or more");
 
-  for (int unknown = 0; unknown < kUnknowns; ++unknown)
+  for (int unknown = 0; unknown < kUnknownsOfLinked; ++unknown)
     if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;
-  for (const StretchParameter<LinkedTrucks>& p : parameters())
-    result.parameters.push_back(estimate_of(p, before, with, found));
-  const LinkedTrucks after = with(before, found.x);
+  for (const StretchParameter<LinkedTrucks>& p : linked_parameters())
+    result.parameters.push_back(estimate_of(p, before, linked_with, found));
+  const LinkedTrucks after = linked_with(before, found.x);
   result.vehicle = nominal;
   if (Clapper* clapper = std::get_if<Clapper>(&result.vehicle.kind)) static_cast<LinkedTrucks&>(*clapper) = after;
   if (OmniMate* omnimate = std::get_if<OmniMate>(&result.vehicle.kind)) static_cast<LinkedTrucks&>(*omnimate) = after;

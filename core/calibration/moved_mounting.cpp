@@ -17,8 +17,8 @@ namespace {
 
 // Less than this other physics may feign from run to run, and calibration takes in its stride.
 constexpr double kLeast_m = 0.015, kLeast_rad = 0.026;
-constexpr double kSigmas = 6.0;
-constexpr double kExplained = 0.9;
+constexpr double kSigmasOfMounting = 6.0;
+constexpr double kExplainedByMounting = 0.9;
 
 struct Seen {
   Pose mounting, stderrs;
@@ -26,7 +26,8 @@ struct Seen {
 
 std::optional<Seen> seen_in(const Recording& recording, const Vehicle& nominal) {
   const std::optional<RunFit> fit = run_fit(recording, nominal);
-  if (!fit || !fit->drives || !fit->turns || fit->way_explained < kExplained || fit->turn_explained < kExplained)
+  if (!fit || !fit->drives || !fit->turns || fit->way_explained < kExplainedByMounting ||
+      fit->turn_explained < kExplainedByMounting)
     return std::nullopt;
   return Seen{fit->axle_T_tracked, fit->mounting_stderr};
 }
@@ -51,8 +52,8 @@ struct Departure {
   double by_rad = 0.0;
   double place_sigmas = 0.0, heading_sigmas = 0.0;
 
-  bool of_place() const { return length(by_m) > kLeast_m && place_sigmas > kSigmas; }
-  bool of_heading() const { return std::abs(by_rad) > kLeast_rad && heading_sigmas > kSigmas; }
+  bool of_place() const { return length(by_m) > kLeast_m && place_sigmas > kSigmasOfMounting; }
+  bool of_heading() const { return std::abs(by_rad) > kLeast_rad && heading_sigmas > kSigmasOfMounting; }
   bool stands_out() const { return of_place() || of_heading(); }
 };
 
@@ -198,7 +199,7 @@ std::optional<Seen> measured_alone(const Recording& recording, const Vehicle& no
   return seen;
 }
 
-double square(double value) { return value * value; }
+double squared(double value) { return value * value; }
 
 }  // namespace
 
@@ -229,7 +230,7 @@ PutRight mountings_put_right(const std::vector<Recording>& recordings, const Veh
     const Departure d = departure(*here, usual);
     if (!d.stands_out()) continue;
     result.moved.push_back({i, recordings[i].name, here->mounting, here->stderrs, usual.mounting,
-                            0.5 * square(d.of_place() ? d.place_sigmas : d.heading_sigmas)});
+                            0.5 * squared(d.of_place() ? d.place_sigmas : d.heading_sigmas)});
     carry_truth(result.recordings[i], inverse(here->mounting) * usual.mounting);
   }
   return result;

@@ -19,7 +19,7 @@ namespace {
 // unexplained is more than any floor does.
 constexpr double kContradicted = 0.7, kAgreed = 0.9;
 constexpr double kLeastWay = 0.2, kMostWay = 5.0, kLeastTurn = 0.1;
-constexpr double kSigmas = 3.0;  // beyond which a way is not that long
+constexpr double kSigmasOfWay = 3.0;  // beyond which a way is not that long
 constexpr double kAgreedWay = 2.0, kAgreedTurn = 2.5;
 
 void scale(Recording& r, std::initializer_list<const char*> names, double by) {
@@ -85,7 +85,7 @@ const Mend kMends[] = {
 
 // Far from any agreement.
 bool contradicts(const RunFit& f) {
-  const double may_be_off = kSigmas * f.way_stderr;
+  const double may_be_off = kSigmasOfWay * f.way_stderr;
   if (f.drives &&
       (f.way_explained < kContradicted || f.way_ratio + may_be_off < kLeastWay || f.way_ratio - may_be_off > kMostWay))
     return true;
@@ -99,7 +99,7 @@ bool agrees(const RunFit& f, bool lengths_suffice) {
 }
 
 // Wheels both reversed look like wheels exchanged on a robot whose truth points backward: the mounting decides.
-double misfit(const RunFit& f, const Vehicle& nominal) {
+double misfit_of_run(const RunFit& f, const Vehicle& nominal) {
   const double turned_rad = wrapped(f.axle_T_tracked.heading_rad - nominal.truth.axle_T_tracked.heading_rad);
   return 2.0 - f.way_explained - f.turn_explained + std::abs(std::log(f.way_ratio)) + std::abs(std::log(f.turn_ratio)) +
          std::abs(turned_rad);
@@ -116,14 +116,14 @@ const Mend* mend_of(const Recording& recording, const Vehicle& nominal) {
     mend.apply(mended);
     const std::optional<RunFit> fit = run_fit(mended, nominal);
     if (!fit || !agrees(*fit, mend.of_lengths)) continue;
-    if (best && misfit(*fit, nominal) >= least) continue;
+    if (best && misfit_of_run(*fit, nominal) >= least) continue;
     best = &mend;
-    least = misfit(*fit, nominal);
+    least = misfit_of_run(*fit, nominal);
   }
   return best;
 }
 
-std::string name_of(const Recording& r) { return r.name.empty() ? "recording" : r.name; }
+std::string name_of_recording(const Recording& r) { return r.name.empty() ? "recording" : r.name; }
 
 // A wheel that never turns though the truth carries it away from where it stood: no pivot does that.
 std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nominal) {
@@ -152,7 +152,7 @@ std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nom
   for (const auto& [rad, to_the_left_m, name] :
        {std::tuple{&WheelSample::left_rad, half_m, "left"}, std::tuple{&WheelSample::right_rad, -half_m, "right"}})
     if (stands(rad) && carried_m(to_the_left_m) > kCarried_m)
-      return Error{name_of(recording),
+      return Error{name_of_recording(recording),
                    std::string("a ") + name + " wheel that never turns where the truth carries it away",
                    "its rotation: the encoder is dead, or its column another one"};
   return std::nullopt;
@@ -163,11 +163,11 @@ std::optional<Error> own_fault(const Recording& recording, const Vehicle& nomina
   std::optional<Error> of_column = stamps_in_no_seconds(recording);
   if (!of_column) of_column = unknown_wrap(recording, std::get<DifferentialDrive>(nominal.kind));
   if (!of_column) return dead_encoder(recording, nominal);
-  of_column->where = name_of(recording) + ": " + of_column->where;
+  of_column->where = name_of_recording(recording) + ": " + of_column->where;
   return of_column;
 }
 
-Error error_of(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
+Error error_to_mend(const Mend& mend, const std::string& where) { return {where, mend.found, mend.expected}; }
 
 bool can_be_judged(const Recording& r, const Vehicle& nominal) {
   return std::holds_alternative<DifferentialDrive>(nominal.kind) && problems_in(r).empty();
@@ -180,7 +180,7 @@ std::optional<Error> fault_in(const Recording& recording, const Vehicle& nominal
   if (std::optional<Error> own = own_fault(recording, nominal)) return own;
   const Mend* mend = mend_of(recording, nominal);
   if (!mend) return std::nullopt;
-  return error_of(*mend, name_of(recording));
+  return error_to_mend(*mend, name_of_recording(recording));
 }
 
 std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& recordings, const Vehicle& nominal) {
@@ -196,7 +196,7 @@ std::vector<std::optional<Error>> faults_in(const std::vector<Recording>& record
     faults.emplace_back();
     if (can_be_judged(recordings[i], nominal)) faults.back() = own_fault(recordings[i], nominal);
     if (mends[i] && !faults.back())
-      faults.back() = error_of(*mends[i], all_alike ? kEveryRecording : name_of(recordings[i]));
+      faults.back() = error_to_mend(*mends[i], all_alike ? kEveryRecording : name_of_recording(recordings[i]));
   }
   return faults;
 }

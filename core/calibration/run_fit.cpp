@@ -17,19 +17,19 @@ using Eigen::VectorXd;
 
 // Long enough that clocks apart by a tenth of a second matter little, short enough for one arc and for a turn not to be
 // taken for another.
-constexpr double kShortest_s = 0.5, kLongEnough_s = 2.0, kLongest_s = 5.0;
+constexpr double kShortestStretch_s = 0.5, kLongEnough_s = 2.0, kLongestStretch_s = 5.0;
 constexpr double kLongEnough_m = 0.2, kLongEnough_rad = 0.6;
 constexpr double kMoves_m = 0.02, kMoves_rad = 0.06;  // what moves less is lost in the truth's noise
-constexpr std::size_t kFewest = 8;
+constexpr std::size_t kFewestRunStretches = 8;
 constexpr double kLeastDriven_m = 0.5, kLeastTurned_rad = 2.0;  // in all, by the wheels
 constexpr int kRounds = 4;
-constexpr double kWorst = 0.1;  // share of the stretches that need no explanation: jumps, pushes
+constexpr double kWorstStretches = 0.1;  // share of the stretches that need no explanation: jumps, pushes
 
 // What acts in turns and along the room beside the mounting, and how large it may be: sideways slip by speed and turn
 // [s], way lost for a turn [m], creep of the floor [m/s].
 constexpr double kSlip_s = 0.03, kLost_m = 0.01, kCreep_mps = 0.005;
 
-struct Stretch {
+struct RunStretch {
   double duration_s = 0.0;
   double rolled_m = 0.0, rolled_rad = 0.0;  // way and turn by the vehicle file's wheels
   Vec2 moved;                               // the tracked point, in the frame of the truth's middle heading
@@ -40,10 +40,10 @@ struct Stretch {
   bool rolls() const { return std::abs(rolled_m) > kMoves_m; }
 };
 
-std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nominal, bool headings) {
+std::vector<RunStretch> run_stretches(const Recording& recording, const Vehicle& nominal, bool headings) {
   const DifferentialDrive& drive = std::get<DifferentialDrive>(nominal.kind);
   const std::vector<WheelSample> wheels = wheel_samples(recording, drive);
-  std::vector<Stretch> stretches;
+  std::vector<RunStretch> stretches;
   if (wheels.size() < 2) return stretches;
   const double first_s = wheels.front().time_s, last_s = wheels.back().time_s;
   std::optional<TruthSample> from;
@@ -51,10 +51,10 @@ std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nom
   for (const TruthSample& to : truth_samples(recording)) {
     const double time_s = to.time_s - nominal.truth.time_offset_s;
     if (time_s < first_s || time_s > last_s || (headings && !to.heading_rad)) continue;
-    if (from && to.time_s - from->time_s < kShortest_s) continue;
+    if (from && to.time_s - from->time_s < kShortestStretch_s) continue;
     const WheelSample now = wheels_at(wheels, time_s);
     if (from) {
-      Stretch s;
+      RunStretch s;
       const double left_m = drive.wheel_radius_left_m * (now.left_rad - from_wheels.left_rad),
                    right_m = drive.wheel_radius_right_m * (now.right_rad - from_wheels.right_rad);
       s.duration_s = to.time_s - from->time_s;
@@ -71,7 +71,7 @@ std::vector<Stretch> stretches_of(const Recording& recording, const Vehicle& nom
         s.moved = rotated(way, -s.middle_rad);
       }
       const bool moves = std::abs(s.rolled_m) > kMoves_m || std::abs(s.rolled_rad) > kMoves_rad;
-      if (s.duration_s <= kLongest_s && moves) stretches.push_back(s);
+      if (s.duration_s <= kLongestStretch_s && moves) stretches.push_back(s);
     }
     from = to;
     from_wheels = now;
@@ -140,7 +140,8 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
   for (Eigen::Index i = 0; i < stretches; ++i) missed.emplace_back(size_of(left, i), size_of(y, i));
   std::sort(missed.begin(), missed.end());
   double miss = 0.0, of = 1e-30;
-  for (std::size_t i = 0; i < static_cast<std::size_t>((1.0 - kWorst) * static_cast<double>(missed.size())); ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>((1.0 - kWorstStretches) * static_cast<double>(missed.size()));
+       ++i)
     miss += missed[i].first, of += missed[i].second;
   s.explained = 1.0 - miss / of;
   return s;
@@ -148,13 +149,13 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
 
 // Radii of a vehicle's file are not off against each other by more than a tenth: on a circle, where way and turn are
 // the same, noise alone would tell one from the other.
-void fit_turns(const std::vector<Stretch>& stretches, double wheelbase_m, RunFit& fit) {
+void fit_turns(const std::vector<RunStretch>& stretches, double wheelbase_m, RunFit& fit) {
   constexpr double kUnequal = 0.1;
   const Eigen::Index n = static_cast<Eigen::Index>(stretches.size());
   MatrixXd rows(n, 2);
   VectorXd y(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Stretch& s = stretches[static_cast<std::size_t>(i)];
+    const RunStretch& s = stretches[static_cast<std::size_t>(i)];
     rows.row(i) << s.rolled_rad, s.rolled_m;
     y[i] = s.turn_rad;
   }
@@ -164,13 +165,13 @@ void fit_turns(const std::vector<Stretch>& stretches, double wheelbase_m, RunFit
 }
 
 // Of a tracked point at m in a frame turned by h: moved = e^-ih (k rolled + 2 i sin(turn/2) m), as complex numbers.
-void fit_way(const std::vector<Stretch>& stretches, RunFit& fit) {
+void fit_way(const std::vector<RunStretch>& stretches, RunFit& fit) {
   const Eigen::Index n = static_cast<Eigen::Index>(stretches.size());
   MatrixXd rows = MatrixXd::Zero(2 * n, 8);
   VectorXd y(2 * n);
   std::vector<char> rolls;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Stretch& s = stretches[static_cast<std::size_t>(i)];
+    const RunStretch& s = stretches[static_cast<std::size_t>(i)];
     const double half = 0.5 * s.turn_rad;
     const double along = s.rolled_m * (std::abs(half) > 1e-6 ? std::sin(half) / half : 1.0),
                  across = 2.0 * std::sin(half);
@@ -194,12 +195,12 @@ void fit_way(const std::vector<Stretch>& stretches, RunFit& fit) {
 }
 
 // Without headings: the median of chord over way, of stretches that hardly turn.
-void fit_chords(const std::vector<Stretch>& stretches, RunFit& fit) {
+void fit_chords(const std::vector<RunStretch>& stretches, RunFit& fit) {
   std::vector<double> ratios;
-  for (const Stretch& s : stretches)
+  for (const RunStretch& s : stretches)
     if (std::abs(s.rolled_m) > 0.5 * kLongEnough_m && std::abs(s.rolled_rad) < 0.2)
       ratios.push_back(s.chord_m / std::abs(s.rolled_m));
-  fit.drives = ratios.size() >= kFewest;
+  fit.drives = ratios.size() >= kFewestRunStretches;
   if (!fit.drives) return;
   fit.way_ratio = median(std::move(ratios));
 }
@@ -210,8 +211,8 @@ std::optional<RunFit> run_fit(const Recording& recording, const Vehicle& nominal
   std::size_t truths = 0, with_heading = 0;
   for (const TruthSample& t : truth_samples(recording)) ++truths, with_heading += t.heading_rad.has_value();
   const bool headings = 2 * with_heading > truths;
-  const std::vector<Stretch> stretches = stretches_of(recording, nominal, headings);
-  if (stretches.size() < kFewest) return std::nullopt;
+  const std::vector<RunStretch> stretches = run_stretches(recording, nominal, headings);
+  if (stretches.size() < kFewestRunStretches) return std::nullopt;
   RunFit fit;
   if (!headings) {
     fit_chords(stretches, fit);
@@ -219,11 +220,11 @@ std::optional<RunFit> run_fit(const Recording& recording, const Vehicle& nominal
   }
   double driven_m = 0.0, turned_rad = 0.0;
   std::size_t roll = 0;
-  for (const Stretch& s : stretches) {
+  for (const RunStretch& s : stretches) {
     driven_m += std::abs(s.rolled_m), turned_rad += std::abs(s.rolled_rad);
     roll += s.rolls();
   }
-  fit.drives = driven_m > kLeastDriven_m && roll >= kFewest;
+  fit.drives = driven_m > kLeastDriven_m && roll >= kFewestRunStretches;
   fit.turns = turned_rad > kLeastTurned_rad;
   if (fit.turns) fit_turns(stretches, std::get<DifferentialDrive>(nominal.kind).wheelbase_m, fit);
   if (fit.drives) fit_way(stretches, fit);

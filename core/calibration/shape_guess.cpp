@@ -10,10 +10,10 @@ namespace odolab {
 
 namespace {
 
-constexpr double kStretch_s = 8.0, kApart_s = 0.15;  // of a stretch, and of its samples
-constexpr std::size_t kFewest = 12;                  // samples
-constexpr double kShortest_m = 0.1;                  // what a stretch must be across
-constexpr double kWorst = 0.1;                       // share of the stretches that may be at fault
+constexpr double kStretch_s = 8.0, kSamplesApart_s = 0.15;  // of a stretch, and of its samples
+constexpr std::size_t kFewestShapeSamples = 12;             // samples
+constexpr double kShortestAcross_m = 0.1;                   // what a stretch must be across
+constexpr double kWorstOfShape = 0.1;                       // share of the stretches that may be at fault
 constexpr std::size_t kMostStretches = 60;
 
 struct Sample {
@@ -22,7 +22,7 @@ struct Sample {
 };
 using Stretch = std::vector<Sample>;
 
-Stretch stretch_of(const InnovationRun& run, double from_s, double to_s, double late_s) {
+Stretch stretch_between(const InnovationRun& run, double from_s, double to_s, double late_s) {
   Stretch stretch;
   double next_s = from_s;
   WheelSample before;
@@ -38,7 +38,7 @@ Stretch stretch_of(const InnovationRun& run, double from_s, double to_s, double 
     if (stretch.empty()) before = now;
     stretch.push_back({now.left_rad - before.left_rad, now.right_rad - before.right_rad, t.position});
     before = now;
-    next_s = t.time_s + kApart_s;
+    next_s = t.time_s + kSamplesApart_s;
   }
   return stretch;
 }
@@ -58,7 +58,7 @@ struct Drive {
 };
 
 // Mean square distance of the dead-reckoned stretch from the truth, laid onto it as well as turning and shifting can.
-double misfit(const Stretch& stretch, const Drive& drive) {
+double misfit_of_stretch(const Stretch& stretch, const Drive& drive) {
   Pose pose;
   Vec2 mean_guess{}, mean_truth{};
   std::vector<Vec2> guess;
@@ -92,10 +92,10 @@ std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, co
   std::vector<Stretch> stretches;
   double sizes = 0.0;
   for (const InnovationRun& run : runs) {
-    if (run.truth_has_heading || run.truth.size() < kFewest || run.wheels.size() < 2) return std::nullopt;
+    if (run.truth_has_heading || run.truth.size() < kFewestShapeSamples || run.wheels.size() < 2) return std::nullopt;
     for (double from_s = run.truth.front().time_s; from_s < run.truth.back().time_s; from_s += kStretch_s) {
-      Stretch stretch = stretch_of(run, from_s, from_s + kStretch_s, mounting.time_offset_s);
-      if (stretch.size() < kFewest || size2(stretch) < kShortest_m * kShortest_m) continue;
+      Stretch stretch = stretch_between(run, from_s, from_s + kStretch_s, mounting.time_offset_s);
+      if (stretch.size() < kFewestShapeSamples || size2(stretch) < kShortestAcross_m * kShortestAcross_m) continue;
       stretches.push_back(std::move(stretch));
     }
   }
@@ -106,7 +106,7 @@ std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, co
     stretches = std::move(fewer);
   }
   for (const Stretch& s : stretches) sizes += size2(s);
-  const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>((1.0 - kWorst) * stretches.size()));
+  const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>((1.0 - kWorstOfShape) * stretches.size()));
 
   // By the logarithm of each size, and the tracked point in parts of the wheelbase.
   const Pose& m = mounting.axle_T_tracked;
@@ -119,7 +119,7 @@ std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, co
   const auto worst_left_out = [&](const std::vector<double>& v) {
     const Drive drive = drive_of(v);
     std::vector<double> each;
-    for (const Stretch& s : stretches) each.push_back(misfit(s, drive));
+    for (const Stretch& s : stretches) each.push_back(misfit_of_stretch(s, drive));
     std::nth_element(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(kept - 1), each.end());
     double sum = 0.0;
     for (std::size_t k = 0; k < kept; ++k) sum += each[k];

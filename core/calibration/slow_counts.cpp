@@ -8,8 +8,8 @@ namespace odolab {
 
 namespace {
 
-void draw(const std::vector<WheelSample>& readings, double WheelSample::*wheel, double count_rad,
-          std::vector<WheelSample>& out) {
+void draw_between_counts(const std::vector<WheelSample>& readings, double WheelSample::*wheel, double count_rad,
+                         std::vector<WheelSample>& out) {
   const std::vector<Movement> all = movements(readings, wheel);
   const auto edge_s = [&](int i) { return 0.5 * (readings[i].time_s + readings[i + 1].time_s); };
   const auto edge_rad = [&](int i) { return 0.5 * (readings[i].*wheel + readings[i + 1].*wheel); };
@@ -28,8 +28,8 @@ void draw(const std::vector<WheelSample>& readings, double WheelSample::*wheel, 
 
 std::vector<WheelSample> with_slow_counts_drawn(const std::vector<WheelSample>& readings, double count_rad) {
   std::vector<WheelSample> out = readings;
-  draw(readings, &WheelSample::left_rad, count_rad, out);
-  draw(readings, &WheelSample::right_rad, count_rad, out);
+  draw_between_counts(readings, &WheelSample::left_rad, count_rad, out);
+  draw_between_counts(readings, &WheelSample::right_rad, count_rad, out);
   return out;
 }
 

@@ -8,34 +8,34 @@ namespace odolab {
 
 namespace {
 
-constexpr double kCorner = 0.5 * kPi;
+constexpr double kCornerTurn_rad = 0.5 * kPi;
 constexpr int kStepsOfASide = 40;  // chords at the middle heading: the error of an arc of 0.1 rad is below 1e-6 of it
 
 // A robot that turns by 90 degrees less a where its belief says 90, and whose base turns by so much more.
 SynchroDrive with_errors(const SynchroDrive& nominal, const Eigen::Vector4d& e) {
   SynchroDrive actual = nominal;
-  actual.steering_ratio = nominal.steering_ratio * kCorner / (kCorner - e(0));
+  actual.steering_ratio = nominal.steering_ratio * kCornerTurn_rad / (kCornerTurn_rad - e(0));
   actual.base_turn_rad_per_m += e(1);
   actual.base_turn_cos_rad_per_m += e(2);
   actual.base_turn_sin_rad_per_m += e(3);
   return actual;
 }
 
-Eigen::Vector4d predicted(const SynchroDrive& nominal, const Eigen::Vector4d& errors, double side_m) {
+Eigen::Vector4d synchro_predicted(const SynchroDrive& nominal, const Eigen::Vector4d& errors, double side_m) {
   const SynchroDrive actual = with_errors(nominal, errors);
   const ReturnError cw = synchro_square_return_error(actual, nominal, side_m, true);
   const ReturnError ccw = synchro_square_return_error(actual, nominal, side_m, false);
   return {cw.x_m, cw.y_m, ccw.x_m, ccw.y_m};
 }
 
-Eigen::Matrix4d jacobian(const SynchroDrive& nominal, const Eigen::Vector4d& errors, double side_m) {
+Eigen::Matrix4d synchro_jacobian(const SynchroDrive& nominal, const Eigen::Vector4d& errors, double side_m) {
   const double h = 1e-6;  // central differences, as for the differential drive
   Eigen::Matrix4d j;
   for (int k = 0; k < 4; ++k) {
     Eigen::Vector4d up = errors, down = errors;
     up(k) += h;
     down(k) -= h;
-    j.col(k) = (predicted(nominal, up, side_m) - predicted(nominal, down, side_m)) / (2.0 * h);
+    j.col(k) = (synchro_predicted(nominal, up, side_m) - synchro_predicted(nominal, down, side_m)) / (2.0 * h);
   }
   return j;
 }
@@ -74,7 +74,7 @@ ReturnError synchro_square_return_error(const SynchroDrive& actual, const Synchr
   };
   for (int side = 0; side < 4; ++side) {
     for (int i = 0; i < kStepsOfASide; ++i) move(side_m / kStepsOfASide, 0.0);
-    move(0.0, way * kCorner);
+    move(0.0, way * kCornerTurn_rad);
   }
   return {real.pose.x_m - thought.pose.x_m, real.pose.y_m - thought.pose.y_m,
           real.pose.heading_rad - thought.pose.heading_rad};
@@ -92,8 +92,9 @@ std::optional<SynchroCalibration> calibrate_synchro(const UmbmarkRuns& runs, con
   Eigen::Vector4d errors(corner, steady, 0.5 * (cw.x_m - ccw.x_m) / (side_m * side_m) + 2.0 * steady,
                          0.5 * (cw.y_m - ccw.y_m) / (side_m * side_m) + 2.0 * corner / side_m);
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector4d step =
-        jacobian(nominal, errors, side_m).colPivHouseholderQr().solve(centres - predicted(nominal, errors, side_m));
+    const Eigen::Vector4d step = synchro_jacobian(nominal, errors, side_m)
+                                     .colPivHouseholderQr()
+                                     .solve(centres - synchro_predicted(nominal, errors, side_m));
     errors = (errors + step).cwiseMax(-1.0).cwiseMin(1.0);
     if (step.norm() < 1e-14) break;
   }
@@ -106,7 +107,7 @@ std::optional<SynchroCalibration> calibrate_synchro(const UmbmarkRuns& runs, con
   Eigen::Matrix4d of_centres = Eigen::Matrix4d::Zero();
   of_centres.topLeftCorner<2, 2>() = of_centre(runs.clockwise, measure->clockwise);
   of_centres.bottomRightCorner<2, 2>() = of_centre(runs.counter_clockwise, measure->counter_clockwise);
-  const Eigen::Matrix4d inverse = jacobian(nominal, errors, side_m).inverse();
+  const Eigen::Matrix4d inverse = synchro_jacobian(nominal, errors, side_m).inverse();
   const Eigen::Matrix4d of_errors = inverse * of_centres * inverse.transpose();
   for (int k = 0; k < 4; ++k) c.standard_errors[static_cast<std::size_t>(k)] = std::sqrt(of_errors(k, k));
   c.corrected = with_errors(nominal, errors);

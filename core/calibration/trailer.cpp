@@ -13,7 +13,7 @@ namespace odolab {
 namespace {
 
 // Departures from the vehicle file, relative but for the last.
-enum Unknown {
+enum UnknownOfTrailer {
   kDifferenceTow,
   kWheelbaseTow,
   kScaleTrailer,
@@ -21,12 +21,12 @@ enum Unknown {
   kWheelbaseTrailer,
   kDrawbar,
   kHitch,
-  kUnknowns
+  kUnknownsOfTrailer
 };
-const std::vector<double> kPrior = {0.03, 0.05, 0.03, 0.03, 0.05, 0.05, 0.05};
-constexpr double kStretch_m = 0.25, kStretch_rad = 0.25;
+const std::vector<double> kTrailerPrior = {0.03, 0.05, 0.03, 0.03, 0.05, 0.05, 0.05};
+constexpr double kTrailerStretch_m = 0.25, kTrailerStretch_rad = 0.25;
 
-SmartEncoderTrailer with(const SmartEncoderTrailer& nominal, const std::vector<double>& x) {
+SmartEncoderTrailer trailer_with(const SmartEncoderTrailer& nominal, const std::vector<double>& x) {
   SmartEncoderTrailer v = nominal;
   v.tow.wheel_radius_left_m *= 1.0 - 0.5 * x[kDifferenceTow];
   v.tow.wheel_radius_right_m *= 1.0 + 0.5 * x[kDifferenceTow];
@@ -39,7 +39,7 @@ SmartEncoderTrailer with(const SmartEncoderTrailer& nominal, const std::vector<d
   return v;
 }
 
-struct Stretch {
+struct TrailerStretch {
   const std::vector<TrailerSample>* samples = nullptr;
   std::size_t first = 0, last = 0;
 };
@@ -49,7 +49,7 @@ Pose moved(const Pose& pose, const WheelRotation& from, const WheelRotation& to,
 }
 
 void add_stretches(const std::vector<TrailerSample>& samples, const SmartEncoderTrailer& v,
-                   std::vector<Stretch>& stretches) {
+                   std::vector<TrailerStretch>& stretches) {
   double travel_m = 0.0, turn_rad = 0.0;
   std::size_t first = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -57,7 +57,7 @@ void add_stretches(const std::vector<TrailerSample>& samples, const SmartEncoder
     const Pose trailer = moved({}, samples[i - 1].trailer, samples[i].trailer, v.trailer);
     travel_m += std::max(length(tow.position()), length(trailer.position()));
     turn_rad += std::max(std::abs(tow.heading_rad), std::abs(trailer.heading_rad));
-    if (travel_m < kStretch_m && turn_rad < kStretch_rad) continue;
+    if (travel_m < kTrailerStretch_m && turn_rad < kTrailerStretch_rad) continue;
     stretches.push_back({&samples, first, i});
     first = i;
     travel_m = turn_rad = 0.0;
@@ -65,7 +65,7 @@ void add_stretches(const std::vector<TrailerSample>& samples, const SmartEncoder
 }
 
 // The hitch angle, and the hitch's place along and across the drawbar: what is read or known less what is predicted.
-std::vector<double> contradictions(const Stretch& stretch, const SmartEncoderTrailer& v) {
+std::vector<double> trailer_contradictions(const TrailerStretch& stretch, const SmartEncoderTrailer& v) {
   const std::vector<TrailerSample>& s = *stretch.samples;
   Pose tow;
   Pose trailer = Pose{0.0, 0.0, -(s[stretch.first].hitch_angle_rad - v.hitch_angle_offset_rad)} *
@@ -79,24 +79,24 @@ std::vector<double> contradictions(const Stretch& stretch, const SmartEncoderTra
   return {wrapped(read_rad - (tow.heading_rad - trailer.heading_rad)), v.drawbar_length_m - hitch.x_m, -hitch.y_m};
 }
 
-StretchProblem problem_of(const std::vector<Stretch>& stretches, const SmartEncoderTrailer& nominal) {
+StretchProblem trailer_problem(const std::vector<TrailerStretch>& stretches, const SmartEncoderTrailer& nominal) {
   StretchProblem problem;
   problem.stretches = static_cast<int>(stretches.size());
-  problem.prior = kPrior;
+  problem.prior = kTrailerPrior;
   const double step_rad = nominal.hitch_angle_resolution_rad;
-  const double aside_m = kStretch_m * step_rad / std::sqrt(12.0);  // a way in a direction that is rounded
+  const double aside_m = kTrailerStretch_m * step_rad / std::sqrt(12.0);  // a way in a direction that is rounded
   problem.least_deviation = {step_rad / std::sqrt(6.0), aside_m, aside_m};
   problem.contradictions = [&stretches, nominal](int stretch, const std::vector<double>& x) {
-    return contradictions(stretches[static_cast<std::size_t>(stretch)], with(nominal, x));
+    return trailer_contradictions(stretches[static_cast<std::size_t>(stretch)], trailer_with(nominal, x));
   };
   problem.encoders = {{0, kHitch, step_rad, [&stretches](int stretch, bool at_end) {
-                         const Stretch& s = stretches[static_cast<std::size_t>(stretch)];
+                         const TrailerStretch& s = stretches[static_cast<std::size_t>(stretch)];
                          return (*s.samples)[at_end ? s.last : s.first].hitch_angle_rad;
                        }}};
   return problem;
 }
 
-const std::vector<StretchParameter<SmartEncoderTrailer>>& parameters() {
+const std::vector<StretchParameter<SmartEncoderTrailer>>& trailer_parameters() {
   using V = SmartEncoderTrailer;
   static const std::vector<StretchParameter<SmartEncoderTrailer>> list = {
       {"tow.wheel_radius_left_m", "m", [](const V& v) { return v.tow.wheel_radius_left_m; }, {kDifferenceTow}},
@@ -129,12 +129,12 @@ Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& reco
                    "the encoders of a " + kind_name(nominal)};
     samples.push_back(trailer_samples(recording));
   }
-  std::vector<Stretch> stretches;
+  std::vector<TrailerStretch> stretches;
   for (const std::vector<TrailerSample>& s : samples) add_stretches(s, before, stretches);
   if (stretches.size() < 8)
     return Error{"recordings", std::to_string(stretches.size()) + " stretches of travel", "two metres or more"};
 
-  const StretchProblem problem = problem_of(stretches, before);
+  const StretchProblem problem = trailer_problem(stretches, before);
   std::vector<int> free = {kDifferenceTow,    kWheelbaseTow, kScaleTrailer, kDifferenceTrailer,
                            kWheelbaseTrailer, kDrawbar,      kHitch};
   InternalCalibration result;
@@ -153,12 +153,12 @@ Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& reco
   if (!found.determined(kDrawbar))
     result.cannot_tell.push_back("the drawbar's length: drive with the trailer at an angle");
 
-  for (int unknown = 0; unknown < kUnknowns; ++unknown)
+  for (int unknown = 0; unknown < kUnknownsOfTrailer; ++unknown)
     if (!found.determined(unknown)) found.x[static_cast<std::size_t>(unknown)] = 0.0;
-  for (const StretchParameter<SmartEncoderTrailer>& p : parameters())
-    result.parameters.push_back(estimate_of(p, before, with, found));
+  for (const StretchParameter<SmartEncoderTrailer>& p : trailer_parameters())
+    result.parameters.push_back(estimate_of(p, before, trailer_with, found));
   result.vehicle = nominal;
-  result.vehicle.kind = with(before, found.x);
+  result.vehicle.kind = trailer_with(before, found.x);
   result.taken_as_known = {
       "the towing vehicle's mean wheel radius, the scale of all lengths: no encoder inside measures the floor",
       "a smooth floor; stretches over bumps count less"};

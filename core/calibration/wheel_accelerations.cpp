@@ -10,10 +10,10 @@ namespace odolab {
 
 namespace {
 
-constexpr double kShortest_s = 0.4, kLongest_s = 0.8;  // of which the weights leave some two thirds
-constexpr double kOfCurve = 1903.0;        // n T^4 times the second derivative's variance, for readings of variance 1
-constexpr double kShareOfTremble = 0.001;  // of the accelerations' variance
-constexpr std::size_t kFewest = 4;         // readings, two to either side of an interval
+constexpr double kShortestWindow_s = 0.4, kLongestWindow_s = 0.8;  // of which the weights leave some two thirds
+constexpr double kOfCurve = 1903.0;         // n T^4 times the second derivative's variance, for readings of variance 1
+constexpr double kShareOfTremble = 0.001;   // of the accelerations' variance
+constexpr std::size_t kFewestReadings = 4;  // readings, two to either side of an interval
 
 std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel,
                                      double over_s) {
@@ -25,7 +25,7 @@ std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, d
     while (hi + 1 < n && readings[hi + 1].time_s - middle_s <= 0.5 * over_s) ++hi;
     const std::size_t from = std::min(lo, i >= 1 ? i - 1 : i);
     const std::size_t to = std::max(hi, std::min(i + 2, n - 1));
-    if (to - from + 1 < kFewest) continue;
+    if (to - from + 1 < kFewestReadings) continue;
     Parabola p;
     const double reach_s =
         1.05 * std::max({0.5 * over_s, middle_s - readings[from].time_s, readings[to].time_s - middle_s});
@@ -58,27 +58,29 @@ struct Accelerations {
   std::vector<double> quick, steady;
 };
 
-Accelerations of_wheel(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
+Accelerations steady_and_quick(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
   const double whole_s = readings.back().time_s - readings.front().time_s;
   const double rate_hz = static_cast<double>(readings.size() - 1) / std::max(whole_s, 1e-9);
   Accelerations of;
-  of.steady = accelerations_of(readings, wheel, kLongest_s);
+  of.steady = accelerations_of(readings, wheel, kLongestWindow_s);
   double square = 0.0;
   for (double a : of.steady) square += a * a;
   square /= static_cast<double>(of.steady.size());
   const double needed_s =
       square > 0.0 ? std::pow(kOfCurve * tremble_of(readings, wheel) / (rate_hz * kShareOfTremble * square), 0.2)
-                   : kLongest_s;
-  of.quick = needed_s < kLongest_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortest_s)) : of.steady;
+                   : kLongestWindow_s;
+  of.quick = needed_s < kLongestWindow_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortestWindow_s))
+                                         : of.steady;
   return of;
 }
 
 }  // namespace
 
 std::vector<WheelAcceleration> wheel_accelerations(const std::vector<WheelSample>& readings) {
-  if (readings.size() < kFewest) return std::vector<WheelAcceleration>(readings.empty() ? 0 : readings.size() - 1);
-  const Accelerations left = of_wheel(readings, &WheelSample::left_rad),
-                      right = of_wheel(readings, &WheelSample::right_rad);
+  if (readings.size() < kFewestReadings)
+    return std::vector<WheelAcceleration>(readings.empty() ? 0 : readings.size() - 1);
+  const Accelerations left = steady_and_quick(readings, &WheelSample::left_rad),
+                      right = steady_and_quick(readings, &WheelSample::right_rad);
   std::vector<WheelAcceleration> of(left.quick.size());
   for (std::size_t i = 0; i < of.size(); ++i) of[i] = {left.quick[i], right.quick[i], left.steady[i], right.steady[i]};
   return of;

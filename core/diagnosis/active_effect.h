@@ -26,6 +26,11 @@ inline bool is_of_the_truth(const std::string& effect) {
   return effect == "truth_mounting_offset" || effect == "truth_time_offset" || effect == "truth_smoothing";
 }
 
+// Biased encoders of a joint are of a part as such, and not of the vehicle that it is.
+inline bool is_bias_of_a_joint(const std::string& effect) {
+  return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
+}
+
 // What is wrong with the recorded numbers themselves.
 inline bool is_data_fault(const std::string& effect) {
   return effect == "truth_frozen" || effect == "encoder_data_fault";

@@ -8,15 +8,15 @@ namespace odolab {
 
 namespace {
 
-bool is_likelier(const ScoredCandidate& a, const ScoredCandidate& b) {
+bool is_likelier_candidate(const ScoredCandidate& a, const ScoredCandidate& b) {
   return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
 }
 
 // Of an effect its likeliest part.
-const ScoredCandidate* likeliest(const std::vector<ScoredCandidate>& scored, const std::string& effect) {
+const ScoredCandidate* likeliest_candidate(const std::vector<ScoredCandidate>& scored, const std::string& effect) {
   const ScoredCandidate* best = nullptr;
   for (const ScoredCandidate& c : scored)
-    if (c.effect->name == effect && (!best || is_likelier(c, *best))) best = &c;
+    if (c.effect->name == effect && (!best || is_likelier_candidate(c, *best))) best = &c;
   return best;
 }
 
@@ -45,7 +45,7 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
     const std::string& name = c.effect->name;
     if (c.effect->only_commands && !from_commands) continue;
     if (std::any_of(all.begin(), all.end(), [&](const AskedEffect& a) { return a.effect == name; })) continue;
-    const ScoredCandidate* best = likeliest(selected.first_look, name);
+    const ScoredCandidate* best = likeliest_candidate(selected.first_look, name);
     AskedEffect asked;
     asked.effect = name;
     asked.component = best->effect->component;
@@ -57,7 +57,7 @@ std::vector<AskedEffect> asked_effects(const JointModel& joint, const Selected& 
       asked.log_likelihood_gain = 0.5 * selected.evidence[k].test.statistic;
       asked.p_value = selected.evidence[k].p_value;
     }
-    if (const ScoredCandidate* beside = likeliest(selected.beside_all, name); beside && !asked.named)
+    if (const ScoredCandidate* beside = likeliest_candidate(selected.beside_all, name); beside && !asked.named)
       asked.gain_beside_findings = 0.5 * beside->test.judged();
     for (const Visible& v : least)
       if (v.effect->name == name) add_visible(asked, joint, v);

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
 
-std::string in_words(const Undone& u, const std::string& recording) {
+std::string undone_in_words(const Undone& u, const std::string& recording) {
   return recording + formatted(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) +
          formatted(" by %.2g mm and %.2g degrees, and then back", 1e3 * u.away_m,
                    std::abs(u.turned_rad) * 180.0 / kPi) +
@@ -58,7 +58,7 @@ std::optional<Sought> sought_beside(JointModel calibrated, const ReadyRecordings
     if (!names) return std::nullopt;
     if (!names->selected.undone) return Sought{std::move(calibrated), std::move(*names), std::move(of_undone)};
     const Undone& u = *names->selected.undone;
-    of_undone.push_back(in_words(u, ready.train[static_cast<std::size_t>(u.run)].recording.name));
+    of_undone.push_back(undone_in_words(u, ready.train[static_cast<std::size_t>(u.run)].recording.name));
     calibrated.leave_out(u.run, u.from_s, u.to_s);
     calibrated.fit(2);
     calibrated.fit_noise_and_all();

@@ -10,7 +10,7 @@ namespace odolab {
 namespace {
 
 constexpr int kStrips = 16;
-constexpr int kFewest = 20;  // samples of a strip
+constexpr int kFewestInAStrip = 20;  // samples of a strip
 constexpr double kLeastRoom_m = 0.2;
 
 using Values = std::vector<double> Residuals::*;
@@ -81,7 +81,7 @@ std::vector<Response> place_responses(const std::vector<Residuals>& before, cons
       response.variable = axis.name;
       response.channel = channel.name;
       for (std::size_t k = 0; k < kStrips; ++k) {
-        if (strips[k].samples < kFewest) continue;
+        if (strips[k].samples < kFewestInAStrip) continue;
         const double value = strips[k].times_noise();
         response.at.push_back(range.low + (static_cast<double>(k) + 0.5) * (range.high - range.low) / kStrips);
         response.value.push_back(value);
@@ -127,7 +127,7 @@ Response zone_response(const WhereFound::Zone& zone, const std::string& name, co
   response.channel = kMismatchAboutPlace;
   for (std::size_t k = 0; k < kStrips; ++k) {
     const Ring& ring = found[k];
-    if (ring.samples < kFewest || (has_after && left[k].samples == 0)) continue;
+    if (ring.samples < kFewestInAStrip || (has_after && left[k].samples == 0)) continue;
     const double variance = std::max(0.0, ring.squares / ring.samples - ring.mean() * ring.mean());
     const double band = 2.0 * std::sqrt(variance / std::max(1.0, ring.seconds / kGathered_s));
     response.at.push_back((static_cast<double>(k) + 0.5) * range.high / kStrips);

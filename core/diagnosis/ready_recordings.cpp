@@ -151,7 +151,7 @@ bool leave_out_alike_holds(const std::vector<CheckedRecording*>& each, const Veh
   return any;
 }
 
-std::string in_words(const std::vector<TruthJump>& jumps) {
+std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
   double squares_m2 = 0.0;
   for (const TruthJump& j : jumps) squares_m2 += dot(j.by, j.by);
   return formatted(
@@ -224,7 +224,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     if (jumps.empty()) break;
     ready.truth_jumps = true;
     if (const Result<Done> done = calibrate(); !done) return done.error();
-    if (round == 0) ready.warnings.push_back(in_words(jumps));
+    if (round == 0) ready.warnings.push_back(jumps_in_words(jumps));
   }
   for (CheckedRecording* c : each) {
     ready.warnings.insert(ready.warnings.end(), c->warnings.begin(), c->warnings.end());

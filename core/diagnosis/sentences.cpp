@@ -8,7 +8,7 @@ namespace odolab {
 
 namespace {
 
-std::string in_words(const Finding& f) {
+std::string finding_in_words(const Finding& f) {
   std::string s = f.sentence;
   for (std::size_t k = 0; k < std::min<std::size_t>(f.parameters.size(), 3); ++k) {
     const FoundParameter& p = f.parameters[k];
@@ -40,7 +40,7 @@ const char* headline(Verdict verdict) {
 std::vector<std::string> sentences_of(const Diagnosis& d) {
   std::vector<std::string> sentences = {headline(d.verdict)};
   for (const Finding& f : d.findings) {
-    sentences.push_back(in_words(f));
+    sentences.push_back(finding_in_words(f));
     for (const Alternative& a : f.alternatives)
       sentences.push_back("  or " + a.effect + " (" + a.component + "); told apart by " + a.told_apart_by);
   }

@@ -9,14 +9,14 @@ namespace odolab {
 
 namespace {
 
-std::string in_words(const Adequacy::Ripple& r) {
+std::string ripple_in_words(const Adequacy::Ripple& r) {
   return "the " + r.channel.substr(0, r.channel.find(" per metre")) +
          formatted(" comes and goes %.3g times a turn, by ", r.times_a_turn) +
          formatted("%.2g %% of it, as a gear before it makes it do; it adds up to nothing over any way",
                    100.0 * r.amplitude);
 }
 
-std::string in_words(const Adequacy::Sway& sway) {
+std::string ripple_in_words(const Adequacy::Sway& sway) {
   return "the vehicle, or the truth by itself, comes and goes by " +
          formatted("%.2g mm to either side with ", 1e3 * sway.to_either_side_m) + sway.wave +
          ": no more than one sample of the truth errs, so which of both it is cannot be told; a stop of "
@@ -40,7 +40,7 @@ std::vector<std::string> warnings_beside(const JointModel& joint, const Adequacy
   if (adequacy.something_small_is_left)
     warnings.push_back(
         "beside the names given something small is left that no name describes, or the truth's noise is not white");
-  for (const Adequacy::Ripple& r : adequacy.ripples) warnings.push_back(in_words(r));
+  for (const Adequacy::Ripple& r : adequacy.ripples) warnings.push_back(ripple_in_words(r));
   constexpr double kUneven_s = 0.02;
   if (const double timing_s = joint.model.noise.command_timing_s; timing_s > kUneven_s)
     warnings.push_back(
@@ -49,7 +49,7 @@ std::vector<std::string> warnings_beside(const JointModel& joint, const Adequacy
                   timing_s));
   if (const FittedNoise noise = joint.noise_as_recorded(); noise.wander_lasts_s > 0.0)
     warnings.push_back(lasting_in_words(noise));
-  if (adequacy.sway) warnings.push_back(in_words(*adequacy.sway));
+  if (adequacy.sway) warnings.push_back(ripple_in_words(*adequacy.sway));
   return warnings;
 }
 

@@ -11,7 +11,7 @@ namespace odolab {
 namespace {
 
 constexpr double kEventRadius_m = 0.1;  // of what a wheel rolls over, and of what is hit
-constexpr double k95 = 1.96;
+constexpr double kHalfWidthOf95 = 1.96;
 
 double shape_named(const AcceptedEffect& a, const std::string& name) {
   for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
@@ -72,7 +72,7 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
     const auto run = only ? only->run : static_cast<std::size_t>(a.shape[0]);
     w.recording = joint.runs()[run].name;
     const double at_s = only ? only->at_s : shape_named(a, "at_s"),
-                 wide_s = k95 * stderr_of_shape(a, covariance, "at_s");
+                 wide_s = kHalfWidthOf95 * stderr_of_shape(a, covariance, "at_s");
     const std::vector<WheelSample>& wheels = joint.runs()[run].wheels;
     const double low_s = std::min(at_s, wheels.front().time_s), high_s = std::max(at_s, wheels.back().time_s);
     w.time_s.push_back({std::max(at_s - wide_s, low_s), std::min(at_s + wide_s, high_s)});

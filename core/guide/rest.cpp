@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kStandardErrors = 3.0;  // of the rule, section 6.3
+constexpr double kStandardErrorsOfRule = 3.0;  // of the rule, section 6.3
 
 }  // namespace
 
@@ -21,7 +21,7 @@ RestOfCalibration rest_of(const UmbmarkMeasure& measure, const UmbmarkRuns& runs
   const double n = static_cast<double>(cw_is_worse ? cw : ccw);
   const double rest_m = measure.largest_systematic_error_m;
   const double times = rest_m / (std::max(measure.spread_m, kTapeRounding_m) / std::sqrt(n));
-  if (times > kStandardErrors)
+  if (times > kStandardErrorsOfRule)
     return {true, formatted("What is left, %.1f mm, is %.1f standard errors of its own centre: another compensation is "
                             "likely to help.",
                             1e3 * rest_m, times)};

@@ -10,7 +10,7 @@ namespace {
 
 // Wheels of a differential drive alone: other kinds have true lengths in a table of their own.
 template <typename S, typename Toml>
-void wheel_fields(S& actual, Toml& toml) {
+void actual_wheel_fields(S& actual, Toml& toml) {
   toml.field("wheel_radius_left_m", actual.wheel_radius_left_m);
   toml.field("wheel_radius_right_m", actual.wheel_radius_right_m);
   toml.field("wheelbase_m", actual.wheelbase_m);
@@ -45,7 +45,7 @@ void trailer_fields(S& trailer, Toml& toml) {
 }
 
 template <typename S, typename Toml>
-void castor_fields(S& castors, Toml& toml) {
+void actual_castor_fields(S& castors, Toml& toml) {
   toml.field("mass_kg", castors.mass_kg);
   toml.field("moment_of_inertia_kgm2", castors.moment_of_inertia_kgm2);
 }
@@ -84,7 +84,7 @@ void parts(Machine& machine, const VehicleKind& kind, const Part& part) {
   if (std::holds_alternative<EncoderTrailer>(kind) || std::holds_alternative<SmartEncoderTrailer>(kind))
     part("trailer", [&](auto& toml) { trailer_fields(machine.trailer, toml); });
   if (std::holds_alternative<MultiCastor>(kind))
-    part("castors", [&](auto& toml) { castor_fields(machine.castors, toml); });
+    part("castors", [&](auto& toml) { actual_castor_fields(machine.castors, toml); });
   if (std::holds_alternative<SynchroDrive>(kind))
     part("synchro", [&](auto& toml) { synchro_fields(machine.synchro, toml); });
   if (std::holds_alternative<Tracked>(kind) || std::holds_alternative<EncoderTrailer>(kind))
@@ -98,7 +98,7 @@ void parts(Machine& machine, const VehicleKind& kind, const Part& part) {
 void read_actual(TomlTable table, Scenario& scenario, bool as_drawn_at_first) {
   if (const auto* drive = std::get_if<DifferentialDrive>(&scenario.vehicle.kind)) {
     if (as_drawn_at_first) scenario.actual = as_drawn(*drive);
-    wheel_fields(scenario.actual, table);
+    actual_wheel_fields(scenario.actual, table);
     body_fields(scenario.actual, table);
     return;
   }
@@ -117,7 +117,7 @@ void read_actual(TomlTable table, Scenario& scenario, bool as_drawn_at_first) {
 
 void write_actual(TomlText& text, const Scenario& scenario) {
   text.table("actual");
-  if (std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind)) wheel_fields(scenario.actual, text);
+  if (std::holds_alternative<DifferentialDrive>(scenario.vehicle.kind)) actual_wheel_fields(scenario.actual, text);
   body_fields(scenario.actual, text);
   if (scenario.machine.lengths) {
     const std::string path = "actual." + kind_name(scenario.vehicle);

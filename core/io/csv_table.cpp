@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <optional>
 
 #include "core/io/number_text.h"
@@ -12,8 +11,6 @@
 namespace odolab {
 
 namespace {
-
-constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 
 // Cells of one line, commas inside double quotes kept, the quotes themselves taken off.
 void split(std::string_view line, std::vector<std::string_view>& cells) {
@@ -34,13 +31,15 @@ bool says_nan(std::string_view cell) {
   return cell.size() == 3 && (cell[0] | 32) == 'n' && (cell[1] | 32) == 'a' && (cell[2] | 32) == 'n';
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed_columns(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < 8; ++i) text += (i ? ", " : "") + in_quotes(names[i]);
   return names.size() > 8 ? text + ", ..." : text;
 }
 
-std::string plural(std::size_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
+std::string counted_in_words(std::size_t n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
 
 }  // namespace
 
@@ -88,7 +87,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
         if (std::find(table.names.begin(), table.names.end(), required) == table.names.end())
           return table.names.size() == 1 && table.names[0].find_first_of(";\t") != std::string::npos
                      ? Error{place, "columns that no comma divides", "commas; odolab import --map reads other text"}
-                     : Error{place, "the columns " + listed(table.names),
+                     : Error{place, "the columns " + listed_columns(table.names),
                              "a column " + in_quotes(required) +
                                  (required == "time_s" ? "; odolab import --map reads other names" : "")};
       time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
@@ -101,7 +100,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
 
     if (cells.size() != table.names.size()) {
       const bool cut_off = !ended && cells.size() < table.names.size();
-      return Error{place, (cut_off ? "a last line cut off after " : "") + plural(cells.size(), "cell"),
+      return Error{place, (cut_off ? "a last line cut off after " : "") + counted_in_words(cells.size(), "cell"),
                    std::to_string(table.names.size()) + ", one for each column of the header"};
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -10,10 +10,6 @@ namespace odolab {
 
 namespace {
 
-bool ends_in(const std::string& path, std::string_view ending) {
-  return path.size() >= ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 bool is_name(std::string_view text) {
   for (char c : text)
     if (!(c == '_' || c == '-' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
@@ -32,7 +28,7 @@ FileKind file_kind(const std::string& path) {
       rest.substr(0, rest.find('\n')).find('=') == std::string_view::npos)
     return FileKind::recording;
   if (is_foreign_recording(path)) return FileKind::foreign_recording;
-  bool is_toml = ends_in(path, ".toml") && !start.empty();
+  bool is_toml = path.ends_with(".toml") && !start.empty();
   while (!rest.empty()) {
     const std::size_t size = rest.find('\n');
     const std::string_view line = trimmed(rest.substr(0, size));
@@ -50,7 +46,7 @@ FileKind file_kind(const std::string& path) {
     is_toml = true;
   }
   if (is_toml) return FileKind::scenario;
-  return ends_in(path, ".csv") && !start.empty() ? FileKind::recording : FileKind::unknown;
+  return path.ends_with(".csv") && !start.empty() ? FileKind::recording : FileKind::unknown;
 }
 
 }  // namespace odolab

@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-const std::vector<std::string> kSchemas = {"odolab.guide/1"};
+const std::vector<std::string> kGuideSchemas = {"odolab.guide/1"};
 
 std::vector<std::string> guide_keys() {
   std::vector<std::string> keys;
@@ -41,7 +41,7 @@ void run_fields(S& run, Toml& toml) {
 }
 
 template <typename S, typename Toml>
-void drive_fields(S& drive, Toml& toml) {
+void guided_drive_fields(S& drive, Toml& toml) {
   toml.field("wheel_radius_left_m", drive.wheel_radius_left_m);
   toml.field("wheel_radius_right_m", drive.wheel_radius_right_m);
   toml.field("wheelbase_m", drive.wheelbase_m);
@@ -57,14 +57,14 @@ void tape_fields(S& tape, Toml& toml) {
 GuideRound read_round(TomlTable& table, const Vehicle& vehicle) {
   GuideRound round;
   if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) round.nominal = *drive;  // counts and gear
-  drive_fields(round.nominal, table);
+  guided_drive_fields(round.nominal, table);
   table.field("lost", round.lost);
   for (TomlTable& element : table.tables("run")) run_fields(round.runs.emplace_back(), element);
   return round;
 }
 
 void write_round(TomlText& text, const GuideRound& round, const std::string& path) {
-  drive_fields(round.nominal, text);
+  guided_drive_fields(round.nominal, text);
   text.field("lost", round.lost);
   for (const GuideRun& run : round.runs) {
     text.table_element(path + ".run");
@@ -79,7 +79,7 @@ Result<GuideSession> read_guide_session(const std::string& path) {
   if (!read) return read.error();
   TomlTable& top = *read;
   top.require("schema");
-  top.index_of_choice("schema", 0, kSchemas);
+  top.index_of_choice("schema", 0, kGuideSchemas);
   GuideSession session;
   top.require("guide");
   top.choice("guide", session.kind, guide_keys());
@@ -102,7 +102,7 @@ Result<GuideSession> read_guide_session(const std::string& path) {
 
 Result<Done> write_guide_session(const std::string& path, const GuideSession& session) {
   TomlText text;
-  text.field("schema", kSchemas.front());
+  text.field("schema", kGuideSchemas.front());
   text.field("guide", guide_of(session.kind).key);
   session_fields(session, text);
   text.table("vehicle");

@@ -14,7 +14,7 @@ namespace odolab {
 
 namespace {
 
-const std::vector<std::string> kSchemas = {"odolab.model/1"};
+const std::vector<std::string> kModelSchemas = {"odolab.model/1"};
 
 using Parameters = std::vector<std::pair<std::string, double>>;
 
@@ -23,7 +23,7 @@ bool has_parameter(const Parameters& parameters, const std::string& key) {
 }
 
 // As in a scenario, but an event that was found at a time need not know its place.
-FittedEffect read_effect(TomlTable& table) {
+FittedEffect read_fitted_effect(TomlTable& table) {
   FittedEffect effect;
   std::vector<std::string> names;
   for (const EffectEntry& entry : effect_catalogue()) names.push_back(entry.name);
@@ -69,14 +69,14 @@ Result<FittedModel> read_model(const std::string& path) {
   if (!read) return read.error();
   TomlTable& top = *read;
   top.require("schema");
-  top.index_of_choice("schema", 0, kSchemas);
+  top.index_of_choice("schema", 0, kModelSchemas);
   top.require("vehicle");
   FittedModel model;
   if (!top.failure()) {
     TomlTable vehicle = top.table("vehicle");
     model.vehicle = vehicle_from(vehicle, "vehicle.");
     for (TomlTable& element : top.tables("effect")) {
-      model.effects.push_back(read_effect(element));
+      model.effects.push_back(read_fitted_effect(element));
       if (has_its_form(model.effects.back().active)) continue;
       const std::string key = "effect[" + std::to_string(model.effects.size()) + "].form";
       top.fail({top.place_of(key) + ": form", "no such form", "the number of a form that the effect has"});
@@ -90,7 +90,7 @@ Result<FittedModel> read_model(const std::string& path) {
 std::string model_text(const FittedModel& model) {
   TomlText text;
   text.comment("For odolab predict --model: a vehicle as calibrated, and what else was found on it.");
-  text.field("schema", kSchemas.front());
+  text.field("schema", kModelSchemas.front());
   text.table("vehicle");
   write_vehicle_to(text, model.vehicle, "vehicle.");
   for (const FittedEffect& effect : model.effects) {

@@ -1,6 +1,7 @@
 // Numbers as text, exactly: what is written reads back to the same bits, in every locale.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
+
+// Stands for a number that is not there: an empty cell.
+inline constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 
 // Without blanks, tabs and carriage returns at both ends.
 std::string_view trimmed(std::string_view text);

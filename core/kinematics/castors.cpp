@@ -10,7 +10,7 @@ namespace odolab {
 namespace {
 
 // A castor swings round in r_c over its speed, 0.1 s and more: a step of fourth order then errs by 1e-9 of that swing.
-constexpr double kLongestStep_s = 5e-3;
+constexpr double kLongestCastorStep_s = 5e-3;
 
 // Velocity of a castor's pivot in the body's frame.
 Vec2 pivot_velocity(const Castor& castor, const BodyTwist& twist) {
@@ -43,7 +43,7 @@ CastorKinematics::CastorKinematics(MultiCastor actual, const Pose& body, const s
 
 void CastorKinematics::move(const BodyTwist& twist) {
   if (twist.duration_s <= 0.0) return;
-  const int steps = static_cast<int>(std::ceil(twist.duration_s / kLongestStep_s));
+  const int steps = static_cast<int>(std::ceil(twist.duration_s / kLongestCastorStep_s));
   const double h = twist.duration_s / steps;
   for (std::size_t i = 0; i < actual_.castors.size(); ++i) {
     const Castor& castor = actual_.castors[i];

@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kLongestStep_s = 1e-3;
+constexpr double kLongestTruckStep_s = 1e-3;
 
 void add(WheelRotation& sum, const WheelRotation& more) {
   sum.left_rad += more.left_rad;
@@ -90,7 +90,7 @@ TrailerKinematics::TrailerKinematics(EncoderTrailer actual, const Pose& tow, dou
 
 void TrailerKinematics::move(const TruckTwist& tow, double duration_s) {
   if (duration_s <= 0.0) return;
-  const int steps = static_cast<int>(std::ceil(duration_s / kLongestStep_s));
+  const int steps = static_cast<int>(std::ceil(duration_s / kLongestTruckStep_s));
   const double h = duration_s / steps;
   // The hitch moves with the tow; the trailer rolls along its own axis and turns as the hitch moves across it.
   struct Rates {

@@ -7,7 +7,7 @@ namespace odolab {
 
 namespace {
 
-constexpr int kIterations = 3;  // the turn of an interval is small: each one gains about two digits
+constexpr int kTurnIterations = 3;  // the turn of an interval is small: each one gains about two digits
 
 // X of Eq. 16.
 struct BodyMotion {
@@ -59,7 +59,7 @@ Pose moved_by_cast(const Pose& body, const std::vector<PivotWay>& pivots, const 
   };
   BodyMotion x = solve(body.heading_rad);
   if (options.linearisation == Linearisation::middle_heading) {
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kTurnIterations; ++i) {
       x = solve(body.heading_rad + 0.5 * x.dpsi_rad);
       x.dpsi_rad = 2.0 * std::asin(0.5 * x.dpsi_rad);  // at the middle heading the unknown is 2 sin(turn / 2)
     }

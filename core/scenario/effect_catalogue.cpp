@@ -27,7 +27,7 @@ std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) 
   return parameters;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined_by_or(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
@@ -43,11 +43,6 @@ bool is_part(const std::string& word) {
   return word.size() == 7 && word.rfind("castor", 0) == 0 && word[6] >= '1' && word[6] <= '9';
 }
 
-// Biased encoders are of a part as such, and not of the vehicle that it is.
-bool is_of_a_joint(const std::string& effect) {
-  return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
-}
-
 void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
                       std::vector<std::string>& problems) {
   for (const auto& [name, value] : active.parameters) {
@@ -57,7 +52,7 @@ void check_parameters(const ActiveEffect& active, const EffectEntry& entry, cons
       std::vector<std::string> names;
       for (const EffectParameter& p : entry.parameters) names.push_back(p.name);
       problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " +
-                         joined(names));
+                         joined_by_or(names));
     } else if (!(value >= known->at_least && value <= known->at_most)) {
       problems.push_back(key + "." + name +
                          formatted(": found %g, expected %g to %g", value, known->at_least, known->at_most));
@@ -145,7 +140,7 @@ bool may_act_on(const EffectEntry& entry, const std::string& component) {
 std::vector<ActiveEffect> effects_of_part(const std::vector<ActiveEffect>& effects, const std::string& part) {
   std::vector<ActiveEffect> own;
   for (ActiveEffect active : effects) {
-    if (is_of_a_joint(active.effect)) continue;
+    if (is_bias_of_a_joint(active.effect)) continue;
     const PartComponent of = part_component(active.component);
     const bool of_all = active.effect == "floor_slope_creep";
     if (!of_all && (of.part.empty() || of.part != part)) continue;
@@ -172,7 +167,8 @@ std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects) {
       continue;
     }
     if (!may_act_on(*entry, active.component))
-      problems.push_back(key + ".component: found '" + active.component + "', expected " + joined(entry->components));
+      problems.push_back(key + ".component: found '" + active.component + "', expected " +
+                         joined_by_or(entry->components));
     check_parameters(active, *entry, key, problems);
   }
   return problems;

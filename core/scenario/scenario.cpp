@@ -8,7 +8,7 @@
 namespace odolab {
 
 namespace {
-constexpr double kLongest_s = 1e5;  // a day and a bit: longer runs are mistakes
+constexpr double kLongestScenario_s = 1e5;  // a day and a bit: longer runs are mistakes
 
 // Whether the planar world has this effect on a vehicle of several parts: all of what drives a truck or castor, but for
 // what is laid on the floor for one wheel or acts on the base's commands; of a trailer's free wheels what they count.
@@ -138,12 +138,12 @@ std::vector<std::string> problems_in(const Scenario& s) {
     demand(!wheel->phases.empty(), "path.phase", 0.0, "one phase or more");
     demand(wheel->ramp_s >= 0.0, "path.ramp_s", wheel->ramp_s, "0 s or more");
     for (const WheelSpeeds& phase : wheel->phases)
-      demand(phase.duration_s > 0.0 && phase.duration_s >= wheel->ramp_s && phase.duration_s <= kLongest_s,
+      demand(phase.duration_s > 0.0 && phase.duration_s >= wheel->ramp_s && phase.duration_s <= kLongestScenario_s,
              "path.phase.duration_s", phase.duration_s,
              "a time above 0 s, no shorter than path.ramp_s and at most 1e5 s");
   }
   if (const auto* hand = std::get_if<HandPath>(&s.path))
-    demand(hand->duration_s > 0.0 && hand->duration_s <= kLongest_s, "path.duration_s", hand->duration_s,
+    demand(hand->duration_s > 0.0 && hand->duration_s <= kLongestScenario_s, "path.duration_s", hand->duration_s,
            "a time above 0, at most 1e5 s");
   const double way_m =
       std::holds_alternative<SquarePath>(s.path)     ? 4.0 * std::get<SquarePath>(s.path).side_m
@@ -151,7 +151,7 @@ std::vector<std::string> problems_in(const Scenario& s) {
       : std::holds_alternative<FigureEightPath>(s.path)
           ? 4.0 * kPi * std::get<FigureEightPath>(s.path).radius_m * std::get<FigureEightPath>(s.path).loops
           : 0.0;
-  demand(!(s.driving.speed_mps > 0.0) || way_m / s.driving.speed_mps <= kLongest_s, "driving.speed_mps",
+  demand(!(s.driving.speed_mps > 0.0) || way_m / s.driving.speed_mps <= kLongestScenario_s, "driving.speed_mps",
          s.driving.speed_mps, "a speed that ends the path within 1e5 s");
   if (s.benchmark) {
     demand(s.benchmark->runs_each_way >= 1 && s.benchmark->runs_each_way <= 1000, "benchmark.runs_each_way",

@@ -27,7 +27,7 @@ std::vector<std::string> split(const std::string& key) {
 }
 
 // Trucks are called by a letter.
-std::string joined(const std::vector<std::string>& words) {
+std::string joined_with_letters(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words)
     text += (text.empty() ? "" : " ") + (word == "a" ? "A" : word == "b" ? "B" : word);
@@ -48,7 +48,7 @@ std::string part_words(const std::string& part) {
     if (is_digit(c) && !spaced.empty() && !is_digit(spaced.back()) && spaced.back() != '_') spaced += '_';
     spaced += c;
   }
-  return joined(split(spaced));
+  return joined_with_letters(split(spaced));
 }
 
 std::string component_words(const std::string& component) {
@@ -76,7 +76,7 @@ std::string parameter_words(const std::string& key) {
     words.pop_back();
   if (words.empty()) words.push_back("amount");
   if (!number.empty()) words.push_back(number);
-  return joined(words);
+  return joined_with_letters(words);
 }
 
 std::string effect_words(const std::string& effect) {

@@ -37,8 +37,8 @@ namespace odolab::planar {
   X(link_length_bias)         \
   X(pivot_angle_bias)
 
-#define ODOLAB_DECLARE(name) std::unique_ptr<Effect> name(const ActiveEffect&, const Machine&);
-ODOLAB_EACH_EFFECT(ODOLAB_DECLARE)
+#define ODOLAB_DECLARE_EFFECT(name) std::unique_ptr<Effect> name(const ActiveEffect&, const Machine&);
+ODOLAB_EACH_EFFECT(ODOLAB_DECLARE_EFFECT)
 
 namespace {
 
@@ -47,8 +47,8 @@ struct Entry {
   std::unique_ptr<Effect> (*make)(const ActiveEffect&, const Machine&);
 };
 
-#define ODOLAB_LIST(name) {#name, &name},
-const Entry kEffects[] = {ODOLAB_EACH_EFFECT(ODOLAB_LIST)};
+#define ODOLAB_LIST_EFFECT(name) {#name, &name},
+const Entry kEffects[] = {ODOLAB_EACH_EFFECT(ODOLAB_LIST_EFFECT)};
 
 }  // namespace
 

@@ -15,10 +15,10 @@ namespace {
 // Mean absolute errors of one vehicle's parameters: r_c, r_w, d and the mean of a castor's two d in per cent, beta in
 // degrees.
 enum Error_ { kOffset, kRadius, kWheelOffset, kMeanWheelOffset, kBeta, kErrors };
-using Errors = std::array<double, kErrors>;
+using CalibrationErrors = std::array<double, kErrors>;
 
-Errors errors_of(const MultiCastor& believed, const MultiCastor& actual) {
-  Errors e{};
+CalibrationErrors errors_of(const MultiCastor& believed, const MultiCastor& actual) {
+  CalibrationErrors e{};
   const double n = static_cast<double>(actual.castors.size());
   const auto percent = [](double is, double should) { return 100.0 * std::abs(is / should - 1.0); };
   for (std::size_t c = 0; c < actual.castors.size(); ++c) {
@@ -37,16 +37,16 @@ Errors errors_of(const MultiCastor& believed, const MultiCastor& actual) {
 }
 
 struct Outcome {
-  std::vector<Errors> before, after;
-  double mean(const std::vector<Errors>& all, int which) const {
+  std::vector<CalibrationErrors> before, after;
+  double mean(const std::vector<CalibrationErrors>& all, int which) const {
     double sum = 0.0;
-    for (const Errors& e : all) sum += e[static_cast<std::size_t>(which)];
+    for (const CalibrationErrors& e : all) sum += e[static_cast<std::size_t>(which)];
     return all.empty() ? 0.0 : sum / static_cast<double>(all.size());
   }
-  double spread(const std::vector<Errors>& all, int which) const {
+  double spread(const std::vector<CalibrationErrors>& all, int which) const {
     const double middle = mean(all, which);
     double sum = 0.0;
-    for (const Errors& e : all)
+    for (const CalibrationErrors& e : all)
       sum += (e[static_cast<std::size_t>(which)] - middle) * (e[static_cast<std::size_t>(which)] - middle);
     return all.size() < 2 ? 0.0 : std::sqrt(sum / static_cast<double>(all.size() - 1));
   }
@@ -73,9 +73,9 @@ Outcome calibrate_many(const MultiCastor& nominal, double sweep_rad, int sets, s
 }
 
 constexpr double kSweep_deg = 90.0;
-constexpr const char* kNames[kErrors] = {"r_c", "r_w", "d", "mean d of a castor", "beta"};
+constexpr const char* kErrorNames[kErrors] = {"r_c", "r_w", "d", "mean d of a castor", "beta"};
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_castor_calibration(const ExperimentOptions& options, const Progress& progress) {
   const int sets = options.cases > 0 ? options.cases : 1000;
   const MultiCastor nominal = assumed_castor_prototype();
   const Outcome main = calibrate_many(nominal, radians(kSweep_deg), sets, options.seed,
@@ -87,7 +87,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
     for (int k = 0; k < kErrors; ++k) {
       const std::optional<double>& published = (calibrated ? after : before)[k];
       report.figures.push_back(
-          {.name = std::string("mean error of ") + kNames[k] + (calibrated ? ", calibrated" : ", as built"),
+          {.name = std::string("mean error of ") + kErrorNames[k] + (calibrated ? ", calibrated" : ", as built"),
            .unit = k == kBeta ? "degrees" : "%",
            .published_low = published,
            .published_high = published,
@@ -162,7 +162,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment castor_calibration() {
   return {"castor-calibration", "three castors calibrated by their own encoders, 1000 machines",
-          "multi-castor paper, section IV.A, Table I", run};
+          "multi-castor paper, section IV.A, Table I", run_castor_calibration};
 }
 
 }  // namespace odolab

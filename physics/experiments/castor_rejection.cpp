@@ -16,9 +16,9 @@ namespace {
 
 // What happens to one wheel of one castor on a side of the square.
 enum class Trouble { none, bump, slip, lost };
-constexpr double kBumpExtra_m =
-    0.00435;                            // 10 mm high under a wheel of 50 mm: 2 (R acos(1 - h / R) - sqrt(2 R h - h^2))
-constexpr double kBumpWidth_m = 0.060;  // 2 sqrt(2 R h - h^2)
+constexpr double kCastorBumpExtra_m =
+    0.00435;  // 10 mm high under a wheel of 50 mm: 2 (R acos(1 - h / R) - sqrt(2 R h - h^2))
+constexpr double kCastorBumpWidth_m = 0.060;  // 2 sqrt(2 R h - h^2)
 
 struct RunResult {
   double plain_m = 0.0, plain_rad = 0.0, rejecting_m = 0.0, rejecting_rad = 0.0;
@@ -27,7 +27,8 @@ struct RunResult {
   double travelled_m = 0.0;
 };
 
-RunResult drive(const MultiCastor& actual, const MultiCastor& believed, Trouble trouble, std::uint64_t seed) {
+RunResult drive_into_trouble(const MultiCastor& actual, const MultiCastor& believed, Trouble trouble,
+                             std::uint64_t seed) {
   Random random(seed);
   const bool clockwise = random.uniform() < 0.5, left = random.uniform() < 0.5;
   const std::size_t castor = static_cast<std::size_t>(3.0 * random.uniform());
@@ -40,8 +41,8 @@ RunResult drive(const MultiCastor& actual, const MultiCastor& believed, Trouble 
     const double since_m = 0.33 * time_s - at_m;
     const auto share = [&](double over_m) { return std::max(0.0, std::min(1.0, since_m / over_m)); };
     from_s = at_m / 0.33;
-    to_s = from_s + (trouble == Trouble::bump ? kBumpWidth_m : slip_m) / 0.33;
-    if (trouble == Trouble::bump) return kBumpExtra_m * share(kBumpWidth_m) / radius_m;
+    to_s = from_s + (trouble == Trouble::bump ? kCastorBumpWidth_m : slip_m) / 0.33;
+    if (trouble == Trouble::bump) return kCastorBumpExtra_m * share(kCastorBumpWidth_m) / radius_m;
     if (trouble == Trouble::slip) return 0.2 * slip_m * share(slip_m) / radius_m;
     if (trouble == Trouble::lost) return -0.5 * slip_m * share(slip_m) / radius_m;
     return 0.0;
@@ -86,7 +87,7 @@ std::optional<Row> many(Trouble trouble, bool calibrated, int runs, std::uint64_
         const MultiCastor believed =
             calibrated ? calibrated_castors(calibration_revolutions(actual, nominal, 1.5, mixed(of_run)), nominal)
                        : nominal;
-        results[static_cast<std::size_t>(i)] = drive(actual, believed, trouble, seed_of_stream(of_run, 9));
+        results[static_cast<std::size_t>(i)] = drive_into_trouble(actual, believed, trouble, seed_of_stream(of_run, 9));
       },
       {}, progress);
   if (done < runs) return std::nullopt;
@@ -105,7 +106,7 @@ std::optional<Row> many(Trouble trouble, bool calibrated, int runs, std::uint64_
   return row;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_castor_rejection(const ExperimentOptions& options, const Progress& progress) {
   const int runs = options.cases > 0 ? options.cases : 100;
   struct Case {
     const char* name;
@@ -170,7 +171,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment castor_rejection() {
   return {"castor-rejection", "a slipping castor found by redundancy and disregarded",
-          "multi-castor paper, section III.B (future study; ours)", run};
+          "multi-castor paper, section III.B (future study; ours)", run_castor_rejection};
 }
 
 }  // namespace odolab

@@ -17,10 +17,10 @@ namespace odolab {
 
 namespace {
 
-constexpr int kMethods = 3;
-constexpr const char* kMethodNames[kMethods] = {"IPEC-1", "CAST-1", "CAST-0"};
+constexpr int kPlanarMethods = 3;
+constexpr const char* kPlanarMethodNames[kPlanarMethods] = {"IPEC-1", "CAST-1", "CAST-0"};
 
-CastOptions options_of(int method) {
+CastOptions planar_options(int method) {
   CastOptions options;
   options.method = method == 0 ? CastorMethod::ipec : CastorMethod::cast;
   options.left_out = method == 2 ? 0 : 1;
@@ -28,7 +28,7 @@ CastOptions options_of(int method) {
 }
 
 struct Driven {
-  std::array<double, kMethods> kinematic_m{}, planar_m{}, believed_right_m{};  // Emax by method
+  std::array<double, kPlanarMethods> kinematic_m{}, planar_m{}, believed_right_m{};  // Emax by method
   double slip_m = 0.0;  // of the first castor's left wheel along its way, mean of both directions
 };
 
@@ -45,7 +45,7 @@ Scenario square_of(const MultiCastor& nominal, const MultiCastor& actual, bool c
 }
 
 // By the nominal parameters on both grounds; and in the planar world by the exact ones.
-Driven drive(const MultiCastor& nominal, std::uint64_t seed, const std::atomic<bool>& stopped) {
+Driven drive_machine(const MultiCastor& nominal, std::uint64_t seed, const std::atomic<bool>& stopped) {
   const MultiCastor actual = drawn_castor_machine(nominal, seed, false);
   Driven driven;
   for (const bool clockwise : {false, true}) {
@@ -60,8 +60,8 @@ Driven drive(const MultiCastor& nominal, std::uint64_t seed, const std::atomic<b
     }
     const std::vector<CastorSample> planar = castor_samples(simulation.recording(), nominal.castors.size());
     const Vec2 end = simulation.true_track().back().pose.position();
-    for (std::size_t m = 0; m < kMethods; ++m) {
-      const CastOptions options = options_of(static_cast<int>(m));
+    for (std::size_t m = 0; m < kPlanarMethods; ++m) {
+      const CastOptions options = planar_options(static_cast<int>(m));
       const auto gap_m = [&](const std::vector<CastorSample>& samples, const MultiCastor& believed, Vec2 truth) {
         return length(castor_track(samples, believed, {}, options).back().pose.position() - truth);
       };
@@ -73,7 +73,7 @@ Driven drive(const MultiCastor& nominal, std::uint64_t seed, const std::atomic<b
   return driven;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_castor_umbmark_planar(const ExperimentOptions& options, const Progress& progress) {
   const int machines = options.cases > 0 ? options.cases : 20;
   const MultiCastor nominal = assumed_castor_prototype();
   std::vector<Driven> driven(static_cast<std::size_t>(machines));
@@ -81,24 +81,24 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       machines,
       [&](int i, const std::atomic<bool>& stopped) {
         driven[static_cast<std::size_t>(i)] =
-            drive(nominal, seed_of_stream(options.seed, static_cast<std::uint64_t>(i)), stopped);
+            drive_machine(nominal, seed_of_stream(options.seed, static_cast<std::uint64_t>(i)), stopped);
       },
       {}, progress);
   ExperimentReport report;
   if (done < machines) return report;  // stopped
 
-  const double published_mm[kMethods] = {394.6, 394.1, 311.0};
-  std::array<double, kMethods> kinematic_mm{}, planar_mm{}, exact_mm{};
+  const double published_mm[kPlanarMethods] = {394.6, 394.1, 311.0};
+  std::array<double, kPlanarMethods> kinematic_mm{}, planar_mm{}, exact_mm{};
   std::vector<double> slip_mm;
   for (const Driven& d : driven) slip_mm.push_back(1e3 * d.slip_m);
-  for (std::size_t m = 0; m < kMethods; ++m) {
+  for (std::size_t m = 0; m < kPlanarMethods; ++m) {
     std::vector<double> kinematic, planar, exact;
     for (const Driven& d : driven) {
       kinematic.push_back(1e3 * d.kinematic_m[m]);
       planar.push_back(1e3 * d.planar_m[m]);
       exact.push_back(1e3 * d.believed_right_m[m]);
     }
-    const std::string name = std::string("Emax ") + kMethodNames[m];
+    const std::string name = std::string("Emax ") + kPlanarMethodNames[m];
     report.figures.push_back(figure_of(name + ", as built, kinematics", "mm", kinematic, published_mm[m]));
     report.figures.push_back(figure_of(name + ", as built, planar physics", "mm", planar, published_mm[m]));
     report.figures.push_back(figure_of(name + ", exact parameters, planar physics", "mm", exact));
@@ -136,7 +136,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment castor_umbmark_planar() {
   return {"castor-umbmark-planar", "the castor vehicle's square where wheels can slip",
-          "Multi-castor paper (Doebbler et al. 2008), section IV.B", run};
+          "Multi-castor paper (Doebbler et al. 2008), section IV.B", run_castor_umbmark_planar};
 }
 
 }  // namespace odolab

@@ -40,7 +40,7 @@ Shown over_bumps(bool under_both, double at_m, std::uint64_t seed) {
   return {lost_rad, corrected_rad};
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_clapper_bump(const ExperimentOptions& options, const Progress& progress) {
   const int seeds = options.cases > 0 ? options.cases : 8;
   std::vector<Shown> shown(static_cast<std::size_t>(2 * seeds));
   const int jobs = static_cast<int>(shown.size());
@@ -94,7 +94,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 }  // namespace
 
 Experiment clapper_bump() {
-  return {"clapper-bump", "what the link's encoders see of a bump", "CLAPPER paper (Borenstein 1995), section 3", run};
+  return {"clapper-bump", "what the link's encoders see of a bump", "CLAPPER paper (Borenstein 1995), section 3",
+          run_clapper_bump};
 }
 
 }  // namespace odolab

@@ -22,15 +22,15 @@ struct Case {
   bool on_the_spot;  // else round circles of 1 m radius
 };
 
-const Case kCases[] = {{"no bias, on the spot", 1.0, 0.0, 0.0, 0.0, true},
-                       {"no bias, circle of 1 m radius", 1.0, 0.0, 0.0, 0.0, false},
-                       {"1 mm, on the spot", 1.0, 0.001, 0.0, 0.0, true},
-                       {"1 mm, circle of 1 m radius", 1.0, 0.001, 0.0, 0.0, false},
-                       {"2 mm, on the spot", 1.0, 0.002, 0.0, 0.0, true},
-                       {"2.8 mm, on the spot", 1.0, 0.0028, 0.0, 0.0, true},
-                       {"1 mm on a link of 0.5 m, on the spot", 0.5, 0.001, 0.0, 0.0, true},
-                       {"2 mm and an eccentricity of 1 mm, on the spot", 1.0, 0.002, 0.0, 0.001, true},
-                       {"2 mm, calibrated away", 1.0, 0.002, 0.002, 0.0, true}};
+const Case kLinkCases[] = {{"no bias, on the spot", 1.0, 0.0, 0.0, 0.0, true},
+                           {"no bias, circle of 1 m radius", 1.0, 0.0, 0.0, 0.0, false},
+                           {"1 mm, on the spot", 1.0, 0.001, 0.0, 0.0, true},
+                           {"1 mm, circle of 1 m radius", 1.0, 0.001, 0.0, 0.0, false},
+                           {"2 mm, on the spot", 1.0, 0.002, 0.0, 0.0, true},
+                           {"2.8 mm, on the spot", 1.0, 0.0028, 0.0, 0.0, true},
+                           {"1 mm on a link of 0.5 m, on the spot", 0.5, 0.001, 0.0, 0.0, true},
+                           {"2 mm and an eccentricity of 1 mm, on the spot", 1.0, 0.002, 0.0, 0.001, true},
+                           {"2 mm, calibrated away", 1.0, 0.002, 0.002, 0.0, true}};
 constexpr int kCaseCount = 9, kOneMillimetre = 2;
 
 // Heading lost for each full turn, in degrees.
@@ -65,7 +65,7 @@ double lost_per_turn_deg(const Case& c, bool stepless, std::uint64_t seed) {
   return degrees(lost_rad) / (turned_rad / (2.0 * kPi));
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_clapper_link_bias(const ExperimentOptions& options, const Progress& progress) {
   const int seeds = options.cases > 0 ? options.cases : 6;
   std::vector<double> lost_deg(static_cast<std::size_t>(2 * kCaseCount * seeds));
   const int jobs = static_cast<int>(lost_deg.size());
@@ -73,7 +73,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       jobs,
       [&](int i) {
         lost_deg[static_cast<std::size_t>(i)] =
-            lost_per_turn_deg(kCases[i / seeds % kCaseCount], i >= kCaseCount * seeds,
+            lost_per_turn_deg(kLinkCases[i / seeds % kCaseCount], i >= kCaseCount * seeds,
                               seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
       },
       {}, progress);
@@ -89,9 +89,10 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
     const MeanAndSpread m = mean_and_spread(of_case[c]);
     const std::vector<double> fine(lost_deg.begin() + (kCaseCount + c) * seeds,
                                    lost_deg.begin() + (kCaseCount + c + 1) * seeds);
-    table.rows.push_back({kCases[c].name, number_text("%.3f", m.mean), number_text("%.3f", m.spread),
-                          number_text("%.3f", mean_and_spread(fine).mean),
-                          number_text("%.3f", 360.0 * (kCases[c].known_m - kCases[c].bias_m) / kCases[c].link_m)});
+    table.rows.push_back(
+        {kLinkCases[c].name, number_text("%.3f", m.mean), number_text("%.3f", m.spread),
+         number_text("%.3f", mean_and_spread(fine).mean),
+         number_text("%.3f", 360.0 * (kLinkCases[c].known_m - kLinkCases[c].bias_m) / kLinkCases[c].link_m)});
   }
   report.tables = {table};
   std::vector<double> size_1mm, size_2_8mm, size_calibrated;
@@ -126,7 +127,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment clapper_link_bias() {
   return {"clapper-link-bias", "a millimetre too much in the link's length and the heading in turns",
-          "CLAPPER paper (Borenstein 1995), section 5.2", run};
+          "CLAPPER paper (Borenstein 1995), section 5.2", run_clapper_link_bias};
 }
 
 }  // namespace odolab

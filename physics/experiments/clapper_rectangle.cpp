@@ -13,17 +13,18 @@ namespace odolab {
 
 namespace {
 
-constexpr double kLength_m = 7.0, kWidth_m = 4.0, kCorner_m = 0.45;
+constexpr double kRectangleLength_m = 7.0, kRectangleWidth_m = 4.0, kRectangleCorner_m = 0.45;
 
-enum Condition { kCorrectedWithBumps, kCorrectedWithout, kPlainWithBumps, kConditions };
-const char* const kNames[kConditions] = {"with IPEC, ten bumps", "with IPEC, without bumps", "without IPEC, ten bumps"};
+enum RectangleCondition { kCorrectedWithBumps, kCorrectedWithout, kPlainWithBumps, kRectangleConditions };
+const char* const kRectangleNames[kRectangleConditions] = {"with IPEC, ten bumps", "with IPEC, without bumps",
+                                                           "without IPEC, ten bumps"};
 
 // Three on each long side, two on each short one, a metre and more from the corners.
-Floor with_bumps(Floor floor, bool clockwise, Under under) {
+Floor with_bumps_on_sides(Floor floor, bool clockwise, Under under) {
   const double turn = clockwise ? -1.0 : 1.0;
   Pose side;  // begins where the last corner's arc ends
   for (int k = 0; k < 4; ++k) {
-    const double straight_m = (k % 2 == 0 ? kLength_m : kWidth_m) - 2.0 * kCorner_m;
+    const double straight_m = (k % 2 == 0 ? kRectangleLength_m : kRectangleWidth_m) - 2.0 * kRectangleCorner_m;
     const int count = k % 2 == 0 ? 3 : 2;
     for (int i = 0; i < count; ++i) {
       Bump bump;
@@ -33,28 +34,29 @@ Floor with_bumps(Floor floor, bool clockwise, Under under) {
       bump.round = true;
       floor.bumps.push_back(bump);
     }
-    side = side * Pose{straight_m + kCorner_m, turn * kCorner_m, turn * 0.5 * kPi};
+    side = side * Pose{straight_m + kRectangleCorner_m, turn * kRectangleCorner_m, turn * 0.5 * kPi};
   }
   return floor;
 }
 
-struct Run {
+struct RectangleRun {
   ReturnPose by_driving;
   double true_heading_deg = 0.0;  // the same heading error without the sonar's noise
   double by_rule_deg[3] = {};     // of other estimators on the same recording
 };
 
-Run drive(Condition condition, int number, std::uint64_t seed) {
+RectangleRun drive_rectangle(RectangleCondition condition, int number, std::uint64_t seed) {
   const bool clockwise = number % 2 == 0;
   Scenario scenario =
-      report_clapper(RectanglePath{kLength_m, kWidth_m, kCorner_m, clockwise}, condition != kPlainWithBumps);
+      report_clapper(RectanglePath{kRectangleLength_m, kRectangleWidth_m, kRectangleCorner_m, clockwise},
+                     condition != kPlainWithBumps);
   // The path starts under the link's centre, half a metre behind truck A.
   scenario.start = {0.5, 0.0, 0.0};
   if (condition != kCorrectedWithout)
     scenario.floor =
-        with_bumps(scenario.floor, clockwise, number / 2 % 2 == 0 ? Under::right_wheel : Under::left_wheel);
+        with_bumps_on_sides(scenario.floor, clockwise, number / 2 % 2 == 0 ? Under::right_wheel : Under::left_wheel);
   Simulation simulation(scenario, seed);
-  Run result;
+  RectangleRun result;
   result.by_driving = run_and_return(simulation);
   const SimulationState& end_state = simulation.state();
   result.true_heading_deg =
@@ -72,27 +74,29 @@ Run drive(Condition condition, int number, std::uint64_t seed) {
   return result;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_clapper_rectangle(const ExperimentOptions& options, const Progress& progress) {
   const int runs = 2 * (options.cases > 0 ? options.cases : 10);  // both directions
-  std::vector<Run> driven(static_cast<std::size_t>(kConditions * runs));
+  std::vector<RectangleRun> driven(static_cast<std::size_t>(kRectangleConditions * runs));
   const int jobs = static_cast<int>(driven.size());
   const int done = parallel_for(
       jobs,
       [&](int i) {
-        driven[static_cast<std::size_t>(i)] = drive(static_cast<Condition>(i / runs), i % runs,
-                                                    seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
+        driven[static_cast<std::size_t>(i)] =
+            drive_rectangle(static_cast<RectangleCondition>(i / runs), i % runs,
+                            seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
       },
       {}, progress);
   ExperimentReport report;
   if (done < jobs) return report;
 
-  std::vector<double> heading_deg[kConditions], true_deg[kConditions], position_mm[kConditions], rule_deg[3];
+  std::vector<double> heading_deg[kRectangleConditions], true_deg[kRectangleConditions],
+      position_mm[kRectangleConditions], rule_deg[3];
   ResultTable table{
       "Each run", {"condition", "direction", "x [mm]", "y [mm]", "distance [mm]", "heading [degrees]"}, {}};
   double largest_mm = 0.0;
   bool all_arrived = true;
   for (int i = 0; i < jobs; ++i) {
-    const Run& one = driven[static_cast<std::size_t>(i)];
+    const RectangleRun& one = driven[static_cast<std::size_t>(i)];
     const int c = i / runs;
     heading_deg[c].push_back(degrees(std::abs(one.by_driving.heading_rad)));
     true_deg[c].push_back(one.true_heading_deg);
@@ -102,7 +106,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       largest_mm = std::max(largest_mm, position_mm[c].back());
       for (int r = 0; r < 3; ++r) rule_deg[r].push_back(one.by_rule_deg[r]);
     }
-    table.rows.push_back({kNames[c], i % 2 == 0 ? "cw" : "ccw", number_text("%.0f", 1e3 * one.by_driving.x_m),
+    table.rows.push_back({kRectangleNames[c], i % 2 == 0 ? "cw" : "ccw", number_text("%.0f", 1e3 * one.by_driving.x_m),
                           number_text("%.0f", 1e3 * one.by_driving.y_m), number_text("%.0f", position_mm[c].back()),
                           number_text("%.2f", degrees(one.by_driving.heading_rad))});
   }
@@ -156,7 +160,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment clapper_rectangle() {
   return {"clapper-rectangle", "7 x 4 m rectangle in both directions over ten bumps",
-          "CLAPPER paper (Borenstein 1995), section 6.2", run};
+          "CLAPPER paper (Borenstein 1995), section 6.2", run_clapper_rectangle};
 }
 
 }  // namespace odolab

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWay_m = 18.0;
 
-struct Condition {
+struct StraightCondition {
   const char* name;
   bool corrected;
   int bumps;
@@ -21,28 +21,29 @@ struct Condition {
   bool stepless;   // absolute encoders without their 0.3 degrees
 };
 
-const Condition kConditions[] = {{"without IPEC, without bumps", false, 0, 0.0, false},
-                                 {"without IPEC, ten bumps", false, 10, 0.0, false},
-                                 {"with IPEC, without bumps", true, 0, 0.0, false},
-                                 {"with IPEC, twenty bumps", true, 20, 0.0, false},
-                                 {"without IPEC, wheels of truck A unequal by 0.1 %", false, 0, 0.001, false},
-                                 {"with IPEC, wheels of truck A unequal by 0.1 %", true, 0, 0.001, false},
-                                 {"the same, encoders without steps", true, 0, 0.001, true}};
+const StraightCondition kStraightConditions[] = {
+    {"without IPEC, without bumps", false, 0, 0.0, false},
+    {"without IPEC, ten bumps", false, 10, 0.0, false},
+    {"with IPEC, without bumps", true, 0, 0.0, false},
+    {"with IPEC, twenty bumps", true, 20, 0.0, false},
+    {"without IPEC, wheels of truck A unequal by 0.1 %", false, 0, 0.001, false},
+    {"with IPEC, wheels of truck A unequal by 0.1 %", true, 0, 0.001, false},
+    {"the same, encoders without steps", true, 0, 0.001, true}};
 constexpr int kConditionCount = 7;
 
 // Laid on the floor when the robot has come to its turning point, evenly over the way back.
-Floor with_bumps(Floor floor, int count) {
+Floor with_bumps_on_way_back(Floor floor, int count) {
   for (int i = 0; i < count; ++i)
     floor.bumps.push_back({{1.0 + (kWay_m - 3.0) * i / (count - 1), 0.0}, 0.5 * kPi, 8.0, 0.010, Under::right_wheel});
   return floor;
 }
 
-struct Run {
+struct StraightRun {
   ReturnPose back;
   double far_heading_rad = 0.0;  // lost on the way there
 };
 
-Run drive(const Condition& condition, std::uint64_t seed) {
+StraightRun drive_straight(const StraightCondition& condition, std::uint64_t seed) {
   Scenario scenario = report_clapper(StraightPath{kWay_m, true}, condition.corrected);
   Clapper& nominal = std::get<Clapper>(scenario.vehicle.kind);
   if (condition.stepless) nominal.link_angle_resolution_rad = 0.0;
@@ -53,7 +54,7 @@ Run drive(const Condition& condition, std::uint64_t seed) {
   }
   Simulation simulation(scenario, seed);
   const double longest_s = 3.0 * simulation.expected_duration_s();
-  Run run;
+  StraightRun run;
   bool turned = false;
   while (!simulation.state().finished && simulation.state().time_s < longest_s) {
     simulation.step();
@@ -61,21 +62,21 @@ Run drive(const Condition& condition, std::uint64_t seed) {
     turned = true;
     run.far_heading_rad =
         wrapped(simulation.state().true_pose.heading_rad - simulation.state().estimated_pose.heading_rad);
-    simulation.set_floor(with_bumps(scenario.floor, condition.bumps));
+    simulation.set_floor(with_bumps_on_way_back(scenario.floor, condition.bumps));
   }
   run.back = return_error(simulation);
   return run;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_clapper_straight(const ExperimentOptions& options, const Progress& progress) {
   const int runs = options.cases > 0 ? options.cases : 6;
-  std::vector<Run> driven(static_cast<std::size_t>(kConditionCount * runs));
+  std::vector<StraightRun> driven(static_cast<std::size_t>(kConditionCount * runs));
   const int jobs = static_cast<int>(driven.size());
   const int done = parallel_for(
       jobs,
       [&](int i) {
         driven[static_cast<std::size_t>(i)] =
-            drive(kConditions[i / runs], seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
+            drive_straight(kStraightConditions[i / runs], seed_of_stream(options.seed, static_cast<std::uint64_t>(i)));
       },
       {}, progress);
   ExperimentReport report;
@@ -89,7 +90,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
   for (int c = 0; c < kConditionCount; ++c) {
     std::vector<double> x, y, far;
     for (int r = 0; r < runs; ++r) {
-      const Run& one = driven[static_cast<std::size_t>(c * runs + r)];
+      const StraightRun& one = driven[static_cast<std::size_t>(c * runs + r)];
       headings[c].push_back(degrees(one.back.heading_rad));
       sizes[c].push_back(std::abs(headings[c].back()));
       x.push_back(1e3 * one.back.x_m);
@@ -97,7 +98,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
       far.push_back(degrees(one.far_heading_rad));
       if (c == 2 || c == 3) worst_corrected_deg = std::max(worst_corrected_deg, sizes[c].back());
     }
-    table.rows.push_back({kConditions[c].name, number_text("%.0f", mean_and_spread(x).mean),
+    table.rows.push_back({kStraightConditions[c].name, number_text("%.0f", mean_and_spread(x).mean),
                           number_text("%.0f", mean_and_spread(y).mean),
                           number_text("%.2f", mean_and_spread(headings[c]).mean),
                           number_text("%.2f", mean_and_spread(far).mean)});
@@ -146,7 +147,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment clapper_straight() {
   return {"clapper-straight", "18 m and back with and without bumps, with and without internal correction",
-          "CLAPPER paper (Borenstein 1995), section 6.1", run};
+          "CLAPPER paper (Borenstein 1995), section 6.1", run_clapper_straight};
 }
 
 }  // namespace odolab

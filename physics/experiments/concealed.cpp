@@ -8,10 +8,10 @@ namespace odolab {
 
 namespace {
 
-constexpr int kCases = 36;
+constexpr int kConcealedCases = 36;
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int count = options.cases > 0 ? options.cases : kCases;
+Result<ExperimentReport> run_concealed(const ExperimentOptions& options, const Progress& progress) {
+  const int count = options.cases > 0 ? options.cases : kConcealedCases;
   std::vector<concealed::Judged> cases(static_cast<std::size_t>(count));
   const int done = parallel_for(
       count,
@@ -28,7 +28,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment concealed_physics() {
   return {"concealed", "what diagnosis finds of physics that is hidden in drawn recordings, and what it makes up",
-          "ours; physics/experiments/concealed/README.md", run};
+          "ours; physics/experiments/concealed/README.md", run_concealed};
 }
 
 }  // namespace odolab

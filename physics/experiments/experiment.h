@@ -13,6 +13,9 @@
 
 namespace odolab {
 
+// Metres as most figures are printed.
+inline double mm(double m) { return 1e3 * m; }
+
 // One figure, theirs and ours. A figure that the paper's text does not give has no published value.
 struct Figure {
   std::string name;                                               // "Emax,syst before calibration"

@@ -17,7 +17,7 @@ namespace odolab {
 
 namespace {
 
-constexpr int kMachines = 4;
+constexpr int kMachinesOverHundredMetres = 4;
 constexpr double kLength_m = 30.0, kWidth_m = 20.0;
 constexpr double kCableEvery_m = 2.5;
 constexpr double kCable_m = 0.010;
@@ -80,11 +80,11 @@ Drive driven(Scenario scenario, bool corrected, std::uint64_t seed, const std::a
 }
 
 constexpr int kWays = 6;
-const char* const kNames[kWays] = {"neither", "UMBmark calibration alone", "internal correction alone",
-                                   "both",    "both, floor without bumps", "both, link angles without rounding"};
+const char* const kWayNames[kWays] = {"neither", "UMBmark calibration alone", "internal correction alone",
+                                      "both",    "both, floor without bumps", "both, link angles without rounding"};
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int machines = options.cases > 0 ? options.cases : kMachines;
+Result<ExperimentReport> run_hundred_metres(const ExperimentOptions& options, const Progress& progress) {
+  const int machines = options.cases > 0 ? options.cases : kMachinesOverHundredMetres;
   ExperimentReport report;
   Random random(seed_of_stream(options.seed, 9));
   std::vector<Scenario> drawn;
@@ -150,8 +150,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
     way_m.push_back(drive.way_m);
   }
   for (int w = 0; w < kWays; ++w) {
-    report.figures.push_back(figure_of(std::string(kNames[w]) + ": position", "mm", distance_mm[w]));
-    report.figures.push_back(figure_of(std::string(kNames[w]) + ": heading", "degrees", heading_deg[w]));
+    report.figures.push_back(figure_of(std::string(kWayNames[w]) + ": position", "mm", distance_mm[w]));
+    report.figures.push_back(figure_of(std::string(kWayNames[w]) + ": heading", "degrees", heading_deg[w]));
   }
   report.figures.push_back(figure_of("way driven", "m", way_m));
   const auto mean = [](const std::vector<double>& values) { return mean_and_spread(values).mean; };
@@ -192,7 +192,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment hundred_metres() {
   return {"hundred-metres", "UMBmark calibration and internal correction together, 100 m over bumps without a fix",
-          "UMBmark report, section 7.4 (future work there)", run};
+          "UMBmark report, section 7.4 (future work there)", run_hundred_metres};
 }
 
 }  // namespace odolab

@@ -15,11 +15,12 @@ namespace odolab {
 
 namespace {
 
-constexpr double kGap_m = 1.5, kSpeed_mps = 0.3, kPeriod_s = 0.04, kCorner_m = 0.5, kSide_m = 4.0;
+constexpr double kGap_m = 1.5, kSpeed_mps = 0.3, kSightPeriod_s = 0.04, kCorner_m = 0.5, kSide_m = 4.0;
 constexpr double kGain = 0.3;  // corrections act within three looks, 0.12 s and 4 cm
 constexpr int kBumps = 10;
-constexpr double kBumpExtra_m = 0.0035, kBumpWidth_m = 0.077;  // 10 mm high under a wheel of 75 mm: 0.59 degrees
-constexpr double kFloor_m_per_sqrt_m = 0.0003;                 // scatter of each wheel, as of an even floor
+constexpr double kBumpOfTenMillimetres_m = 0.0035,
+                 kBumpWidth_m = 0.077;          // 10 mm high under a wheel of 75 mm: 0.59 degrees
+constexpr double kFloor_m_per_sqrt_m = 0.0003;  // scatter of each wheel, as of an even floor
 
 // What the two robots' sensors for each other are like.
 struct Sight {
@@ -29,20 +30,20 @@ struct Sight {
 };
 
 // Mean over runs of the errors at the end, of A by its own wheels and by IPEC.
-struct Errors {
+struct ErrorsAtEnd {
   double alone_rad = 0.0, alone_m = 0.0, ipec_rad = 0.0, ipec_m = 0.0;
 };
 
 // A square of 4 m with rounded corners, bumps on the first side under the wheels that face its inside, A's and then
 // B's.
-Errors drive(bool clockwise, const Sight& sight, bool with_bumps, std::uint64_t seed) {
+ErrorsAtEnd drive_unconnected(bool clockwise, const Sight& sight, bool with_bumps, std::uint64_t seed) {
   LinkedTrucks robots;  // both LabMates; the link is one of sight
   robots.link_angle_resolution_rad = robots.link_length_resolution_m = 0.0;
   LinkedKinematics world(robots, {}, 0.0, 0.0, kGap_m);
   Random floor(seed_of_stream(seed, 1)), noise(seed_of_stream(seed, 2));
   const double side = clockwise ? -1.0 : 1.0, straight_m = kSide_m - 2.0 * kCorner_m;
   const double corner_m = 0.5 * kPi * kCorner_m;
-  const int intervals = static_cast<int>(4.0 * (straight_m + corner_m) / (kSpeed_mps * kPeriod_s));
+  const int intervals = static_cast<int>(4.0 * (straight_m + corner_m) / (kSpeed_mps * kSightPeriod_s));
   std::vector<LinkedSample> seen;
   const auto look = [&] {
     LinkedSample s = rounded(world.reading(), robots, seed);
@@ -58,14 +59,14 @@ Errors drive(bool clockwise, const Sight& sight, bool with_bumps, std::uint64_t 
     for (int i = 0; with_bumps && i < kBumps; ++i) {
       const double at_m = late_m + 0.2 + (straight_m - 0.4) * i / (kBumps - 1);
       const auto over = [&](double s) { return std::max(0.0, std::min(1.0, (s - at_m) / kBumpWidth_m)); };
-      sum += kBumpExtra_m * (over(to_m) - over(from_m));
+      sum += kBumpOfTenMillimetres_m * (over(to_m) - over(from_m));
     }
     return sum;
   };
   look();
   for (int i = 0; i < intervals; ++i) {
     for (int k = 0; k < 4; ++k) {
-      const double h = 0.25 * kPeriod_s, travel_m = kSpeed_mps * world.time_s();
+      const double h = 0.25 * kSightPeriod_s, travel_m = kSpeed_mps * world.time_s();
       const bool turning = std::fmod(travel_m, straight_m + corner_m) >= straight_m;
       const LinkedSample now = world.reading();
       const double alpha = now.link_angle_a_rad, beta = now.link_angle_b_rad;
@@ -100,39 +101,39 @@ Errors drive(bool clockwise, const Sight& sight, bool with_bumps, std::uint64_t 
 }
 
 // One run of each direction in turn.
-std::vector<Errors> drive_many(const Sight& sight, bool with_bumps, int runs, std::uint64_t seed,
-                               const Progress& progress) {
-  std::vector<Errors> errors(static_cast<std::size_t>(runs));
+std::vector<ErrorsAtEnd> drive_many(const Sight& sight, bool with_bumps, int runs, std::uint64_t seed,
+                                    const Progress& progress) {
+  std::vector<ErrorsAtEnd> errors(static_cast<std::size_t>(runs));
   const int done = parallel_for(
       runs,
       [&](int i) {
         errors[static_cast<std::size_t>(i)] =
-            drive(i % 2 == 0, sight, with_bumps, seed_of_stream(seed, static_cast<std::uint64_t>(i)));
+            drive_unconnected(i % 2 == 0, sight, with_bumps, seed_of_stream(seed, static_cast<std::uint64_t>(i)));
       },
       {}, progress);
   errors.resize(static_cast<std::size_t>(done));
   return errors;
 }
 
-std::vector<double> values(const std::vector<Errors>& errors, double Errors::*which, double unit) {
+std::vector<double> values(const std::vector<ErrorsAtEnd>& errors, double ErrorsAtEnd::*which, double unit) {
   std::vector<double> result;
-  for (const Errors& e : errors) result.push_back(unit * (e.*which));
+  for (const ErrorsAtEnd& e : errors) result.push_back(unit * (e.*which));
   return result;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_ipec_unconnected(const ExperimentOptions& options, const Progress& progress) {
   const int runs = options.cases > 0 ? options.cases : 20;
   const Sight assumed{radians(0.3), 0.005, 0.0};
-  const std::vector<Errors> main =
+  const std::vector<ErrorsAtEnd> main =
       drive_many(assumed, true, runs, options.seed, [&](double share) { return goes_on(progress, 0.2 * share); });
   ExperimentReport report;
   if (static_cast<int>(main.size()) < runs) return report;  // stopped
   report.figures = {
       figure_of("heading error with ten bumps, each robot alone", "degrees",
-                values(main, &Errors::alone_rad, degrees(1.0))),
-      figure_of("heading error with ten bumps, IPEC", "degrees", values(main, &Errors::ipec_rad, degrees(1.0))),
-      figure_of("position error with ten bumps, each robot alone", "mm", values(main, &Errors::alone_m, 1e3)),
-      figure_of("position error with ten bumps, IPEC", "mm", values(main, &Errors::ipec_m, 1e3)),
+                values(main, &ErrorsAtEnd::alone_rad, degrees(1.0))),
+      figure_of("heading error with ten bumps, IPEC", "degrees", values(main, &ErrorsAtEnd::ipec_rad, degrees(1.0))),
+      figure_of("position error with ten bumps, each robot alone", "mm", values(main, &ErrorsAtEnd::alone_m, 1e3)),
+      figure_of("position error with ten bumps, IPEC", "mm", values(main, &ErrorsAtEnd::ipec_m, 1e3)),
   };
   ResultTable table{"mean errors at the end of the square by what the robots see of each other",
                     {"bearing noise", "range noise", "bearing bias", "bumps", "alone", "IPEC", "alone", "IPEC"},
@@ -148,21 +149,21 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
   double biased_deg = 0.0;
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const auto& [sight, bumps] = sights[i];
-    const std::vector<Errors> errors = drive_many(sight, bumps, runs, options.seed, [&, i](double share) {
+    const std::vector<ErrorsAtEnd> errors = drive_many(sight, bumps, runs, options.seed, [&, i](double share) {
       return goes_on(progress, 0.2 + 0.8 * (static_cast<double>(i) + share) / static_cast<double>(sights.size()));
     });
     if (static_cast<int>(errors.size()) < runs) return report;
-    const auto mean = [&](double Errors::*which, double unit, const char* format) {
+    const auto mean = [&](double ErrorsAtEnd::*which, double unit, const char* format) {
       return number_text(format, mean_and_spread(values(errors, which, unit)).mean);
     };
     table.rows.push_back({number_text("%.1f degrees", degrees(sight.bearing_noise_rad)),
                           number_text("%.0f mm", 1e3 * sight.range_noise_m),
                           number_text("%.1f degrees", degrees(sight.bearing_bias_rad)), bumps ? "ten" : "none",
-                          mean(&Errors::alone_rad, degrees(1.0), "%.2f degrees"),
-                          mean(&Errors::ipec_rad, degrees(1.0), "%.2f degrees"), mean(&Errors::alone_m, 1e3, "%.0f mm"),
-                          mean(&Errors::ipec_m, 1e3, "%.0f mm")});
+                          mean(&ErrorsAtEnd::alone_rad, degrees(1.0), "%.2f degrees"),
+                          mean(&ErrorsAtEnd::ipec_rad, degrees(1.0), "%.2f degrees"),
+                          mean(&ErrorsAtEnd::alone_m, 1e3, "%.0f mm"), mean(&ErrorsAtEnd::ipec_m, 1e3, "%.0f mm")});
     if (sight.bearing_bias_rad > 0.0)
-      biased_deg = mean_and_spread(values(errors, &Errors::ipec_rad, degrees(1.0))).mean;
+      biased_deg = mean_and_spread(values(errors, &ErrorsAtEnd::ipec_rad, degrees(1.0))).mean;
   }
   report.tables = {table};
   const double factor = report.figures[0].ours / report.figures[1].ours;
@@ -190,7 +191,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment ipec_unconnected() {
   return {"ipec-unconnected", "IPEC between two robots that are not connected but see each other",
-          "CLAPPER paper, section 7 (future work; ours)", run};
+          "CLAPPER paper, section 7 (future work; ours)", run_ipec_unconnected};
 }
 
 }  // namespace odolab

@@ -14,12 +14,10 @@ namespace odolab {
 
 namespace {
 
-constexpr int kMachines = 4;
-constexpr int kJudgedEachWay = 10;
+constexpr int kK2aMachines = 4;
+constexpr int kK2aJudgedEachWay = 10;
 constexpr double kFineCounts = 200000.0;
 constexpr double kSteeringError = 0.002;  // worn gears; the fresh ones are exact
-
-double mm(double m) { return 1e3 * m; }
 
 std::optional<UmbmarkRuns> squares(Scenario scenario, const SynchroDrive& nominal, int each_way, std::uint64_t seed,
                                    const Progress& progress) {
@@ -40,8 +38,8 @@ SynchroDrive calibrated_as_printed(const UmbmarkRuns& runs, const SynchroDrive& 
   return corrected;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int machines = options.cases > 0 ? options.cases : kMachines;
+Result<ExperimentReport> run_k2a_calibration(const ExperimentOptions& options, const Progress& progress) {
+  const int machines = options.cases > 0 ? options.cases : kK2aMachines;
   ExperimentReport report;
   Random random(seed_of_stream(options.seed, 6));
   std::vector<double> before, printed, own, fold, off, off_finely_read;
@@ -64,11 +62,12 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
     const auto first = squares(robot, nominal, 5, seed(1), [&](double s) { return part(0.0, s); });
     if (!first) return report;
     const SynchroCalibration found = *calibrate_synchro(*first, nominal);
-    const auto judged_before = squares(robot, nominal, kJudgedEachWay, seed(2), [&](double s) { return part(0.2, s); });
-    const auto judged_printed = squares(robot, calibrated_as_printed(*first, nominal), kJudgedEachWay, seed(2),
+    const auto judged_before =
+        squares(robot, nominal, kK2aJudgedEachWay, seed(2), [&](double s) { return part(0.2, s); });
+    const auto judged_printed = squares(robot, calibrated_as_printed(*first, nominal), kK2aJudgedEachWay, seed(2),
                                         [&](double s) { return part(0.4, s); });
     const auto judged_own =
-        squares(robot, found.corrected, kJudgedEachWay, seed(2), [&](double s) { return part(0.6, s); });
+        squares(robot, found.corrected, kK2aJudgedEachWay, seed(2), [&](double s) { return part(0.6, s); });
     SynchroDrive fine = nominal;
     fine.steering_counts_per_revolution = kFineCounts;
     const auto finely_read = squares(robot, fine, 5, seed(1), [&](double s) { return part(0.8, s); });
@@ -142,7 +141,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment k2a_calibration() {
   return {"k2a-calibration", "UMBmark calibration of a synchro drive, by the errors that it has",
-          "UMBmark report, section 7.1 (future work there)", run};
+          "UMBmark report, section 7.1 (future work there)", run_k2a_calibration};
 }
 
 }  // namespace odolab

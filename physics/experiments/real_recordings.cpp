@@ -22,13 +22,15 @@ constexpr double kUndecided = 2.0;          // and so many are nothing
 // Looked for in these sets by hand; what is said of them must agree with what was not fitted.
 constexpr const char* kLookedFor[] = {"wheel_eccentricity", "speed_dependent_radius", "floor_slope_creep"};
 
-std::string mm(double m, int digits = 2) { return number_text(digits == 2 ? "%.2f" : "%.1f", 1e3 * m); }
+std::string text_in_mm(double m, int digits = 2) { return number_text(digits == 2 ? "%.2f" : "%.1f", 1e3 * m); }
 std::string deg(double rad) { return number_text("%.2f", degrees(rad)); }
 
 std::string text_of(const std::optional<FitFigures>& figures) {
-  return figures ? mm(figures->position_rms_m) + " mm, " + deg(figures->heading_rms_rad) : "";
+  return figures ? text_in_mm(figures->position_rms_m) + " mm, " + deg(figures->heading_rms_rad) : "";
 }
-std::string text_of(const TypicalError& error) { return mm(error.position_m) + " mm, " + deg(error.heading_rad); }
+std::string text_of(const TypicalError& error) {
+  return text_in_mm(error.position_m) + " mm, " + deg(error.heading_rad);
+}
 
 std::string verdict_text(Verdict verdict) {
   switch (verdict) {
@@ -183,8 +185,8 @@ Claim claim_of(const std::string& set, const std::string& judged_on, double posi
                double heading_before_rad, double position_m, double heading_rad) {
   Claim claim;
   claim.sentence = set + ": what was named makes no worse what it was not fitted on (" + judged_on + ")";
-  claim.because =
-      mm(position_before_m) + " mm, " + deg(heading_before_rad) + " -> " + mm(position_m) + " mm, " + deg(heading_rad);
+  claim.because = text_in_mm(position_before_m) + " mm, " + deg(heading_before_rad) + " -> " + text_in_mm(position_m) +
+                  " mm, " + deg(heading_rad);
   claim.holds = std::pow(position_m / position_before_m, 2) + std::pow(heading_rad / heading_before_rad, 2) <=
                 2.0 * std::pow(1.0 + kNoDifference, 2);
   return claim;
@@ -211,8 +213,8 @@ void add_looked_for(const RecordingSet& set, const Diagnosis& diagnosis, Tables&
                                  : could ? "not named"
                                          : "could not show"};
     if (l) {
-      const std::string without = mm(l->without.position_m) + " mm, " + deg(l->without.heading_rad);
-      const std::string with = mm(l->with.position_m) + " mm, " + deg(l->with.heading_rad);
+      const std::string without = text_in_mm(l->without.position_m) + " mm, " + deg(l->without.heading_rad);
+      const std::string with = text_in_mm(l->with.position_m) + " mm, " + deg(l->with.heading_rad);
       row.insert(row.end(), {number_text("%.2g", l->size), without, with});
       row.push_back(number_text("%+.1f", l->better_by));
       Claim claim;
@@ -296,7 +298,7 @@ Result<Done> add_runs_held_out(const RecordingSet& set, Tables& tables, Experime
   for (int k = 0; k < 3; ++k) {
     position[k] = std::sqrt(position[k] / runs);
     heading[k] = std::sqrt(heading[k] / runs);
-    row.push_back(mm(position[k]) + " mm, " + deg(heading[k]));
+    row.push_back(text_in_mm(position[k]) + " mm, " + deg(heading[k]));
   }
   row.insert(row.end(), {"", ""});
   tables.proof.rows.push_back(row);
@@ -305,7 +307,7 @@ Result<Done> add_runs_held_out(const RecordingSet& set, Tables& tables, Experime
   return Done{};
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_real_recordings(const ExperimentOptions& options, const Progress& progress) {
   ExperimentReport report;
   const std::vector<RecordingSet> sets = recording_sets(recordings_folder(options.recordings), report.notes);
   Tables tables;
@@ -343,7 +345,8 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment real_recordings() {
   return {"real", "real recordings: what a plain calibration leaves, what is missing, and the proof on held-out runs",
-          "R. B. Sousa et al. 2022 (OptiOdom); K. Y. K. Leung et al. 2011 (UTIAS multi-robot data set)", run};
+          "R. B. Sousa et al. 2022 (OptiOdom); K. Y. K. Leung et al. 2011 (UTIAS multi-robot data set)",
+          run_real_recordings};
 }
 
 }  // namespace odolab

@@ -15,11 +15,9 @@ namespace odolab {
 
 namespace {
 
-constexpr int kRobots = 8;
-constexpr int kJudgedEachWay = 10;
+constexpr int kSelfCalibratingRobots = 8;
+constexpr int kSelfJudgedEachWay = 10;
 constexpr double kLargestScaleError = 0.005;  // "0.3-0.5 % of full scale" (section 2.3)
-
-double mm(double m) { return 1e3 * m; }
 
 // LabMates as in Table III that also roll further or less far than their drawing says.
 std::vector<Scenario> robots_to_calibrate(int count, std::uint64_t seed) {
@@ -33,8 +31,8 @@ std::vector<Scenario> robots_to_calibrate(int count, std::uint64_t seed) {
   return robots;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int count = options.cases > 0 ? options.cases : kRobots;
+Result<ExperimentReport> run_self_calibrations(const ExperimentOptions& options, const Progress& progress) {
+  const int count = options.cases > 0 ? options.cases : kSelfCalibratingRobots;
   const std::vector<Scenario> robots = robots_to_calibrate(count, seed_of_stream(options.seed, 5));
   const SelfCalibrationPlan plan;
   std::vector<std::optional<SelfCalibration>> done(robots.size());
@@ -65,11 +63,11 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
     }
     Scenario again = robot;
     again.vehicle.kind = self.found;
-    again.benchmark->runs_each_way = kJudgedEachWay;
+    again.benchmark->runs_each_way = kSelfJudgedEachWay;
     const UmbmarkRuns runs =
         run_umbmark(again, seed_of_stream(options.seed, 500 + static_cast<std::uint64_t>(i)), {},
                     [&](double share) { return goes_on(progress, 0.6 + 0.4 * (i + share) / count); });
-    if (static_cast<int>(runs.counter_clockwise.size()) < kJudgedEachWay) return ExperimentReport{};  // stopped
+    if (static_cast<int>(runs.counter_clockwise.size()) < kSelfJudgedEachWay) return ExperimentReport{};  // stopped
     const double before_m = self.rounds.front().measure.largest_systematic_error_m;
     const double after_m = measure_umbmark(runs)->largest_systematic_error_m;
     const ActualDrive& a = robot.actual;
@@ -148,7 +146,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment self_calibration() {
   return {"self-calibration", "a LabMate calibrates itself in a sonar corner; a person only reads a tape once",
-          "UMBmark report, section 7.3 (announced there, without figures)", run};
+          "UMBmark report, section 7.3 (announced there, without figures)", run_self_calibrations};
 }
 
 }  // namespace odolab

@@ -14,17 +14,17 @@ namespace odolab {
 
 namespace {
 
-constexpr int kMachines = 3;  // of each kind
-constexpr int kParts = 8;
-constexpr int kBumps = 10;
+constexpr int kMachinesOfExtended = 3;  // of each kind
+constexpr int kPartsOfExtended = 8;
+constexpr int kBumpsOfExtended = 10;
 constexpr double kBump_m = 0.010;
 
-struct Kind {
+struct ExtendedKind {
   std::vector<double> heading_deg;  // mean absolute heading error of a machine
   bool stopped = false;
 };
 
-void drive(Kind& kind, const Scenario& smooth, std::uint64_t seed, const Progress& progress) {
+void drive_extended(ExtendedKind& kind, const Scenario& smooth, std::uint64_t seed, const Progress& progress) {
   if (kind.stopped) return;
   Scenario bumpy = smooth;
   put_ten_cables(bumpy.floor);
@@ -40,56 +40,60 @@ void drive(Kind& kind, const Scenario& smooth, std::uint64_t seed, const Progres
   kind.heading_deg.push_back(degrees(measure->mean_absolute_heading_error_rad));
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int machines = options.cases > 0 ? options.cases : kMachines;
+Result<ExperimentReport> run_umbmark_extended(const ExperimentOptions& options, const Progress& progress) {
+  const int machines = options.cases > 0 ? options.cases : kMachinesOfExtended;
   ExperimentReport report;
   Random random(seed_of_stream(options.seed, 8));
   const std::vector<Scenario> drawn = labmates_of_table3(machines, seed_of_stream(options.seed, 3));
   const double tape = travelled_per_rolled_on_report_floor();
   int part = 0;
   const auto driven = [&](const auto& make) {
-    Kind kind;
+    ExtendedKind kind;
     for (int i = 0; i < machines; ++i)
-      drive(kind, make(i), seed_of_stream(options.seed, static_cast<std::uint64_t>(100 * part + i)),
-            [&](double share) { return goes_on(progress, (part + (i + share) / machines) / kParts); });
+      drive_extended(
+          kind, make(i), seed_of_stream(options.seed, static_cast<std::uint64_t>(100 * part + i)),
+          [&](double share) { return goes_on(progress, (part + (i + share) / machines) / kPartsOfExtended); });
     ++part;
     return kind;
   };
-  const Kind labmate = driven([&](int i) { return drawn[static_cast<std::size_t>(i)]; });
-  const Kind k2a = driven([&](int) { return k2a_on_report_squares(random); });
-  const Kind hard_k2a = driven([&](int) {
+  const ExtendedKind labmate = driven([&](int i) { return drawn[static_cast<std::size_t>(i)]; });
+  const ExtendedKind k2a = driven([&](int) { return k2a_on_report_squares(random); });
+  const ExtendedKind hard_k2a = driven([&](int) {
     Scenario scenario = k2a_on_report_squares(random);
     scenario.machine.synchro.creep_stiffness = 0.0;
     return scenario;
   });
-  const Kind clapper = driven([&](int) { return clapper_on_report_rectangle(random, Trucks::calibrated, tape); });
-  const Kind exact_clapper = driven([&](int) {
+  const ExtendedKind clapper =
+      driven([&](int) { return clapper_on_report_rectangle(random, Trucks::calibrated, tape); });
+  const ExtendedKind exact_clapper = driven([&](int) {
     Scenario scenario = clapper_on_report_rectangle(random, Trucks::calibrated, tape);
     scenario.sensors.truth_heading_noise_rad = scenario.sensors.truth_position_noise_m = 0.0;
     return scenario;
   });
-  const Kind blind_clapper = driven([&](int) {
+  const ExtendedKind blind_clapper = driven([&](int) {
     Scenario scenario = clapper_on_report_rectangle(random, Trucks::calibrated, tape);
     scenario.driving.internal_correction = false;
     return scenario;
   });
   // Its own simulation measured nothing with the sonar's 0.4 degrees; so for the CLAPPER, to see what the sonar adds.
-  const Kind set = driven([&](int) { return labmate_with_smart_trailer_on_report_squares(); });
-  const Kind exact_set = driven([&](int) {
+  const ExtendedKind set = driven([&](int) { return labmate_with_smart_trailer_on_report_squares(); });
+  const ExtendedKind exact_set = driven([&](int) {
     Scenario scenario = labmate_with_smart_trailer_on_report_squares();
     scenario.sensors.truth_heading_noise_rad = scenario.sensors.truth_position_noise_m = 0.0;
     return scenario;
   });
-  for (const Kind* kind : {&labmate, &k2a, &hard_k2a, &clapper, &exact_clapper, &blind_clapper, &set, &exact_set})
+  for (const ExtendedKind* kind :
+       {&labmate, &k2a, &hard_k2a, &clapper, &exact_clapper, &blind_clapper, &set, &exact_set})
     if (kind->stopped) return report;
   goes_on(progress, 1.0);
 
-  const auto mean = [](const Kind& kind) { return mean_and_spread(kind.heading_deg).mean; };
+  const auto mean = [](const ExtendedKind& kind) { return mean_and_spread(kind.heading_deg).mean; };
   const auto number = [](const char* format, double value) { return number_text(format, value); };
-  const double by_formula_deg = kBumps * degrees(extra_roll_m(0.075, kBump_m) / 0.340);
+  const double by_formula_deg = kBumpsOfExtended * degrees(extra_roll_m(0.075, kBump_m) / 0.340);
   const ActualSynchroWheels wheels;
-  const double k2a_by_formula_deg = kBumps * degrees(extra_roll_m(SynchroDrive{}.wheel_radius_m, kBump_m) *
-                                                     std::sin(2.0 * kPi / 3.0) / (3.0 * wheels.wheel_circle_radius_m));
+  const double k2a_by_formula_deg =
+      kBumpsOfExtended * degrees(extra_roll_m(SynchroDrive{}.wheel_radius_m, kBump_m) * std::sin(2.0 * kPi / 3.0) /
+                                 (3.0 * wheels.wheel_circle_radius_m));
   const double k2a_share = mean(k2a) / mean(labmate), clapper_share = mean(clapper) / mean(labmate);
   // The sonar's 0.4 degrees at both ends of a run, as a mean absolute value.
   const double sonar_deg = 0.4 * std::sqrt(2.0) * std::sqrt(2.0 / kPi);
@@ -172,7 +176,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment umbmark_extended() {
   return {"umbmark-extended", "heading errors under ten bumps, by kind of vehicle",
-          "UMBmark report, sections 3.4 and 5", run};
+          "UMBmark report, sections 3.4 and 5", run_umbmark_extended};
 }
 
 }  // namespace odolab

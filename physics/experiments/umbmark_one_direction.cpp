@@ -27,9 +27,7 @@ Scenario deceiving_robot() {
   return scenario;
 }
 
-double mm(double m) { return 1e3 * m; }
-
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_umbmark_one_direction(const ExperimentOptions& options, const Progress& progress) {
   const std::vector<UmbmarkStage> stages = run_umbmark_calibration(deceiving_robot(), options.seed, {}, progress);
   ExperimentReport report;
   if (stages.size() < 2) return report;  // stopped
@@ -60,7 +58,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment umbmark_one_direction() {
   return {"umbmark-one-direction", "two errors that cancel in one direction and add in the other",
-          "UMBmark report, sections 3.1 and 3.2", run};
+          "UMBmark report, sections 3.1 and 3.2", run_umbmark_one_direction};
 }
 
 }  // namespace odolab

@@ -15,19 +15,17 @@ namespace odolab {
 
 namespace {
 
-constexpr int kMachines = 4;  // of each kind
-constexpr int kParts = 8;     // of the experiment, for its progress
-
-double mm(double m) { return 1e3 * m; }
+constexpr int kMachinesOfSystematic = 4;  // of each kind
+constexpr int kParts = 8;                 // of the experiment, for its progress
 
 // What several machines of one kind gave.
-struct Kind {
+struct SystematicKind {
   std::vector<double> largest_mm, spread_mm, mean_distance_mm, heading_deg;
   bool stopped = false;
   int lost = 0;
 };
 
-void drive(Kind& kind, const Scenario& scenario, std::uint64_t seed, const Progress& progress) {
+void drive_systematic(SystematicKind& kind, const Scenario& scenario, std::uint64_t seed, const Progress& progress) {
   if (kind.stopped) return;
   const UmbmarkRuns runs = run_umbmark(
       scenario, seed, [&](const BenchmarkRun& run) { kind.lost += !run.finished; }, progress);
@@ -67,39 +65,40 @@ double apparent_width(double contact_length_m) {
   return simulation.state().estimated_pose.heading_rad / simulation.state().true_pose.heading_rad;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
-  const int machines = options.cases > 0 ? options.cases : kMachines;
+Result<ExperimentReport> run_umbmark_systematic(const ExperimentOptions& options, const Progress& progress) {
+  const int machines = options.cases > 0 ? options.cases : kMachinesOfSystematic;
   ExperimentReport report;
   Random random(seed_of_stream(options.seed, 4));
   int part = 0;
   const auto driven = [&](const auto& make, int count) {
-    Kind kind;
+    SystematicKind kind;
     for (int i = 0; i < count; ++i)
-      drive(kind, make(i), seed_of_stream(options.seed, static_cast<std::uint64_t>(100 * part + i)),
-            [&](double share) { return goes_on(progress, (part + (i + share) / count) / kParts); });
+      drive_systematic(kind, make(i), seed_of_stream(options.seed, static_cast<std::uint64_t>(100 * part + i)),
+                       [&](double share) { return goes_on(progress, (part + (i + share) / count) / kParts); });
     ++part;
     return kind;
   };
   const std::vector<Scenario> drawn = labmates_of_table3(machines, seed_of_stream(options.seed, 3));
-  const Kind labmate = driven([&](int i) { return drawn[static_cast<std::size_t>(i)]; }, machines);
-  const Kind k2a = driven([&](int) { return k2a_on_report_squares(random); }, machines);
+  const SystematicKind labmate = driven([&](int i) { return drawn[static_cast<std::size_t>(i)]; }, machines);
+  const SystematicKind k2a = driven([&](int) { return k2a_on_report_squares(random); }, machines);
   const double tape = travelled_per_rolled_on_report_floor();
-  const Kind clapper =
+  const SystematicKind clapper =
       driven([&](int) { return clapper_on_report_rectangle(random, Trucks::calibrated, tape); }, machines);
-  const Kind untaped_clapper =
+  const SystematicKind untaped_clapper =
       driven([&](int) { return clapper_on_report_rectangle(random, Trucks::calibrated); }, machines);
-  const Kind raw_clapper =
+  const SystematicKind raw_clapper =
       driven([&](int) { return clapper_on_report_rectangle(random, Trucks::uncalibrated, tape); }, machines);
-  const Kind andros = driven([&](int) { return andros_on_report_squares(); }, 1);
-  const Kind trailer = driven([&](int) { return andros_with_trailer_on_report_squares(random); }, machines);
-  const Kind noisy = driven(
+  const SystematicKind andros = driven([&](int) { return andros_on_report_squares(); }, 1);
+  const SystematicKind trailer = driven([&](int) { return andros_with_trailer_on_report_squares(random); }, machines);
+  const SystematicKind noisy = driven(
       [&](int) {
         Scenario scenario = andros_with_trailer_on_report_squares(random);
         scenario.machine.slip_ring = {0.05, 20};
         return scenario;
       },
       machines);
-  for (const Kind* kind : {&labmate, &k2a, &clapper, &untaped_clapper, &raw_clapper, &andros, &trailer, &noisy})
+  for (const SystematicKind* kind :
+       {&labmate, &k2a, &clapper, &untaped_clapper, &raw_clapper, &andros, &trailer, &noisy})
     if (kind->stopped) return report;
 
   ResultTable lengths{
@@ -210,7 +209,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment umbmark_systematic() {
   return {"umbmark-systematic", "the report's vehicles on its square: accuracy and spread",
-          "UMBmark report, section 4 and Appendix C", run};
+          "UMBmark report, section 4 and Appendix C", run_umbmark_systematic};
 }
 
 }  // namespace odolab

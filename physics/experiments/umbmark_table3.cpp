@@ -17,7 +17,6 @@ constexpr int kJudgedEachWay = 10;  // Emax,syst after calibration is small agai
 constexpr int kSettlingTapes = 4;
 constexpr double kBefore7_m = 0.423, kAfterFirst7_m = 0.066;
 
-double mm(double m) { return 1e3 * m; }
 std::string text_mm(double m) { return number_text("%.0f", mm(m)); }
 
 // What the report's first-order formulas would leave, beside the exact path's: only their difference matters.
@@ -75,7 +74,7 @@ std::optional<SettledTape> with_settling_tape(std::uint64_t seed, const Progress
   return result;
 }
 
-Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& progress) {
+Result<ExperimentReport> run_umbmark_table3(const ExperimentOptions& options, const Progress& progress) {
   const int count = options.cases > 0 ? options.cases : kRobots;
   const std::vector<Scenario> robots = labmates_of_table3(count, seed_of_stream(options.seed, 3));
   ExperimentReport report;
@@ -181,7 +180,7 @@ Result<ExperimentReport> run(const ExperimentOptions& options, const Progress& p
 
 Experiment umbmark_table3() {
   return {"umbmark-table3", "eight calibrations of LabMates, and a second compensation",
-          "UMBmark report, section 6.3, Table III", run};
+          "UMBmark report, section 6.3, Table III", run_umbmark_table3};
 }
 
 }  // namespace odolab

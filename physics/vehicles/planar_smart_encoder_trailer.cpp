@@ -12,7 +12,7 @@ namespace odolab {
 
 namespace {
 
-double hitch_at_start_rad(const VehicleSetup& setup, const SmartEncoderTrailer& lengths) {
+double smart_hitch_at_start_rad(const VehicleSetup& setup, const SmartEncoderTrailer& lengths) {
   return setup.first_readings.empty() ? 0.0 : setup.first_readings[4] - lengths.hitch_angle_offset_rad;
 }
 
@@ -29,7 +29,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
         phases_(setup.sensor_seed),
         tow_(world_, setup.start, nominal.tow, with_wheels_of(lengths.tow, setup.scenario.actual), setup, setup.effects,
              0, phases_),
-        towed_(world_.add_body({setup.start * Pose{0.0, 0.0, -hitch_at_start_rad(setup, lengths)} *
+        towed_(world_.add_body({setup.start * Pose{0.0, 0.0, -smart_hitch_at_start_rad(setup, lengths)} *
                                     Pose{-lengths.drawbar_length_m, 0.0, 0.0},
                                 trailer_.mass_kg, trailer_.moment_of_inertia_kgm2})),
         axle_(world_, towed_, lengths.trailer, nominal.trailer.counts_per_wheel_turn(), 1, effects_, step_s_, phases_),

@@ -15,8 +15,8 @@ namespace odolab {
   X(tracked)                   \
   X(encoder_trailer)
 
-#define ODOLAB_DECLARE(kind) std::unique_ptr<PlanarVehicle> make_##kind(const VehicleSetup&);
-ODOLAB_EACH_VEHICLE(ODOLAB_DECLARE)
+#define ODOLAB_DECLARE_VEHICLE(kind) std::unique_ptr<PlanarVehicle> make_##kind(const VehicleSetup&);
+ODOLAB_EACH_VEHICLE(ODOLAB_DECLARE_VEHICLE)
 
 std::unique_ptr<PlanarVehicle> make_planar_vehicle(const VehicleSetup& setup) {
   std::unique_ptr<PlanarVehicle> vehicle;

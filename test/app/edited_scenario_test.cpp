@@ -7,13 +7,12 @@
 #include <fstream>
 
 #include "app/gui/session.h"
+#include "test/app/always.h"
 
 namespace odolab {
 namespace {
 
 namespace fs = std::filesystem;
-
-const auto kAlways = [] { return true; };
 
 class EditedScenarioTest : public ::testing::Test {
  protected:

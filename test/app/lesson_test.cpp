@@ -5,11 +5,10 @@
 
 #include "app/gui/session.h"
 #include "source_dir.h"
+#include "test/app/always.h"
 
 namespace odolab {
 namespace {
-
-const auto kAlways = [] { return true; };
 
 std::vector<std::string> lessons() {
   std::vector<std::string> files;

@@ -12,12 +12,11 @@
 #include "app/gui/views.h"
 #include "physics/benchmark.h"
 #include "source_dir.h"
+#include "test/app/always.h"
 #include "test/support/same_bits.h"
 
 namespace odolab {
 namespace {
-
-const auto kAlways = [] { return true; };
 
 Scenario small_square() {
   Scenario s = first_scenario();

@@ -7,11 +7,11 @@
 #include "app/gui/session.h"
 #include "app/gui/views.h"
 #include "source_dir.h"
+#include "test/app/always.h"
 
 namespace odolab {
 namespace {
 
-const auto kAlways = [] { return true; };
 const char* const kVehicleFiles[] = {"andros",  "andros_with_trailer",        "clapper",  "k2a",
                                      "labmate", "labmate_with_smart_trailer", "omnimate", "three_castors"};
 

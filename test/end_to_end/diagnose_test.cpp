@@ -39,7 +39,8 @@ const fs::path& eights() {
 std::string eight(const char* name) { return (eights() / name).string() + " "; }
 
 // And no file is written into `folder`.
-void expect_refused(const std::string& arguments, const std::vector<std::string>& words, const fs::path& folder) {
+void expect_refused_without_files(const std::string& arguments, const std::vector<std::string>& words,
+                                  const fs::path& folder) {
   odolab::expect_refused(arguments, words);
   EXPECT_TRUE(fs::is_empty(folder)) << "half-written output";
 }
@@ -105,10 +106,11 @@ TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
   const std::string broken = (folder / "broken.csv").string() + " ",
                     no_truth = (folder / "no_truth.csv").string() + " ";
   const std::string json = "--json " + (out / "d.json").string();
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + broken + json, {"broken.csv:3"}, out);
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + no_truth + json, {"no_truth.csv", "truth"}, out);
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + (folder / "absent.csv").string() + " " + json,
-                 {"absent.csv"}, out);
+  expect_refused_without_files("diagnose " + kVehicle + eight("run_1.csv") + broken + json, {"broken.csv:3"}, out);
+  expect_refused_without_files("diagnose " + kVehicle + eight("run_1.csv") + no_truth + json, {"no_truth.csv", "truth"},
+                               out);
+  expect_refused_without_files(
+      "diagnose " + kVehicle + eight("run_1.csv") + (folder / "absent.csv").string() + " " + json, {"absent.csv"}, out);
   // wheels exchanged in one of two runs
   std::string text = text_of_file(eights() / "run_2.csv");
   const std::size_t left = text.find("left_wheel_rad"), right = text.find("right_wheel_rad");
@@ -116,8 +118,8 @@ TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
   text.replace(right, 15, "left_wheel_rad").replace(left, 14, "right_wheel_rad");
   std::ofstream(folder / "exchanged.csv") << text;
   const std::string exchanged = (folder / "exchanged.csv").string() + " ";
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + exchanged + json, {"exchanged.csv", "left and right"},
-                 out);
+  expect_refused_without_files("diagnose " + kVehicle + eight("run_1.csv") + exchanged + json,
+                               {"exchanged.csv", "left and right"}, out);
   const Outcome without = odolab("diagnose --skip-broken " + kVehicle + eight("run_1.csv") + exchanged);
   EXPECT_EQ(without.exit_code, 0) << without.errors;
   EXPECT_NE(without.errors.find("skipped: " + (folder / "exchanged.csv").string()), std::string::npos)
@@ -132,9 +134,9 @@ TEST(DiagnoseCommand, NamesABrokenRecordingAndGoesOnOnlyIfTold) {
 TEST(DiagnoseCommand, RefusesWhatProvesNothing) {
   const fs::path out = fresh_folder("diagnose_refuses");
   const std::string json = "--json " + (out / "d.json").string();
-  expect_refused("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_1.csv") + json,
-                 {"run_1.csv", "hold out"}, out);
-  expect_refused("diagnose " + kVehicle + json, {"RECORDING"}, out);
+  expect_refused_without_files("diagnose " + kVehicle + eight("run_1.csv") + "--hold-out " + eight("run_1.csv") + json,
+                               {"run_1.csv", "hold out"}, out);
+  expect_refused_without_files("diagnose " + kVehicle + json, {"RECORDING"}, out);
   const Outcome nothing_left = odolab("diagnose --skip-broken " + kVehicle + "/absent.csv " + json);
   EXPECT_EQ(nothing_left.exit_code, 2);
   EXPECT_NE(nothing_left.errors.find("no recording that can be used"), std::string::npos) << nothing_left.errors;
@@ -147,9 +149,9 @@ TEST(DiagnoseCommand, RefusesABrokenModel) {
       << "schema = \"odolab.model/1\"\n[vehicle]\nkind = \"differential_drive\"\nwheels = 2\n"
          "[vehicle.differential_drive]\nwheel_radius_left_m = 0.075\nwheel_radius_right_m = 0.075\n"
          "wheelbase_m = 0.34\n";
-  expect_refused("predict " + kVehicle + "--model " + (folder / "m.toml").string() + " " + eight("run_1.csv") +
-                     "--out " + (out / "t.csv").string(),
-                 {"m.toml:4", "wheels"}, out);
+  expect_refused_without_files("predict " + kVehicle + "--model " + (folder / "m.toml").string() + " " +
+                                   eight("run_1.csv") + "--out " + (out / "t.csv").string(),
+                               {"m.toml:4", "wheels"}, out);
 }
 
 TEST(DiagnoseCommand, WritesOverNothingThatItReads) {

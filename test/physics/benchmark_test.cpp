@@ -7,15 +7,15 @@
 namespace odolab {
 namespace {
 
-constexpr double kSide_m = 4.0, kBase_m = 0.340, kRadius_m = 0.075;
+constexpr double kSide_m = 4.0, kSquareBase_m = 0.340, kSquareRadius_m = 0.075;
 
 // The report's set-up: sonar corner of 2 mm and 0.4 degrees, and a floor rough enough for the spread it saw.
 Scenario labmate_on_squares(double diameter_ratio, double wheelbase_ratio) {
   Scenario scenario;
   scenario.path = SquarePath{kSide_m, false};
-  scenario.actual.wheelbase_m = kBase_m * wheelbase_ratio;
-  scenario.actual.wheel_radius_right_m = kRadius_m * 2.0 * diameter_ratio / (diameter_ratio + 1.0);
-  scenario.actual.wheel_radius_left_m = kRadius_m * 2.0 / (diameter_ratio + 1.0);
+  scenario.actual.wheelbase_m = kSquareBase_m * wheelbase_ratio;
+  scenario.actual.wheel_radius_right_m = kSquareRadius_m * 2.0 * diameter_ratio / (diameter_ratio + 1.0);
+  scenario.actual.wheel_radius_left_m = kSquareRadius_m * 2.0 / (diameter_ratio + 1.0);
   // An assumption that gives the report's spread of 25 mm. Its own simulation's bumps of 1 mm every 2 cm spread by 9 mm
   // here, and the report itself calls them "not very effective" (section 4.6.2).
   scenario.floor.roughness = {0.0022, 0.06};
@@ -30,7 +30,7 @@ Scenario labmate_on_squares(double diameter_ratio, double wheelbase_ratio) {
 // Heading errors of a robot with these ratios: alpha by Eq. 6.28, beta from the arc that unequal wheels drive.
 TypeErrors type_errors(double diameter_ratio, double wheelbase_ratio) {
   const double alpha = 0.5 * kPi * (1.0 - 1.0 / wheelbase_ratio);
-  const double curvature = 2.0 * (diameter_ratio - 1.0) / ((diameter_ratio + 1.0) * kBase_m);
+  const double curvature = 2.0 * (diameter_ratio - 1.0) / ((diameter_ratio + 1.0) * kSquareBase_m);
   return {alpha, kSide_m * curvature};
 }
 
@@ -82,7 +82,7 @@ TEST(UmbmarkBenchmark, FindsBothErrorsWhereOneDirectionHidesThem) {
   const double alpha = 0.5 * kPi * (1.0 - 1.0 / wheelbase_ratio);
   const double curvature =
       alpha / kSide_m;  // beta = alpha: hidden counter-clockwise, where x and y go with alpha - beta
-  const double diameter_ratio = (1.0 + 0.5 * curvature * kBase_m) / (1.0 - 0.5 * curvature * kBase_m);
+  const double diameter_ratio = (1.0 + 0.5 * curvature * kSquareBase_m) / (1.0 - 0.5 * curvature * kSquareBase_m);
   Scenario robot = labmate_on_squares(diameter_ratio, wheelbase_ratio);
   robot.floor.roughness = {};
   const UmbmarkRuns runs = run_umbmark(robot, 7);
@@ -92,7 +92,7 @@ TEST(UmbmarkBenchmark, FindsBothErrorsWhereOneDirectionHidesThem) {
   const UmbmarkCalibration found = *calibrate_umbmark(runs, std::get<DifferentialDrive>(robot.vehicle.kind));
   EXPECT_NEAR(found.wheelbase_ratio, wheelbase_ratio, 3e-4);      // 2 mm of sonar over 8 L: 0.02 degrees in 90
   EXPECT_NEAR(found.wheel_diameter_ratio, diameter_ratio, 3e-5);  // the same angle over 4 m of side, times 340 mm
-  EXPECT_NEAR(found.corrected.wheelbase_m, kBase_m * wheelbase_ratio, 1e-4);
+  EXPECT_NEAR(found.corrected.wheelbase_m, kSquareBase_m * wheelbase_ratio, 1e-4);
 }
 
 TEST(UmbmarkBenchmark, GivesTheSameRunsForAnyNumberOfThreadsAndStopsWhenTold) {

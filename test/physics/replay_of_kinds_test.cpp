@@ -28,7 +28,7 @@ Scenario corner(const std::string& file) {
   return scenario;
 }
 
-Recording recorded(const Scenario& scenario) { return finished(scenario, 3).recording(); }
+Recording recorded_with_seed(const Scenario& scenario) { return finished(scenario, 3).recording(); }
 
 Scenario replaying(const Scenario& scenario, const Recording& recording) {
   Scenario again = scenario;
@@ -39,7 +39,7 @@ Scenario replaying(const Scenario& scenario, const Recording& recording) {
 TEST(Replay, OfEveryKindTurnsItsWheelsAsTheyWereRecordedAndComesWhereItWas) {
   for (const char* file : kVehicleFiles) {
     const Scenario scenario = corner(file);
-    const auto recording = std::make_shared<const Recording>(recorded(scenario));
+    const auto recording = std::make_shared<const Recording>(recorded_with_seed(scenario));
     const Scenario again = replaying(scenario, *recording);
     ASSERT_EQ(std::get<ReplayPath>(again.path).by, ReplayPath::By::wheels) << file;
     ASSERT_TRUE(problems_in(again).empty()) << file << ": " << problems_in(again).front();
@@ -71,7 +71,7 @@ Recording from(const Recording& whole, double begin_s) {
 TEST(Replay, ThatBeginsInTheMiddleOfADriveBeginsAsItStoodAndMoved) {
   for (const char* file : kVehicleFiles) {
     Scenario scenario = corner(file);
-    const Recording whole = recorded(scenario);
+    const Recording whole = recorded_with_seed(scenario);
     const auto second_half = std::make_shared<const Recording>(from(whole, 0.5 * whole.duration_s()));
     const Scenario again = replaying(scenario, *second_half);
     Simulation simulation(again, 1, second_half);
@@ -93,7 +93,7 @@ TEST(Replay, OfAnotherKindFollowsCommandsToo) {
   Scenario scenario = corner("k2a");
   scenario.sensors.record_commands = true;
   scenario.sensors.record_encoders = false;
-  const auto recording = std::make_shared<const Recording>(recorded(scenario));
+  const auto recording = std::make_shared<const Recording>(recorded_with_seed(scenario));
   const Scenario again = replaying(scenario, *recording);
   ASSERT_EQ(std::get<ReplayPath>(again.path).by, ReplayPath::By::commands);
   const Result<Replay> result = replay(again, recording);
@@ -104,7 +104,7 @@ TEST(Replay, OfAnotherKindFollowsCommandsToo) {
 
 TEST(Replay, SaysWhichColumnsAreMissingForAKind) {
   const Scenario clapper = corner("clapper");
-  Recording recording = recorded(clapper);
+  Recording recording = recorded_with_seed(clapper);
   for (Channel& channel : recording.channels)
     if (channel.name == "link_length_m")
       channel.values.assign(channel.values.size(), std::numeric_limits<double>::quiet_NaN());

@@ -19,8 +19,6 @@ bool is_in(const std::vector<Stretch>& stretches, double time_s) {
                      [&](const Stretch& s) { return time_s >= s.first && time_s <= s.second; });
 }
 
-ImU32 rgb(unsigned hex) { return IM_COL32((hex >> 16) & 255u, (hex >> 8) & 255u, hex & 255u, 255); }
-
 }  // namespace
 
 Trail::Trail(std::vector<double> time_s, const std::vector<double>& x_m, const std::vector<double>& y_m,

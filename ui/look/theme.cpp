@@ -4,8 +4,6 @@ namespace odolab::ui {
 
 namespace {
 
-constexpr ImU32 rgb(unsigned hex) { return IM_COL32((hex >> 16) & 255u, (hex >> 8) & 255u, hex & 255u, 255); }
-
 ImVec4 vec(ImU32 colour, float alpha = 1.0f) {
   ImVec4 v = ImGui::ColorConvertU32ToFloat4(colour);
   v.w *= alpha;

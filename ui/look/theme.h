@@ -5,6 +5,9 @@
 
 namespace odolab::ui {
 
+// 0xrrggbb, opaque.
+constexpr ImU32 rgb(unsigned hex) { return IM_COL32((hex >> 16) & 255u, (hex >> 8) & 255u, hex & 255u, 255); }
+
 struct Theme {
   bool dark = false;
   float scale = 1.0f;  // pixels for each pixel of a 96 dpi screen

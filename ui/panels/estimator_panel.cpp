@@ -17,7 +17,7 @@ void swatch(const EstimatorLook& look, const Theme& theme) {
   ImGui::SameLine(0, theme.px(6));
 }
 
-void row(const EstimatorRow& r, EstimatorState& state, bool finished, const Theme& theme) {
+void estimator_row(const EstimatorRow& r, EstimatorState& state, bool finished, const Theme& theme) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   bool shown_now = r.steers || state.shown.count(r.name) > 0;
@@ -75,7 +75,7 @@ void estimator_panel(const Estimators& e, EstimatorState& state, const Theme& th
   text_right("°", theme.muted);
   tooltip("How far the estimated heading is from the true one, in degrees.", theme);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(theme.px(2), theme.px(1)));  // a row is a line of text
-  for (const EstimatorRow& r : e.rows) row(r, state, e.finished, theme);
+  for (const EstimatorRow& r : e.rows) estimator_row(r, state, e.finished, theme);
   ImGui::PopStyleVar();
   ImGui::EndTable();
 }

@@ -19,7 +19,7 @@ float field_column(const Theme& theme) {
 
 // A labelled field in a column that is not too wide to read; narrower, and then below its label, where the page is too
 // narrow for both.
-Edited row(const char* label, const NumberField& field, double& value, const Theme& theme) {
+Edited guide_row(const char* label, const NumberField& field, double& value, const Theme& theme) {
   const float begin = ImGui::GetCursorPosX(), column = field_column(theme);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
@@ -59,18 +59,19 @@ Actions robot_page(const GuideView& view, GuidePageState& state, const Theme& th
       f.enabled = !fixed;
       return f;
     };
-    e = more(e, row("Diameter of the left wheel",
-                    field("##left", kSettingMillimetres, 0.002, 2.0,
-                          "As the robot's odometry believes it; twice the radius."),
-                    left, theme));
-    e = more(e, row("Diameter of the right wheel",
-                    field("##right", kSettingMillimetres, 0.002, 2.0,
-                          "As the robot's odometry believes it; twice the radius."),
-                    right, theme));
-    e = more(e, row("Wheelbase",
-                    field("##base", kSettingMillimetres, 0.01, 10.0,
-                          "Distance of the two points where the wheels touch the floor, as the odometry believes it."),
-                    drive->wheelbase_m, theme));
+    e = more(e, guide_row("Diameter of the left wheel",
+                          field("##left", kSettingMillimetres, 0.002, 2.0,
+                                "As the robot's odometry believes it; twice the radius."),
+                          left, theme));
+    e = more(e, guide_row("Diameter of the right wheel",
+                          field("##right", kSettingMillimetres, 0.002, 2.0,
+                                "As the robot's odometry believes it; twice the radius."),
+                          right, theme));
+    e = more(
+        e, guide_row("Wheelbase",
+                     field("##base", kSettingMillimetres, 0.01, 10.0,
+                           "Distance of the two points where the wheels touch the floor, as the odometry believes it."),
+                     drive->wheelbase_m, theme));
     drive->wheel_radius_left_m = 0.5 * left;
     drive->wheel_radius_right_m = 0.5 * right;
     keep(e, state, actions);
@@ -117,16 +118,16 @@ Actions tape_page(const GuideView& view, GuidePageState& state, const Theme& the
     actions.push_back(ChangeGuide{s});
   }
   ImGui::EndDisabled();
-  Edited e = row(
+  Edited e = guide_row(
       "The odometry says",
       field("##said", {"m", 1.0, 4, 0.001}, 0.05, 1000.0, "How far the robot believes to have gone, straight ahead."),
       reading.calculated_m, theme);
-  e = more(e, row("The tape says", field("##tape", {"m", 1.0, 4, 0.001}, 0.05, 1000.0, "How far it really went."),
-                  reading.actual_m, theme));
-  e = more(
-      e, row("The tape is good to",
-             field("##good", kReadMillimetres, 0.0001, 0.1, "Standard deviation of the reading; 1 to 2 mm with care."),
-             reading.tape_accuracy_m, theme));
+  e = more(e, guide_row("The tape says", field("##tape", {"m", 1.0, 4, 0.001}, 0.05, 1000.0, "How far it really went."),
+                        reading.actual_m, theme));
+  e = more(e, guide_row("The tape is good to",
+                        field("##good", kReadMillimetres, 0.0001, 0.1,
+                              "Standard deviation of the reading; 1 to 2 mm with care."),
+                        reading.tape_accuracy_m, theme));
   if (e != Edited::no && has_tape) s.tape = reading;
   keep(e, state, actions);
   if (fixed) note("Runs were driven with this scale, so it stays.", theme);
@@ -157,10 +158,11 @@ Actions drive_page(const GuideView& view, GuidePageState& state, const Theme& th
     NumberField side{"##side", kMetres, 0.2, 100.0,
                      "Side of the square. The report drives 4 m; a larger one shows errors of the wheels better."};
     side.enabled = !begun;
-    Edited e = row("Side of the square", side, s.side_m, theme);
+    Edited e = guide_row("Side of the square", side, s.side_m, theme);
     double runs = s.runs_each_way;
-    e = more(e, row("Runs each way", {"##runs", {"", 1.0, 0, 0.1}, 1.0, 50.0, "The report drives five (section 3.2)."},
-                    runs, theme));
+    e = more(
+        e, guide_row("Runs each way", {"##runs", {"", 1.0, 0, 0.1}, 1.0, 50.0, "The report drives five (section 3.2)."},
+                     runs, theme));
     s.runs_each_way = int(std::lround(runs));
     keep(e, state, actions);
   }

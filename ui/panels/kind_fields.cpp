@@ -9,7 +9,7 @@ namespace odolab::ui {
 
 namespace {
 
-Unit unit_of(ParameterUnit unit, double value_si) {
+Unit unit_of_parameter(ParameterUnit unit, double value_si) {
   switch (unit) {
     case ParameterUnit::metres:
       return std::abs(value_si) >= 0.2 ? Unit{"mm", 1e3, 1, 0.05} : Unit{"mm", 1e3, 2, 0.02};
@@ -33,7 +33,7 @@ Unit unit_of(ParameterUnit unit, double value_si) {
   return kCoefficient;
 }
 
-Edited row(const VehicleParameter& nominal, const VehicleParameter& real, const Theme& theme) {
+Edited parameter_row(const VehicleParameter& nominal, const VehicleParameter& real, const Theme& theme) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
@@ -41,7 +41,7 @@ Edited row(const VehicleParameter& nominal, const VehicleParameter& real, const 
   tooltip(nominal.about, theme);
   ImGui::PushID(nominal.label.c_str());
   ImGui::TableNextColumn();
-  const Unit unit = unit_of(nominal.unit, *nominal.value);
+  const Unit unit = unit_of_parameter(nominal.unit, *nominal.value);
   Edited result = number_field(
       {"##nominal", unit, 0.0, 0.0, nominal.about + "\n\nNominal: the number that the vehicle's odometry works with."},
       *nominal.value, -1.0f, theme);
@@ -68,7 +68,7 @@ Edited lengths(const std::vector<VehicleParameter>& nominal, const std::vector<V
     if (open && ImGui::BeginTable(("lengths" + group).c_str(), 3)) {
       nominal_and_true_columns(0.9f, theme);
       ImGui::PushID(group.c_str());
-      for (; i < end; ++i) result = more(result, row(nominal[i], real[i], theme));
+      for (; i < end; ++i) result = more(result, parameter_row(nominal[i], real[i], theme));
       ImGui::PopID();
       ImGui::EndTable();
     }
@@ -84,8 +84,9 @@ Edited machine(Scenario& draft, const Theme& theme) {
     if (p.group != group) ImGui::TextDisabled("%s", p.group.c_str());
     group = p.group;
     ImGui::PushID(group.c_str());
-    result = more(result, number_row(p.label.c_str(), {p.label.c_str(), unit_of(p.unit, *p.value), 0.0, 0.0, p.about},
-                                     *p.value, theme));
+    result = more(result,
+                  number_row(p.label.c_str(), {p.label.c_str(), unit_of_parameter(p.unit, *p.value), 0.0, 0.0, p.about},
+                             *p.value, theme));
     ImGui::PopID();
   }
   if (ImGui::Checkbox("Ideal motors", &draft.motor.ideal)) result = Edited::done;

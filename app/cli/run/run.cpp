@@ -21,7 +21,7 @@ struct RunOptions {
   bool check = false;
 };
 
-Result<Done> write(const RunOutputs& out, const Scenario& scenario, const std::string& folder) {
+Result<Done> write_run(const RunOutputs& out, const Scenario& scenario, const std::string& folder) {
   Json summary = Json::object();
   summary["scenario"] = scenario.name;
   summary["seed"] = scenario.seed;
@@ -70,7 +70,7 @@ std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
           {"mass_kg", "", text_of("%.4g", actual.mass_kg)}};
 }
 
-int execute(const RunOptions& options) {
+int execute_run(const RunOptions& options) {
   if (file_kind(options.scenario) == FileKind::lesson) return run_lesson(options.scenario, options.out, options.check);
   Result<Scenario> scenario = read_scenario(options.scenario);
   if (!scenario) return bad_input(scenario.error());
@@ -102,7 +102,7 @@ int execute(const RunOptions& options) {
 
   const std::string folder =
       options.out.empty() ? "out/" + std::filesystem::path(options.scenario).stem().string() : options.out;
-  if (Result<Done> written = write(*out, *scenario, folder); !written) return bad_input(written.error());
+  if (Result<Done> written = write_run(*out, *scenario, folder); !written) return bad_input(written.error());
   for (const std::string& sentence : out->sentences) std::printf("%s\n", sentence.c_str());
   std::printf("written: %s/report.html, summary.json, recordings and pictures\n", folder.c_str());
   if (!options.check) return kDone;
@@ -132,7 +132,7 @@ Command run_command() {
     arguments.option("--out", options->out, "folder for what it writes; out/SCENARIO if not given");
     arguments.flag("--check", options->check, "judge the scenario's own expectations; exit 1 where one fails");
   };
-  command.execute = [options] { return execute(*options); };
+  command.execute = [options] { return execute_run(*options); };
   return command;
 }
 

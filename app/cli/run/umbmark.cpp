@@ -40,7 +40,7 @@ void add_calibration(RunOutputs& out, const UmbmarkCalibration& c, const Differe
               2e3 * c.corrected.wheel_radius_right_m));
 }
 
-Json json_of(const UmbmarkStage& stage) {
+Json json_of_stage(const UmbmarkStage& stage) {
   Json json = Json::object();
   json["wheel_radius_left_m"] = stage.nominal.wheel_radius_left_m;
   json["wheel_radius_right_m"] = stage.nominal.wheel_radius_right_m;
@@ -107,7 +107,7 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
                     millimetres(m.counter_clockwise.distance_m), millimetres(m.spread_m),
                     millimetres(m.standard_error_m)});
     if (stages[k].calibration) add_calibration(out, *stages[k].calibration, stages[k].nominal);
-    out.details["stages"].push_back(json_of(stages[k]));
+    out.details["stages"].push_back(json_of_stage(stages[k]));
     picture.experiments.push_back({name_of(k), stages[k].runs});
   }
   out.report.table({"[mm]", "Emax,syst", "cw", "ccw", "spread", "SEM"}, rows);

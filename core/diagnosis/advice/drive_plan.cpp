@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLongest_s = 180.0;
+constexpr double kLongestDrive_s = 180.0;
 constexpr int kMostDrives = 5;
 
 }  // namespace
@@ -49,7 +49,7 @@ DrivePlan planned(const MatrixXd& known, const std::vector<MatrixXd>& adds, cons
     int best = -1;
     double best_rate = 0.0;
     for (std::size_t m = 0; m < all.size(); ++m) {
-      if (plan.duration_s + all[m].duration_s() > kLongest_s) continue;
+      if (plan.duration_s + all[m].duration_s() > kLongestDrive_s) continue;
       const double rate = (left - open(now + adds[m])) / all[m].duration_s();
       if (rate > best_rate) best_rate = rate, best = static_cast<int>(m);
     }

@@ -76,16 +76,16 @@ struct Steps {
   std::size_t first, last;
 };
 
-constexpr double kLongest_s = 1.0;
+constexpr double kLongestBump_s = 1.0;
 
 // So much of a wheel's way about the middle of a step.
 Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
   const double at_s = view.steps[middle].time_s;
   Steps s{middle, middle};
   double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
-  while (s.first > 0 && before < 0.5 * length_m && at_s - view.steps[s.first].time_s < kLongest_s)
+  while (s.first > 0 && before < 0.5 * length_m && at_s - view.steps[s.first].time_s < kLongestBump_s)
     before += std::abs(way(wheel, view.steps[--s.first]));
-  while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongest_s)
+  while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongestBump_s)
     behind += std::abs(way(wheel, view.steps[++s.last]));
   return s;
 }
@@ -95,7 +95,7 @@ Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double l
   Steps s{first, first};
   double gone = std::abs(way(wheel, view.steps[first]));
   while (s.last + 1 < view.steps.size() && gone < length_m &&
-         view.steps[s.last].time_s - view.steps[first].time_s < kLongest_s)
+         view.steps[s.last].time_s - view.steps[first].time_s < kLongestBump_s)
     gone += std::abs(way(wheel, view.steps[++s.last]));
   return s;
 }
@@ -158,7 +158,7 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
   return m;
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect bump_of(Wheel wheel) {
   Effect e;
   e.name = "bump";
   e.component = component_of(wheel);
@@ -175,7 +175,7 @@ Effect of_wheel(Wheel wheel) {
 }
 
 Effect once(Wheel wheel) {
-  Effect e = of_wheel(wheel);
+  Effect e = bump_of(wheel);
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.forms = {"over 6 cm of way",
              "over 2 cm",
@@ -226,7 +226,7 @@ std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& 
 }
 
 Effect each_time(Wheel wheel) {
-  Effect e = of_wheel(wheel);
+  Effect e = bump_of(wheel);
   e.shapes = {{"x_m", "m"}, {"y_m", "m"}};
   e.forms = {"20 cm wide, climbed in 6 cm",
              "10 cm wide",

@@ -17,7 +17,7 @@ constexpr struct {
   bool to_one_side;
   Course course;
   double length_m = 0.0;  // over which it is even, or falls to a third; or a castor's trail
-} kForms[] = {
+} kKickForms[] = {
     {"always to the same side, within 5 cm of way", true, Course::evenly, 0.05},
     {"to one side forwards and the other in reverse, within 5 cm", false, Course::evenly, 0.05},
     {"always to the same side, within 20 cm", true, Course::evenly, 0.2},
@@ -182,7 +182,7 @@ std::vector<Effect> castor_reversal_kick() {
   e.name = "castor_reversal_kick";
   e.component = "vehicle";
   e.amplitudes = {{"kick_rad", "rad", 0.01, -0.5, 0.5}};
-  for (const auto& form : kForms) e.forms.push_back(form.in_words);
+  for (const auto& form : kKickForms) e.forms.push_back(form.in_words);
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.tests_of_a_shape = 0.6;  // kicks are much alike, however long they last
@@ -199,7 +199,7 @@ std::vector<Effect> castor_reversal_kick() {
     });
   };
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    const auto& [in_words, to_one_side, course, length_m] = kForms[static_cast<std::size_t>(shape.back())];
+    const auto& [in_words, to_one_side, course, length_m] = kKickForms[static_cast<std::size_t>(shape.back())];
     switch (course) {
       case Course::evenly:
         return motions_by_number(even_kicks(view, to_one_side, length_m));

@@ -15,7 +15,7 @@ constexpr double kAtOnce = 0.0, kStiff_rad = 1e-4;
 constexpr struct {
   const char* in_words;
   double drag_mps2 = kAtOnce, yields_rad = kStiff_rad;
-} kForms[] = {
+} kPlayForms[] = {
     {"engaged at the start"},
     {"in the middle of the play at the start"},
     {"crossed too where it brakes harder than 0.05 m/s2", 0.05},
@@ -52,9 +52,9 @@ std::vector<double> evenly_read(const DriveView& view, bool left) {
 // the wheel does by itself: then the wheel drives on until the other flank holds it.
 std::vector<double> lost(const DriveView& view, bool left, double gap_rad, std::size_t form) {
   std::vector<double> share(view.steps.size());
-  const double half = 0.5 * std::max(gap_rad, kForms[form].yields_rad);
+  const double half = 0.5 * std::max(gap_rad, kPlayForms[form].yields_rad);
   const double radius_m = left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
-  const double drag_radps2 = kForms[form].drag_mps2 / radius_m;
+  const double drag_radps2 = kPlayForms[form].drag_mps2 / radius_m;
   // Of the encoder's side within the play, -half to half: where it stood at the start shows only in the first
   // movement's direction.
   double place = form == kMiddleAtTheStart ? 0.0 : half * first_direction(view, left);
@@ -95,14 +95,14 @@ int reversals_of(const DriveView& view, bool left, double more_rad) {
   return reversals;
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect play_of(Wheel wheel) {
   Effect e;
   e.name = "drivetrain_backlash";
   e.component = component_of(wheel);
   e.amplitudes = {{"gap_rad", "rad", 0.03, 0.0, 1.0}};
   e.shapes = {{"gap_rad", "rad"}};
   e.shape_follows_amplitude = true;
-  for (const auto& form : kForms) e.forms.push_back(form.in_words);
+  for (const auto& form : kPlayForms) e.forms.push_back(form.in_words);
   e.sentence = std::string("there is play between the encoder and ") + (wheel == Wheel::left    ? "the left wheel"
                                                                         : wheel == Wheel::right ? "the right wheel"
                                                                                                 : "both wheels");
@@ -143,12 +143,12 @@ Effect of_wheel(Wheel wheel) {
 }  // namespace
 
 std::optional<double> backlash_drag_mps2(int form) {
-  const double drag_mps2 = kForms[form].drag_mps2;
+  const double drag_mps2 = kPlayForms[form].drag_mps2;
   return drag_mps2 == kAtOnce ? std::nullopt : std::optional(drag_mps2);
 }
 
 std::vector<Effect> drivetrain_backlash() {
-  return {of_wheel(Wheel::left), of_wheel(Wheel::right), of_wheel(Wheel::both)};
+  return {play_of(Wheel::left), play_of(Wheel::right), play_of(Wheel::both)};
 }
 
 }  // namespace odolab::effects

@@ -58,7 +58,7 @@ bool hovers_about(double limit_radps, const DriveView& view, double EffectStep::
   return near_m > kMost * all_m;
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect missed_counts_of(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
   e.component = component_of(wheel);
@@ -95,7 +95,7 @@ Effect of_wheel(Wheel wheel) {
 }  // namespace
 
 std::vector<Effect> encoder_missed_counts() {
-  return {of_wheel(Wheel::left), of_wheel(Wheel::right), of_wheel(Wheel::both)};
+  return {missed_counts_of(Wheel::left), missed_counts_of(Wheel::right), missed_counts_of(Wheel::both)};
 }
 
 }  // namespace odolab::effects

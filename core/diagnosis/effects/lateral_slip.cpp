@@ -11,12 +11,12 @@ namespace odolab::effects {
 
 namespace {
 
-struct Form {
+struct LateralSlipForm {
   const char* in_words;
   bool at_an_angle;
   double settles_s = 0.0;
 };
-constexpr Form kForms[] = {
+constexpr LateralSlipForm kLateralSlipForms[] = {
     {"at a speed in proportion to the lateral acceleration", false},
     {"at an angle in proportion to it", true},
     {"at a speed in proportion to it, which it comes to within 0.06 s", false, 0.06},
@@ -25,7 +25,7 @@ constexpr Form kForms[] = {
     {"at a speed in proportion to it, which it comes to within 0.28 s", false, 0.28},
 };
 
-Motions slipped_by(const DriveView& view, const Form& form) {
+Motions slipped_by(const DriveView& view, const LateralSlipForm& form) {
   Motions m;
   m.reserve(view.steps.size());
   double to_the_left_mps2 = 0.0;
@@ -42,12 +42,12 @@ Motions slipped_by(const DriveView& view, const Form& form) {
 bool settles_so(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                 const std::vector<DriveView>& views) {
   constexpr double kNear = 1.5;
-  const Form& form = kForms[std::lround(shape.back())];
+  const LateralSlipForm& form = kLateralSlipForms[std::lround(shape.back())];
   if (form.settles_s == 0.0) return true;
   if (value[0] < form.settles_s / kNear || value[0] > form.settles_s * kNear) return false;
   return part_by_more_than_counts([&](const DriveView& view) { return slipped_by(view, form); },
-                                  [](const DriveView& view) { return slipped_by(view, kForms[0]); }, value[0],
-                                  count_rad, views);
+                                  [](const DriveView& view) { return slipped_by(view, kLateralSlipForms[0]); },
+                                  value[0], count_rad, views);
 }
 
 // At which slip at an angle is as large as slip that does not grow with the speed, by least squares.
@@ -69,7 +69,7 @@ std::vector<Effect> lateral_slip() {
   e.name = "lateral_slip";
   e.component = "vehicle";
   e.amplitudes = {{"m_per_s_per_mps2", "s", 0.02, 0.0, 0.5}};
-  for (const Form& form : kForms) e.forms.push_back(form.in_words);
+  for (const LateralSlipForm& form : kLateralSlipForms) e.forms.push_back(form.in_words);
   e.tests_of_a_shape = 0.6;  // but for how it begins and ends it is the same in all but one of them
   e.form_goes_with = settles_so;
   e.sentence = "in bends the vehicle slips outwards, in proportion to its lateral acceleration";
@@ -77,10 +77,10 @@ std::vector<Effect> lateral_slip() {
   e.looks_like = {"truth_mounting_offset", "tyre_compression"};
   e.told_apart_by = "arcs at two speeds or more, and turns on the spot";
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    return motions_by_number(slipped_by(view, kForms[std::lround(shape.back())]));
+    return motions_by_number(slipped_by(view, kLateralSlipForms[std::lround(shape.back())]));
   };
   e.stated_at_mps = [](const std::vector<double>& shape, const std::vector<DriveView>& views) {
-    return kForms[std::lround(shape.back())].at_an_angle ? speed_of_bends_mps(views) : 0.0;
+    return kLateralSlipForms[std::lround(shape.back())].at_an_angle ? speed_of_bends_mps(views) : 0.0;
   };
   e.from_parameters = [](const ActiveEffect& a) {
     return std::vector<double>{a.parameter("m_per_s_per_mps2") / a.parameter(kStatedAt, 1.0)};

@@ -11,12 +11,12 @@ namespace odolab::effects {
 namespace {
 constexpr std::size_t kFrom = 0, kForm = 1;  // of a shape
 
-struct Form {
+struct DriftForm {
   const char* in_words;
   bool through_the_session;
   double time_constant_s;  // 0: for ever
 };
-constexpr Form kForms[] = {
+constexpr DriftForm kDriftForms[] = {
     {"anew in each recording", false, 0.0},
     {"on through all recordings, by their stamps", true, 0.0},
     {"anew in each recording, towards an end that is half reached after 40 s", false, 60.0},
@@ -24,17 +24,17 @@ constexpr Form kForms[] = {
     {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true,
      240.0},
 };
-const Form& form_of(const std::vector<double>& shape) {
-  return kForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];
+const DriftForm& form_of(const std::vector<double>& shape) {
+  return kDriftForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect drift_of(Wheel wheel) {
   Effect e;
   e.name = "radius_drift";
   e.component = component_of(wheel);
   e.amplitudes = {{"per_s", "1/s", 1e-4, -0.01, 0.01}};
   e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
-  for (const Form& form : kForms) {
+  for (const DriftForm& form : kDriftForms) {
     e.forms.push_back(form.in_words);
     e.simpler_form.push_back(form.through_the_session ? 1 : 0);  // for ever
   }
@@ -55,7 +55,7 @@ Effect of_wheel(Wheel wheel) {
     return std::vector<std::vector<double>>{{first_s}};
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    const Form& form = form_of(shape);
+    const DriftForm& form = form_of(shape);
     Motions m;
     for (const EffectStep& s : view.steps) {
       const double t =
@@ -75,10 +75,10 @@ double drifted_s(double since_s, double time_constant_s) {
   return time_constant_s > 0.0 ? time_constant_s * -std::expm1(-since_s / time_constant_s) : since_s;
 }
 
-bool drifts_through_the_session(int form) { return kForms[form].through_the_session; }
+bool drifts_through_the_session(int form) { return kDriftForms[form].through_the_session; }
 
-double drift_time_constant_s(int form) { return kForms[form].time_constant_s; }
+double drift_time_constant_s(int form) { return kDriftForms[form].time_constant_s; }
 
-std::vector<Effect> radius_drift() { return {of_wheel(Wheel::both), of_wheel(Wheel::left), of_wheel(Wheel::right)}; }
+std::vector<Effect> radius_drift() { return {drift_of(Wheel::both), drift_of(Wheel::left), drift_of(Wheel::right)}; }
 
 }  // namespace odolab::effects

@@ -8,7 +8,7 @@ namespace odolab::effects {
 
 namespace {
 
-Effect of_wheel(Wheel wheel) {
+Effect growth_of(Wheel wheel) {
   Effect e;
   e.name = "speed_dependent_radius";
   e.component = component_of(wheel);
@@ -40,7 +40,7 @@ Effect of_wheel(Wheel wheel) {
 }  // namespace
 
 std::vector<Effect> speed_dependent_radius() {
-  return {of_wheel(Wheel::both), of_wheel(Wheel::left), of_wheel(Wheel::right)};
+  return {growth_of(Wheel::both), growth_of(Wheel::left), growth_of(Wheel::right)};
 }
 
 }  // namespace odolab::effects

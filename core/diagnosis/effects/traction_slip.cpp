@@ -18,13 +18,13 @@ namespace {
 // about the axle's middle: 2 d / b of the lateral acceleration at either wheel. `gives_way_s_per_mps`: a vehicle whose
 // wheels slip speeds up by less than they do, s' = k v (a - s'') of the way s that is lost, so that s' stays behind
 // k v a by k v; and by what a tyre's relaxation length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
-struct Form {
+struct TractionForm {
   const char* in_words;
   double of_turning, of_bends;
   std::optional<double> gives_way_s_per_mps = std::nullopt;
 };
 constexpr double kRelaxes_s = 0.03;
-constexpr Form kForms[] = {
+constexpr TractionForm kTractionForms[] = {
     {"each wheel by its own acceleration", 1.0, 0.0},
     {"the vehicle by its acceleration", 0.0, 0.0},
     {"each wheel by what it pushes of a body as long as it is wide", 0.6, 0.0},
@@ -40,7 +40,7 @@ constexpr Form kForms[] = {
 struct Tyre {
   double owed = 0.0;  // way that is still to be lost, for one per m/s2
 
-  double slip(double way_m, double acceleration_mps2, double duration_s, const Form& form) {
+  double slip(double way_m, double acceleration_mps2, double duration_s, const TractionForm& form) {
     owed += std::abs(way_m) * acceleration_mps2;
     if (!form.gives_way_s_per_mps || duration_s <= 0.0) return std::exchange(owed, 0.0);
     const double behind_s = kRelaxes_s + *form.gives_way_s_per_mps * std::abs(way_m) / duration_s;
@@ -50,7 +50,7 @@ struct Tyre {
   }
 };
 
-Motions lost_by(Wheel wheel, const DriveView& view, const Form& form) {
+Motions lost_by(Wheel wheel, const DriveView& view, const TractionForm& form) {
   Motions m;
   m.reserve(view.steps.size());
   const double b = view.drive.wheelbase_m;
@@ -72,16 +72,16 @@ Motions lost_by(Wheel wheel, const DriveView& view, const Form& form) {
 // What stays behind by as much as it slips, to within a factor of two, and by more than whole counts feign.
 bool stays_behind_so(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                      const std::vector<DriveView>& views) {
-  const Form& form = kForms[std::lround(shape.back())];
+  const TractionForm& form = kTractionForms[std::lround(shape.back())];
   const double by = form.gives_way_s_per_mps.value_or(0.0);
   if (by == 0.0) return true;
   if (value[0] < 0.5 * by || value[0] > 2.0 * by) return false;
   return part_by_more_than_counts([&](const DriveView& view) { return lost_by(Wheel::both, view, form); },
-                                  [](const DriveView& view) { return lost_by(Wheel::both, view, kForms[0]); }, value[0],
-                                  count_rad, views);
+                                  [](const DriveView& view) { return lost_by(Wheel::both, view, kTractionForms[0]); },
+                                  value[0], count_rad, views);
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect slip_of(Wheel wheel) {
   Effect e;
   e.name = "traction_slip";
   e.component = component_of(wheel);
@@ -94,18 +94,19 @@ Effect of_wheel(Wheel wheel) {
   e.looks_like = {"clock_rate", "truth_time_offset", "drivetrain_backlash", "actuator_lag"};
   e.told_apart_by = "hard braking against hard accelerating, forwards and in reverse";
   if (wheel == Wheel::both) {
-    for (const Form& form : kForms) e.forms.push_back(form.in_words);
+    for (const TractionForm& form : kTractionForms) e.forms.push_back(form.in_words);
     e.tests_of_a_shape = 0.6;  // on straights they are the same
     e.form_goes_with = stays_behind_so;
   }
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    return motions_by_number(lost_by(wheel, view, kForms[wheel == Wheel::both ? std::lround(shape.back()) : 0]));
+    return motions_by_number(
+        lost_by(wheel, view, kTractionForms[wheel == Wheel::both ? std::lround(shape.back()) : 0]));
   };
   return e;
 }
 
 }  // namespace
 
-std::vector<Effect> traction_slip() { return {of_wheel(Wheel::both), of_wheel(Wheel::left), of_wheel(Wheel::right)}; }
+std::vector<Effect> traction_slip() { return {slip_of(Wheel::both), slip_of(Wheel::left), slip_of(Wheel::right)}; }
 
 }  // namespace odolab::effects

@@ -33,7 +33,7 @@ std::vector<Motions> sine_and_cosine(const DriveView& view, Wheel wheel) {
   return {sine, cosine};
 }
 
-Effect of_wheel(Wheel wheel) {
+Effect eccentricity_of(Wheel wheel) {
   Effect e = out_of_round(wheel);
   e.amplitudes = {{"sine", "1", 0.005, -0.2, 0.2}, {"cosine", "1", 0.005, -0.2, 0.2}};
   e.motions = [wheel](const DriveView& view, const std::vector<double>&) { return sine_and_cosine(view, wheel); };
@@ -84,6 +84,6 @@ const std::vector<Effect>& wheel_eccentricity_of_each_run(int runs) {
   return of;
 }
 
-std::vector<Effect> wheel_eccentricity() { return {of_wheel(Wheel::left), of_wheel(Wheel::right)}; }
+std::vector<Effect> wheel_eccentricity() { return {eccentricity_of(Wheel::left), eccentricity_of(Wheel::right)}; }
 
 }  // namespace odolab::effects

@@ -12,8 +12,8 @@ namespace odolab {
 namespace {
 
 // Where the hats stand, in seconds since the change, and begin and end. What follows at once is the clock's.
-constexpr double kSince_s[] = {0.0, 0.12, 0.24, 0.36, 0.5, 0.65, 0.8, 1.0, 1.25, 1.6};
-constexpr std::size_t kHats = std::size(kSince_s) - 2;
+constexpr double kSinceChange_s[] = {0.0, 0.12, 0.24, 0.36, 0.5, 0.65, 0.8, 1.0, 1.25, 1.6};
+constexpr std::size_t kHatsAfterChange = std::size(kSinceChange_s) - 2;
 
 // A way that the wheels went since the start, at any time: it stands before and goes on behind.
 class WayAt {
@@ -47,14 +47,14 @@ template <double (*way_of)(const EffectStep&), double BodyMotion::*moves>
 std::vector<Motions> responses(const DriveView& view, const std::vector<double>&) {
   const std::vector<EffectStep>& steps = view.steps;
   const WayAt way(steps, way_of);
-  std::vector<Motions> out(kHats, Motions(steps.size()));
-  std::size_t from[kHats + 2] = {};
+  std::vector<Motions> out(kHatsAfterChange, Motions(steps.size()));
+  std::size_t from[kHatsAfterChange + 2] = {};
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    double at[kHats + 2];
-    for (std::size_t k = 0; k < kHats + 2; ++k) at[k] = way.at(steps[i].time_s - kSince_s[k], from[k]);
-    for (std::size_t k = 0; k < kHats; ++k) {
-      const double sooner = (at[k] - at[k + 1]) / (kSince_s[k + 1] - kSince_s[k]),
-                   later = (at[k + 1] - at[k + 2]) / (kSince_s[k + 2] - kSince_s[k + 1]);
+    double at[kHatsAfterChange + 2];
+    for (std::size_t k = 0; k < kHatsAfterChange + 2; ++k) at[k] = way.at(steps[i].time_s - kSinceChange_s[k], from[k]);
+    for (std::size_t k = 0; k < kHatsAfterChange; ++k) {
+      const double sooner = (at[k] - at[k + 1]) / (kSinceChange_s[k + 1] - kSinceChange_s[k]),
+                   later = (at[k + 1] - at[k + 2]) / (kSinceChange_s[k + 2] - kSinceChange_s[k + 1]);
       out[k][i].*moves = steps[i].duration_s * (sooner - later);
     }
   }
@@ -81,9 +81,10 @@ std::vector<GenericTest> after_change_tests(const AskedModel& asked, double look
   std::vector<GenericTest> tests(kAfterChangeTests);
   parallel_for(kAfterChangeTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    t = asked_of(asked, kAfterChange[i].variable, kAfterChange[i].channel, kHats, kAfterChange[i].motions, looked_at);
+    t = asked_of(asked, kAfterChange[i].variable, kAfterChange[i].channel, kHatsAfterChange, kAfterChange[i].motions,
+                 looked_at);
     leave_displaced_to_counting(t, asked.joint);
-    t.at.assign(std::begin(kSince_s) + 1, std::end(kSince_s) - 1);
+    t.at.assign(std::begin(kSinceChange_s) + 1, std::end(kSinceChange_s) - 1);
   });
   return tests;
 }

@@ -11,8 +11,8 @@ namespace odolab {
 
 namespace {
 
-constexpr double kSince_s[] = {0.0, 0.8, 2.5};
-constexpr std::size_t kHats = std::size(kSince_s);
+constexpr double kSinceRest_s[] = {0.0, 0.8, 2.5};
+constexpr std::size_t kHatsAtRest = std::size(kSinceRest_s);
 
 // For each step the time since both wheels came to rest, at its middle; below nothing where they do not. Between two
 // counts of a slow wheel there is none to be read either, for less than that.
@@ -28,10 +28,10 @@ std::vector<double> since_rest_s(const DriveView& view) {
 }
 
 template <double BodyMotion::*moves>
-std::vector<Motions> motions_of(const DriveView& view, const std::vector<double>&) {
-  const Hats hats({std::begin(kSince_s), std::end(kSince_s)});
+std::vector<Motions> motions_at_rest(const DriveView& view, const std::vector<double>&) {
+  const Hats hats({std::begin(kSinceRest_s), std::end(kSinceRest_s)});
   const std::vector<double> since_s = since_rest_s(view);
-  std::vector<Motions> out(kHats, Motions(view.steps.size()));
+  std::vector<Motions> out(kHatsAtRest, Motions(view.steps.size()));
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     if (since_s[i] < 0.0) continue;
     const Hats::Shares s = hats.of(since_s[i]);
@@ -48,9 +48,9 @@ std::vector<GenericTest> at_rest_tests(const AskedModel& asked, double looked_at
   if (std::any_of(views.begin(), views.end(), std::mem_fn(&DriveView::from_commands))) return {};
   const char* const kVariable = "time since it came to rest [s]";
   std::vector<GenericTest> tests{
-      asked_of(asked, kVariable, "yaw rate [rad/s]", kHats, motions_of<&BodyMotion::turn_rad>, looked_at),
-      asked_of(asked, kVariable, "pace [m/s]", kHats, motions_of<&BodyMotion::forward_m>, looked_at)};
-  for (GenericTest& t : tests) t.at.assign(std::begin(kSince_s), std::end(kSince_s));
+      asked_of(asked, kVariable, "yaw rate [rad/s]", kHatsAtRest, motions_at_rest<&BodyMotion::turn_rad>, looked_at),
+      asked_of(asked, kVariable, "pace [m/s]", kHatsAtRest, motions_at_rest<&BodyMotion::forward_m>, looked_at)};
+  for (GenericTest& t : tests) t.at.assign(std::begin(kSinceRest_s), std::end(kSinceRest_s));
   return tests;
 }
 

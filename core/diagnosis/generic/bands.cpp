@@ -97,7 +97,7 @@ Band strongest(const AskedModel& asked, const Variable& variable, int channel) {
 }
 
 // What goes further, or turns, in a band by one for each metre.
-Motions motions_in(const Band& band, const Variable& variable, int channel, const DriveView& view) {
+Motions motions_in_band(const Band& band, const Variable& variable, int channel, const DriveView& view) {
   Motions m(view.steps.size());
   for (std::size_t k = 0; k < view.steps.size(); ++k)
     if (const double x = variable.of(view.steps[k]); x >= band.low && x < band.high)
@@ -130,7 +130,7 @@ std::vector<GenericTest> band_tests(const AskedModel& asked, const Shaken& shake
     tests[static_cast<std::size_t>(i)] = asked_of(
         asked, name, name_of_channel(one.channel), 1,
         [one](const DriveView& view, const std::vector<double>&) {
-          return motions_by_number(motions_in(one.band, one.variable, one.channel, view));
+          return motions_by_number(motions_in_band(one.band, one.variable, one.channel, view));
         },
         looked_at);
   });

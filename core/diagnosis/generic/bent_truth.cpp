@@ -33,7 +33,7 @@ void gradients_at(const Vec2& at, const FloorSquare& floor, Gradient* out) {
     }
 }
 
-std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor, bool headings_too) {
+std::vector<Motions> motions_of_bends(const DriveView& view, const FloorSquare& floor, bool headings_too) {
   std::vector<Motions> out(kFields, Motions(view.steps.size()));
   Gradient of[kFields];
   double turned[kFields] = {}, before[kFields] = {};
@@ -53,7 +53,7 @@ std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor,
 }
 
 // How far off the truth is along the middle of the floor, from one end to the other.
-GenericCurve curve_along(bool x, const FloorSquare& floor) {
+GenericCurve bend_along(bool x, const FloorSquare& floor) {
   constexpr int kPoints = 25;
   GenericCurve curve;
   curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
@@ -83,10 +83,10 @@ std::vector<GenericTest> bent_truth_tests(const AskedModel& asked, double looked
     t = asked_of(
         asked, "place on the floor", headings_too ? "truth's position and heading" : "truth's position", kFields,
         [floor, headings_too](const DriveView& view, const std::vector<double>&) {
-          return motions_of(view, floor, headings_too);
+          return motions_of_bends(view, floor, headings_too);
         },
         looked_at);
-    t.curves = {curve_along(true, floor), curve_along(false, floor)};
+    t.curves = {bend_along(true, floor), bend_along(false, floor)};
   });
   return tests;
 }

@@ -18,18 +18,18 @@ namespace {
 
 constexpr int kFreedom = 3;             // of a push: x, y, heading
 constexpr double kNinetySeven = 8.947;  // of that chi-square
-constexpr double kApart_s = 1.0;
+constexpr double kBurstsApart_s = 1.0;
 // The mean excess of one moment is 2.16, and so is that of the largest of each second: 2.17 over 122 sets of five
 // programs in which nothing is missing. Noise with a heavier tail is noise still: with this mean the least likely of
 // them came to 0.03.
 constexpr double kByNoise = 3.3;
-constexpr std::size_t kFewest = 5;
+constexpr std::size_t kFewestBursts = 5;
 
-double sum_of(const std::vector<Burst>& bursts) {
+double sum_of_bursts(const std::vector<Burst>& bursts) {
   return std::accumulate(bursts.begin(), bursts.end(), 0.0, [](double sum, const Burst& b) { return sum + b.excess; });
 }
 
-std::string in_words(const std::vector<Burst>& bursts, const JointModel& joint) {
+std::string bursts_in_words(const std::vector<Burst>& bursts, const JointModel& joint) {
   constexpr std::size_t kMostSaid = 3;
   std::string words;
   for (std::size_t k = 0; k < std::min(bursts.size(), kMostSaid); ++k) {
@@ -55,7 +55,7 @@ std::vector<Burst> bursts_of(std::vector<Burst> statistics) {
   for (Burst& b : statistics) {
     b.excess -= kNinetySeven;
     if (b.excess <= 0.0) continue;
-    if (bursts.empty() || bursts.back().run != b.run || b.at_s - last_s > kApart_s)
+    if (bursts.empty() || bursts.back().run != b.run || b.at_s - last_s > kBurstsApart_s)
       bursts.push_back(b);
     else if (b.excess > bursts.back().excess)
       bursts.back() = b;
@@ -67,7 +67,7 @@ std::vector<Burst> bursts_of(std::vector<Burst> statistics) {
 
 double chance_of(const std::vector<Burst>& bursts) {
   // Excesses fall off exponentially: twice their sum, in means, is a chi-square of twice as many.
-  return chi_square_tail(2.0 * sum_of(bursts) / kByNoise, 2 * static_cast<int>(bursts.size()));
+  return chi_square_tail(2.0 * sum_of_bursts(bursts) / kByNoise, 2 * static_cast<int>(bursts.size()));
 }
 
 std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error) {
@@ -91,13 +91,13 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
     return std::pair{a.run, a.at_s} < std::pair{b.run, b.at_s};
   });
   const std::vector<Burst> bursts = bursts_of(std::move(all));
-  if (bursts.size() < kFewest) return std::nullopt;
+  if (bursts.size() < kFewestBursts) return std::nullopt;
   Unnamed u;
   u.p_value = chance_of(bursts);
-  u.gain = sum_of(bursts) - kByNoise * static_cast<double>(bursts.size());
+  u.gain = sum_of_bursts(bursts) - kByNoise * static_cast<double>(bursts.size());
   if (u.p_value > error || u.gain < kMostLeft * explained) return std::nullopt;
   u.where.regime = "what happens at moments of its own, larger and more often than noise makes it (most of it in " +
-                   in_words(bursts, joint) + ")";
+                   bursts_in_words(bursts, joint) + ")";
   return u;
 }
 

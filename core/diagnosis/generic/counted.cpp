@@ -12,9 +12,9 @@ namespace odolab {
 
 namespace {
 
-constexpr double kHidden = 0.5;  // counts
-constexpr double kTeeth = 3.0;   // a turn: more is no shape of a wheel
-constexpr double kEvenly = 0.2;  // of a term's motion; twice what chance makes of a term of twenty readings
+constexpr double kHidden = 0.5;       // counts
+constexpr double kTeeth = 3.0;        // a turn: more is no shape of a wheel
+constexpr double kEvenlyMoved = 0.2;  // of a term's motion; twice what chance makes of a term of twenty readings
 
 // From the lowest to the highest of some numbers, zero among them.
 struct Extent {
@@ -27,7 +27,7 @@ struct Extent {
 // reading to reading, or to the next but one, two or three: only then do remainders take as long to come back as the
 // term does.
 constexpr int kApart = 4;
-struct Moved {
+struct MovedInAll {
   double all_m = 0.0;
   std::array<double, kApart> evenly_m{};  // by how many readings lie between, the fewest first
   void add(const DriveView& view, double EffectStep::*by_rad, double count_rad, const std::vector<double>& moved_m) {
@@ -75,7 +75,7 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
   const DifferentialDrive& drive = joint.model.drive;
   std::vector<Motions> motions;
   for (const DriveView& view : joint.views()) motions.push_back(motion_of(term, view, {}, value));
-  Moved moved;
+  MovedInAll moved;
   double furthest = 0.0;  // counts
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
@@ -105,7 +105,7 @@ bool is_hidden(const JointModel& joint, const Effect& term, const std::vector<do
   for (int apart = 1; apart <= kApart; ++apart)
     if (furthest <= kHidden * std::min(1.0, 2.0 / apart))
       evenly_m += moved.evenly_m[static_cast<std::size_t>(apart - 1)];
-  return evenly_m > kEvenly * moved.all_m;
+  return evenly_m > kEvenlyMoved * moved.all_m;
 }
 
 }  // namespace

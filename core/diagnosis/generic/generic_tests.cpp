@@ -77,7 +77,7 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
 
 namespace {
 
-void hold_against_readings(const JointModel& joint, std::vector<GenericTest>& tests) {
+void hold_tests_against_readings(const JointModel& joint, std::vector<GenericTest>& tests) {
   constexpr double kWorthAsking = 0.05;
   std::vector<GenericTest*> worth;
   for (GenericTest& t : tests)
@@ -191,7 +191,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
         on_a_patch_tests(asked_model, n), band_tests(asked_model, shaken, n), swinging_tests(asked_model, n),
         truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
-  hold_against_readings(joint, tests);
+  hold_tests_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
   });

@@ -17,7 +17,7 @@ using Lateness = std::function<void(const EffectStep&, std::vector<double>&)>;
 
 // A truth that is `late_s` behind is where the vehicle was: the way back along its velocity, which changes from step to
 // step.
-std::vector<Motions> motions_of(const DriveView& view, const Lateness& lateness, std::size_t count) {
+std::vector<Motions> motions_of_lateness(const DriveView& view, const Lateness& lateness, std::size_t count) {
   const std::size_t n = view.steps.size();
   std::vector<Motions> out(count, Motions(n));
   std::vector<double> now(count), before(count, 0.0);
@@ -33,7 +33,7 @@ std::vector<Motions> motions_of(const DriveView& view, const Lateness& lateness,
   return out;
 }
 
-constexpr std::size_t kHats = 8, kHatsOfEach = 5, kPolynomials = 5, kOfMotion = 2;
+constexpr std::size_t kHatsOfLateness = 8, kHatsOfEach = 5, kPolynomials = 5, kOfMotion = 2;
 
 Hats hats_until(double end_s, std::size_t count) {
   std::vector<double> at_s;
@@ -51,7 +51,7 @@ Lateness by_time(const Hats& hats) {
   };
 }
 
-Lateness by_place(Vec2 middle, double half_m) {
+Lateness late_by_place(Vec2 middle, double half_m) {
   return [=](const EffectStep& s, std::vector<double>& out) {
     const double u = (s.position.x_m - middle.x_m) / half_m, v = (s.position.y_m - middle.y_m) / half_m;
     out = {u, v, u * u, u * v, v * v};
@@ -74,7 +74,7 @@ GenericTest late_in_each(const AskedModel& asked, double looked_at) {
     if (run >= hats.size())  // a run that was not fitted
       return std::vector<Motions>(hats.size() * kHatsOfEach, Motions(view.steps.size()));
     std::vector<Motions> out(hats.size() * kHatsOfEach);
-    std::vector<Motions> of_run = motions_of(view, by_time(hats[run]), kHatsOfEach);
+    std::vector<Motions> of_run = motions_of_lateness(view, by_time(hats[run]), kHatsOfEach);
     std::move(of_run.begin(), of_run.end(), out.begin() + static_cast<std::ptrdiff_t>(run * kHatsOfEach));
     return out;
   };
@@ -99,9 +99,9 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
     Lateness lateness;
     std::vector<double> at;
   };
-  const Hats hats = hats_until(end_s, kHats);
-  const std::vector<Asked> all = {{"time since the start [s]", kHats, by_time(hats), hats.at()},
-                                  {"place on the floor", kPolynomials, by_place(middle, half_m), {}},
+  const Hats hats = hats_until(end_s, kHatsOfLateness);
+  const std::vector<Asked> all = {{"time since the start [s]", kHatsOfLateness, by_time(hats), hats.at()},
+                                  {"place on the floor", kPolynomials, late_by_place(middle, half_m), {}},
                                   {"yaw rate and speed", kOfMotion, by_motion, {}}};
   std::vector<GenericTest> tests(all.size());
   parallel_for(static_cast<int>(all.size()), [&](int i) {
@@ -110,7 +110,7 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
     t = asked_of(
         asked, variable, "truth late by [s]", amplitudes,
         [of = lateness, count = amplitudes](const DriveView& view, const std::vector<double>&) {
-          return motions_of(view, of, count);
+          return motions_of_lateness(view, of, count);
         },
         looked_at);
     t.at = at;

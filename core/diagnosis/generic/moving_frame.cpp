@@ -7,7 +7,7 @@ namespace {
 constexpr std::size_t kOfEach = 3;  // rad/s, and m/s along x and y
 
 // What a frame that moves adds to the motion that the truth shows: its own, seen from the vehicle.
-std::vector<Motions> motions_of(const DriveView& view, std::size_t runs) {
+std::vector<Motions> motions_of_frame(const DriveView& view, std::size_t runs) {
   std::vector<Motions> out(kOfEach * runs, Motions(view.steps.size()));
   const std::size_t first = kOfEach * static_cast<std::size_t>(view.number);
   if (first >= out.size()) return out;  // a run that was not fitted
@@ -30,7 +30,7 @@ std::vector<GenericTest> moving_frame_tests(const AskedModel& asked, double look
   const std::size_t runs = asked.joint.views().size();
   GenericTest t = asked_of(
       asked, "time", "turn and shift of the truth's frame", kOfEach * runs,
-      [runs](const DriveView& view, const std::vector<double>&) { return motions_of(view, runs); }, looked_at);
+      [runs](const DriveView& view, const std::vector<double>&) { return motions_of_frame(view, runs); }, looked_at);
   t.component = "truth";
   GenericCurve turns{"recording", "turn of the truth's frame [rad/s]", {}, {}};
   for (std::size_t run = 0; run < runs; ++run) {

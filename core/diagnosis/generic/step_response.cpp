@@ -12,16 +12,16 @@ namespace {
 
 // Where the hats stand, in seconds since the change: what follows at once is the clock's, and what stays for good,
 // behind the last, the commands' scale.
-constexpr double kSince_s[] = {0.04, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7, 1.0};
-constexpr std::size_t kHats = std::size(kSince_s) - 1;
+constexpr double kSinceStep_s[] = {0.04, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7, 1.0};
+constexpr std::size_t kHatsAfterStep = std::size(kSinceStep_s) - 1;
 
 // What may stay of it beside a lag: no loop is quite of the first order.
 constexpr double kOfALag = 0.5;
 
 double hat(std::size_t k, double since_s) {
-  if (since_s < kSince_s[k == 0 ? 0 : k - 1] || since_s >= kSince_s[k + 1]) return 0.0;
-  return since_s < kSince_s[k] ? (since_s - kSince_s[k - 1]) / (kSince_s[k] - kSince_s[k - 1])
-                               : (kSince_s[k + 1] - since_s) / (kSince_s[k + 1] - kSince_s[k]);
+  if (since_s < kSinceStep_s[k == 0 ? 0 : k - 1] || since_s >= kSinceStep_s[k + 1]) return 0.0;
+  return since_s < kSinceStep_s[k] ? (since_s - kSinceStep_s[k - 1]) / (kSinceStep_s[k] - kSinceStep_s[k - 1])
+                                   : (kSinceStep_s[k + 1] - since_s) / (kSinceStep_s[k + 1] - kSinceStep_s[k]);
 }
 
 constexpr double kChange = 1e-6;  // metres or radians per second; what is less is rounding
@@ -43,9 +43,9 @@ void add_responses(const std::vector<EffectStep>& steps, WayOf way_of, Weight we
     if (std::abs(now - before) > kChange)
       if (const double by = weight(before, now); by != 0.0) changes.push_back({s.time_s - 0.5 * s.duration_s, by});
     before = now;
-    while (oldest < changes.size() && s.time_s - changes[oldest].at_s >= kSince_s[kHats]) ++oldest;
+    while (oldest < changes.size() && s.time_s - changes[oldest].at_s >= kSinceStep_s[kHatsAfterStep]) ++oldest;
     for (std::size_t c = oldest; c < changes.size(); ++c)
-      for (std::size_t k = 0; k < kHats; ++k)
+      for (std::size_t k = 0; k < kHatsAfterStep; ++k)
         if (const double by = s.duration_s * hat(k, s.time_s - changes[c].at_s); by != 0.0)
           add(k, i, by * changes[c].by);
   }
@@ -57,7 +57,7 @@ double slowing(double before, double now) { return std::abs(now) < std::abs(befo
 double larger(double before, double now) { return (now - before) * std::abs(now - before); }
 
 std::vector<Motions> of_the_base(const DriveView& view, const std::vector<double>&) {
-  std::vector<Motions> out(kHats, Motions(view.steps.size()));
+  std::vector<Motions> out(kHatsAfterStep, Motions(view.steps.size()));
   add_responses(
       view.steps, [](const EffectStep& s) { return s.forward_m(); }, change,
       [&](std::size_t k, std::size_t i, double by) { out[k][i].forward_m += by; });
@@ -69,7 +69,7 @@ std::vector<Motions> of_the_base(const DriveView& view, const std::vector<double
 
 template <double (*weight)(double, double)>
 std::vector<Motions> of_each_wheel(const DriveView& view, const std::vector<double>&) {
-  std::vector<Motions> out(kHats, Motions(view.steps.size()));
+  std::vector<Motions> out(kHatsAfterStep, Motions(view.steps.size()));
   for (const Wheel wheel : {Wheel::left, Wheel::right})
     add_responses(
         view.steps, [&](const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }, weight,
@@ -99,7 +99,7 @@ constexpr StepResponse kStepResponses[kStepResponseTests] = {
 void leave_to_timing(GenericTest& t, const JointModel& joint) {
   constexpr double kAhead = 0.05, kStandardErrors = 4.0;
   constexpr double kAtOnce = 0.25;  // of the first hat's time: so little it takes up of none
-  if (joint.model.noise.command_timing_s < kAtOnce * kSince_s[0]) return;
+  if (joint.model.noise.command_timing_s < kAtOnce * kSinceStep_s[0]) return;
   for (CandidateTest* of : {&t.test, &t.instead}) {
     bool is_ahead = false;
     for (std::size_t k = 0; k < of->value.size(); ++k)
@@ -118,10 +118,10 @@ std::vector<GenericTest> step_response_tests(const AskedModel& asked, double loo
   std::vector<GenericTest> tests(kStepResponseTests);
   parallel_for(kStepResponseTests, [&](int i) {
     GenericTest& t = tests[static_cast<std::size_t>(i)];
-    t = asked_of(asked, kStepResponses[i].variable, kStepResponses[i].channel, kHats, kStepResponses[i].motions,
-                 looked_at);
+    t = asked_of(asked, kStepResponses[i].variable, kStepResponses[i].channel, kHatsAfterStep,
+                 kStepResponses[i].motions, looked_at);
     t.most_left = kOfALag;
-    t.at.assign(std::begin(kSince_s), std::end(kSince_s) - 1);
+    t.at.assign(std::begin(kSinceStep_s), std::end(kSinceStep_s) - 1);
     if (i == 0) leave_to_timing(t, asked.joint);  // which takes up all changes alike
   });
   return tests;

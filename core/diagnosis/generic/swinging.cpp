@@ -53,7 +53,7 @@ bool drives_bends(const std::vector<DriveView>& views) {
   return in_bends_rad > kShare * turned_rad;
 }
 
-std::vector<Motions> motions_of(const DriveView& view, std::size_t ways, double period_s) {
+std::vector<Motions> motions_of_swinging(const DriveView& view, std::size_t ways, double period_s) {
   std::vector<Motions> out(kTermsOfAWay * ways, Motions(view.steps.size()));
   const std::complex<double> fades(-std::log(2.0) / (kHalvedWithin * period_s), 2.0 * kPi / period_s);
   std::complex<double> swings[std::size(kWays)];  // as shares of all changes so far
@@ -70,7 +70,7 @@ std::vector<Motions> motions_of(const DriveView& view, std::size_t ways, double 
 }
 
 // How a change fades away.
-GenericCurve curve_of(std::size_t number, std::size_t ways, double period_s) {
+GenericCurve fading_of(std::size_t number, std::size_t ways, double period_s) {
   constexpr int kPoints = 33;
   constexpr double kOver = 2.0;  // periods
   GenericCurve curve{kWays[number].variable, kWays[number].channel, {}, {}};
@@ -99,9 +99,10 @@ std::vector<GenericTest> swinging_tests(const AskedModel& asked, double looked_a
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     t = asked_of(
         asked, variable, "pace, yaw rate and pace sideways", kTermsOfAWay * ways,
-        [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, ways, period_s); }, looked_at);
+        [=](const DriveView& view, const std::vector<double>&) { return motions_of_swinging(view, ways, period_s); },
+        looked_at);
     leave_displaced_to_counting(t, asked.joint);
-    for (std::size_t w = 0; w < ways; ++w) t.curves.push_back(curve_of(w, ways, period_s));
+    for (std::size_t w = 0; w < ways; ++w) t.curves.push_back(fading_of(w, ways, period_s));
   });
   return tests;
 }

@@ -18,7 +18,7 @@ using Told = std::function<double(const EffectStep&)>;
 // Where hats stand, as shares of the fastest: closer where a base is deaf to what is small.
 constexpr double kAt[] = {0.0, 0.06, 0.12, 0.2, 0.35, 0.5, 0.65, 0.8, 1.0};
 
-Hats hats_of(const std::vector<DriveView>& views, const std::vector<Told>& told) {
+Hats hats_over_told(const std::vector<DriveView>& views, const std::vector<Told>& told) {
   double fastest = 0.0;
   for (const DriveView& v : views)
     for (const EffectStep& s : v.steps)
@@ -78,8 +78,8 @@ std::shared_ptr<Effect> term_of(const std::vector<std::pair<std::vector<Law>, Ha
 }
 
 // What hats that begin with `first` of so many come to.
-GenericCurve curve_over(const Hats& hats, std::size_t first, std::size_t count, const char* variable,
-                        const char* channel) {
+GenericCurve curve_over_told(const Hats& hats, std::size_t first, std::size_t count, const char* variable,
+                             const char* channel) {
   GenericCurve curve{variable, channel, hats.at(), {}};
   for (std::size_t k = 0; k < hats.size(); ++k) {
     curve.basis.emplace_back(count, 0.0);
@@ -115,7 +115,7 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
   const auto hats = [&](const std::vector<Law>& laws) {
     std::vector<Told> told;
     for (const Law& law : laws) told.push_back(law.told);
-    return hats_of(views, told);
+    return hats_over_told(views, told);
   };
   std::vector<GenericTest> tests(kToldSpeedTests);
   parallel_for(kToldSpeedTests, [&](int i) {
@@ -131,12 +131,12 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
     if (term->amplitudes.empty()) return;
     ask(t, asked, term, looked_at);
     const std::size_t count = term->amplitudes.size();
-    t.curves = {curve_over(speeds, 0, count,
-                           of_wheels ? "speed of a wheel as it is told [m/s]" : "speed as it is told [m/s]",
-                           of_wheels ? "way of the wheel, as a share more [1]" : "way forward, as a share more [1]")};
+    t.curves = {curve_over_told(
+        speeds, 0, count, of_wheels ? "speed of a wheel as it is told [m/s]" : "speed as it is told [m/s]",
+        of_wheels ? "way of the wheel, as a share more [1]" : "way forward, as a share more [1]")};
     if (!of_wheels)
       t.curves.push_back(
-          curve_over(rates, speeds.size(), count, "yaw rate as it is told [rad/s]", "turn, as a share more [1]"));
+          curve_over_told(rates, speeds.size(), count, "yaw rate as it is told [rad/s]", "turn, as a share more [1]"));
   });
   return tests;
 }

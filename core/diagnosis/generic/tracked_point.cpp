@@ -23,7 +23,7 @@ using Offsets = std::function<void(int recording, double heading_rad, std::vecto
 
 // What the truth says more than the body moves: from where it was off to where it is off now; and a body whose heading
 // is measured turned goes to the other side of that.
-std::vector<Motions> motions_of(const DriveView& view, const Offsets& offsets, std::size_t count) {
+std::vector<Motions> motions_of_point(const DriveView& view, const Offsets& offsets, std::size_t count) {
   std::vector<Motions> out(count, Motions(view.steps.size()));
   std::vector<Off> now(count), before(count);
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -149,7 +149,7 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
     std::vector<GenericCurve> curves;
   };
   const auto by = [](const Offsets& offsets, std::size_t count) -> MotionsOfTerm {
-    return [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, offsets, count); };
+    return [=](const DriveView& view, const std::vector<double>&) { return motions_of_point(view, offsets, count); };
   };
   const auto of_position = [&](const char* variable, const Offsets& offsets, std::size_t count) -> Asked {
     return {variable,

@@ -7,10 +7,10 @@ namespace odolab {
 namespace {
 
 constexpr std::size_t kOfEachAxis = 3;  // everywhere alike, and growing along x and along y
-constexpr std::size_t kTerms = 2 * kOfEachAxis;
+constexpr std::size_t kTermsOfFloor = 2 * kOfEachAxis;
 
-std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor) {
-  std::vector<Motions> out(kTerms, Motions(view.steps.size()));
+std::vector<Motions> motions_of_floor(const DriveView& view, const FloorSquare& floor) {
+  std::vector<Motions> out(kTermsOfFloor, Motions(view.steps.size()));
   const std::vector<char> turns = view.turning();
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     const EffectStep& s = view.steps[i];
@@ -26,14 +26,14 @@ std::vector<Motions> motions_of(const DriveView& view, const FloorSquare& floor)
 }
 
 // Along one axis, through the middle of the floor.
-GenericCurve curve_along(bool x, const FloorSquare& floor) {
+GenericCurve height_along(bool x, const FloorSquare& floor) {
   GenericCurve curve;
   curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
   curve.channel = x ? "creep along x [m/s]" : "creep along y [m/s]";
   const double middle_m = x ? floor.middle.x_m : floor.middle.y_m;
   for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
     curve.at.push_back(middle_m + u * floor.half_m);
-    std::vector<double> by(kTerms, 0.0);
+    std::vector<double> by(kTermsOfFloor, 0.0);
     const std::size_t first = x ? 0 : kOfEachAxis;
     by[first] = 1.0;
     by[first + (x ? 1 : 2)] = u;
@@ -48,11 +48,11 @@ std::vector<GenericTest> uneven_floor_tests(const AskedModel& asked, double look
   const FloorSquare floor = square_around(floor_of(asked.joint.views()));
   if (floor.half_m < 1e-3) return {};
   GenericTest t = asked_of(
-      asked, "place on the floor", "creep across the floor", kTerms,
-      [floor](const DriveView& view, const std::vector<double>&) { return motions_of(view, floor); }, looked_at);
+      asked, "place on the floor", "creep across the floor", kTermsOfFloor,
+      [floor](const DriveView& view, const std::vector<double>&) { return motions_of_floor(view, floor); }, looked_at);
   t.component = "floor";
   t.of_when_or_where = true;
-  t.curves = {curve_along(true, floor), curve_along(false, floor)};
+  t.curves = {height_along(true, floor), height_along(false, floor)};
   return {t};
 }
 

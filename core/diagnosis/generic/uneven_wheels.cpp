@@ -11,7 +11,7 @@ namespace odolab {
 namespace {
 
 // Sine and cosine for each recording: the way that the wheel goes further, for each metre of its own.
-std::vector<Motions> motions_of(const DriveView& view, Wheel wheel, int times_a_turn, std::size_t runs) {
+std::vector<Motions> motions_of_wheel(const DriveView& view, Wheel wheel, int times_a_turn, std::size_t runs) {
   std::vector<Motions> out(2 * runs);
   const auto run = static_cast<std::size_t>(view.number);
   if (run >= runs) return out;  // one that was not fitted: its phase is not known
@@ -40,7 +40,9 @@ std::vector<GenericTest> uneven_wheel_tests(const AskedModel& asked, double look
     t = asked_of(
         asked, std::string("its angle, ") + (times_a_turn == 2 ? "twice" : "three times") + " a turn",
         std::string("way of the ") + (wheel == Wheel::left ? "left" : "right") + " wheel per metre [1]", 2 * runs,
-        [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, wheel, times_a_turn, runs); },
+        [=](const DriveView& view, const std::vector<double>&) {
+          return motions_of_wheel(view, wheel, times_a_turn, runs);
+        },
         looked_at);
     t.times_a_turn = times_a_turn;
     leave_to_counting(t, asked.joint);

@@ -49,7 +49,7 @@ std::shared_ptr<const Effect> as_effect(const Wave& wave, int channel, std::size
   return term;
 }
 
-std::string name_of(const Wave& wave) {
+std::string name_of_wave(const Wave& wave) {
   if (wave.on_the_floor())
     return formatted("place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
                      std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
@@ -106,7 +106,7 @@ std::vector<GenericTest> wave_tests(const AskedModel& asked, double other_tests)
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     const int channel = chosen[static_cast<std::size_t>(i)].channel;
     const Wave wave = between_neighbours(*chosen[static_cast<std::size_t>(i)].wave, channel, views, scores);
-    t.variable = name_of(wave);
+    t.variable = name_of_wave(wave);
     t.channel = wave.along == Along::left_wheel    ? "way of the left wheel per metre [1]"
                 : wave.along == Along::right_wheel ? "way of the right wheel per metre [1]"
                 : channel == kPace                 ? "pace of its clock [1]"

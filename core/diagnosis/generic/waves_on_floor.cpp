@@ -79,7 +79,7 @@ Grid grid_of(const Floor& floor) {
 }
 
 // Cosines, then sines, of the angles at which the waves of one direction stand in each bin.
-Eigen::MatrixXd turned(const Eigen::VectorXd& at_m, double apart_per_m, Eigen::Index waves) {
+Eigen::MatrixXd angles_at(const Eigen::VectorXd& at_m, double apart_per_m, Eigen::Index waves) {
   Eigen::MatrixXd of(at_m.size(), 2 * waves);
   for (Eigen::Index b = 0; b < at_m.size(); ++b)
     for (Eigen::Index k = 0; k < waves; ++k) {
@@ -103,7 +103,7 @@ Turned turned_on(const Grid& grid, const Floor& floor, const std::vector<std::ve
     const Vec2 at = t.bins[static_cast<std::size_t>(b)].at - floor.low;
     x(b) = at.x_m, y(b) = at.y_m;
   }
-  t.of_x = turned(x, grid.dx, grid.nx), t.of_y = turned(y, grid.dy, grid.ny);
+  t.of_x = angles_at(x, grid.dx, grid.nx), t.of_y = angles_at(y, grid.dy, grid.ny);
   return t;
 }
 

@@ -20,7 +20,7 @@ double largest_count_m(const JointModel& joint) {
 
 namespace {
 
-struct Squares {
+struct StepSquares {
   double forward_m2 = 0.0, sideways_m2 = 0.0, turn_rad2 = 0.0;
 };
 
@@ -30,7 +30,7 @@ struct Squares {
 bool is_within_attenuation(const JointModel& joint, const Effect& term, const std::vector<double>& value,
                            const std::vector<double>& shape) {
   constexpr double kOfItsOwn = 0.2;
-  Squares moved, went, rounded;
+  StepSquares moved, went, rounded;
   for (std::size_t r = 0; r < joint.runs().size(); ++r) {
     const DriveView& view = joint.views()[r];
     const double count_m = count_rad(joint.runs()[r], joint.model.drive) *

@@ -15,7 +15,7 @@ namespace odolab {
 
 namespace {
 
-constexpr int kNoiseSamples = 5000;
+constexpr int kNoiseSamplesOfAll = 5000;
 
 // Whether the place that the truth's frame is off by is no small part of a sample's error. `recorded`: what a sample
 // errs by, in times the white noise.
@@ -79,7 +79,7 @@ void JointModel::fit_noise() {
   const auto likelihood_of = [&](const std::vector<Part>& parts, const NoiseFit& fit, const FittedNoise& noise) {
     int samples = 0;
     for (const Part& part : parts) samples += static_cast<int>(part.run->truth.size());
-    const int every = std::max(1, samples / kNoiseSamples), stretch = 250;
+    const int every = std::max(1, samples / kNoiseSamplesOfAll), stretch = 250;
     const double parameters = columns_fitted();
     std::vector<NoiseSlopes> of_run(parts.size());
     const auto sum_run = [&](int r) {
@@ -92,7 +92,7 @@ void JointModel::fit_noise() {
         of_run[r].add(noise_slopes(run, *parts[r].summed, m, first, every == 1 ? n : std::min(n, first + stretch)));
       }
     };
-    if (samples > kNoiseSamples || noise.wander_lasts_s > 0.0)
+    if (samples > kNoiseSamplesOfAll || noise.wander_lasts_s > 0.0)
       parallel_for(static_cast<int>(parts.size()), sum_run);
     else  // not worth starting threads for
       for (std::size_t r = 0; r < parts.size(); ++r) sum_run(static_cast<int>(r));

@@ -12,7 +12,7 @@ namespace odolab {
 namespace {
 
 // The rotation of wheels that obey, at times that go on.
-std::vector<WheelSample> told(const Recording& recording, const DifferentialDrive& drive) {
+std::vector<WheelSample> told_wheels(const Recording& recording, const DifferentialDrive& drive) {
   std::vector<WheelSample> wheels;
   for (const WheelSample& w : wheel_samples(recording, drive))
     if (wheels.empty() || w.time_s > wheels.back().time_s) wheels.push_back(w);
@@ -28,7 +28,7 @@ Result<InnovationRun> ready_run(const CheckedRecording& c, const Vehicle& vehicl
   if (!c.from_commands) return run;
   run->smooth.clear();  // a command is what it is
   // What a base was told while its truth is left out is known, and it lags behind that: not one step in its mean.
-  if (!run->left_out.empty()) run->wheels = told(c.recording, std::get<DifferentialDrive>(vehicle.kind));
+  if (!run->left_out.empty()) run->wheels = told_wheels(c.recording, std::get<DifferentialDrive>(vehicle.kind));
   return run;
 }
 

@@ -20,19 +20,19 @@ struct Lags {
   double first_s = 0.0, last_s = 0.0;
 };
 
-double duration_s(const JointModel& joint, int run) {
+double truth_duration_s(const JointModel& joint, int run) {
   const std::vector<TruthSample>& truth = joint.runs()[static_cast<std::size_t>(run)].truth;
   return truth.back().time_s - truth.front().time_s;
 }
 
 double likelihood_at(JointModel& joint, int run, const Lags& lags) {
   joint.clock_s[static_cast<std::size_t>(run)] = lags.first_s;
-  if (double* rate = joint.clock_rate_of(run)) *rate = (lags.first_s - lags.last_s) / duration_s(joint, run);
+  if (double* rate = joint.clock_rate_of(run)) *rate = (lags.first_s - lags.last_s) / truth_duration_s(joint, run);
   return -joint.minus_two_log_likelihood_of(run);
 }
 
 // Pattern search: both ends together, then one against the other.
-Lags likeliest(JointModel& joint, int run, Lags at) {
+Lags likeliest_lags(JointModel& joint, int run, Lags at) {
   constexpr double kFirst_s = 0.01, kLast_s = 0.0001;
   const bool with_rate = joint.clock_rate_of(run) != nullptr;
   double best = likelihood_at(joint, run, at);
@@ -63,14 +63,14 @@ void align(JointModel& joint, const std::vector<std::optional<AlignedClock>>& mo
   parallel_for(static_cast<int>(found.size()), [&](int run) {
     const auto r = static_cast<std::size_t>(run);
     JointModel own = joint;
-    const double whole_s = duration_s(own, run);
+    const double whole_s = truth_duration_s(own, run);
     const double* rate = own.clock_rate_of(run);
     Lags start{own.clock_s[r], own.clock_s[r] - (rate ? *rate * whole_s : 0.0)};
     if (moments[r]) {
       const Lags there{moments[r]->offset_s, moments[r]->offset_s - (rate ? moments[r]->rate * whole_s : 0.0)};
       if (likelihood_at(own, run, there) > likelihood_at(own, run, start)) start = there;
     }
-    found[r] = likeliest(own, run, start);
+    found[r] = likeliest_lags(own, run, start);
   });
   for (std::size_t r = 0; r < found.size(); ++r) likelihood_at(joint, static_cast<int>(r), found[r]);
 }
@@ -86,7 +86,7 @@ JointModel held(JointModel joint, const Effect* rates, const std::vector<double>
   return joint;
 }
 
-bool is_likelier(const JointModel& a, const JointModel& b) {
+bool is_decisively_likelier(const JointModel& a, const JointModel& b) {
   return a.minus_two_log_likelihood() < b.minus_two_log_likelihood() - kDecisive;
 }
 
@@ -106,10 +106,11 @@ void let_clocks_in(JointModel& joint) {
     if (moments[r]) own[r] = moments[r]->rate;
   const Effect* each = n == 1 ? shared : &effects::clock_rate_of_each_run(static_cast<int>(n)).front();
   JointModel best = held(joint, each, own, moments);
-  if (!is_likelier(best, joint) || !is_material(joint, joint.gathered_error(), best.gathered_error())) return;
+  if (!is_decisively_likelier(best, joint) || !is_material(joint, joint.gathered_error(), best.gathered_error()))
+    return;
   const auto simplify = [&](const Effect* rates, const std::vector<double>& value) {
     JointModel simpler = held(joint, rates, value, moments);
-    if (is_likelier(best, simpler)) return false;
+    if (is_decisively_likelier(best, simpler)) return false;
     best = std::move(simpler);
     return true;
   };

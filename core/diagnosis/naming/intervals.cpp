@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A form is never quite that of the world, however long it is looked at: of a value, assumed.
-constexpr double kFormError = 0.01;
+constexpr double kFormErrorOfInterval = 0.01;
 constexpr double kErrorOfCounts = 0.2;  // of velocities and accelerations, where they are taken from coarse counts
 constexpr double kErrorOfForms = 0.05;  // where machines show it in several forms, of which the nearest was taken
 
@@ -192,7 +192,7 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     const Effect& effect = *joint.accepted[a].effect;
     const double form = are_coarse && !effect.local ? kErrorOfCounts
                         : effect.forms.size() > 1   ? kErrorOfForms
-                                                    : kFormError;
+                                                    : kFormErrorOfInterval;
     VectorXd of_form = VectorXd::Constant(n, form * form * square);
     block.topLeftCorner(n, n) += of_form.asDiagonal();
     if (m > 0) {

@@ -24,12 +24,12 @@ bool is_lag(const Effect& e) { return e.only_commands && e.shape_follows_amplitu
 
 bool is_of_lag(const AcceptedEffect& a) { return is_lag(*a.effect); }
 
-AcceptedEffect& lag_of(JointModel& joint) {
+AcceptedEffect& accepted_lag(JointModel& joint) {
   return *std::find_if(joint.accepted.begin(), joint.accepted.end(), is_of_lag);
 }
 
 JointModel with_lag_at(JointModel joint, double time_constant_s) {
-  AcceptedEffect& lag = lag_of(joint);
+  AcceptedEffect& lag = accepted_lag(joint);
   lag.shape[0] = lag.value[0] = time_constant_s;
   lag.is_held = true;
   joint.fit(3);
@@ -62,10 +62,10 @@ void put_where_likeliest(JointModel& joint) {
   constexpr double kStrides[] = {0.15, 0.04};  // of the size
   constexpr double kLeast_s = 1e-3;
   constexpr int kMostSteps = 24;
-  JointModel best = with_lag_at(joint, std::max(lag_of(joint).value[0], kLeast_s));
+  JointModel best = with_lag_at(joint, std::max(accepted_lag(joint).value[0], kLeast_s));
   for (const double stride : kStrides)
     for (int step = 0; step < kMostSteps; ++step) {
-      const double here_s = lag_of(best).value[0];
+      const double here_s = accepted_lag(best).value[0];
       JointModel more = with_lag_at(best, here_s * (1.0 + stride)), less = with_lag_at(best, here_s / (1.0 + stride));
       const double by_more = likelier_by(more, best), by_less = likelier_by(less, best);
       if (std::max(by_more, by_less) > 0.0) {

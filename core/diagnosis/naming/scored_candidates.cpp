@@ -198,7 +198,7 @@ namespace {
 
 constexpr double kWorthAsking = 0.05;  // of a p value
 
-bool is_at_a_place(const Effect& e) { return e.local && !e.of_one_recording && e.scan; }
+bool is_looked_for_at_places(const Effect& e) { return e.local && !e.of_one_recording && e.scan; }
 
 // What is small, and is climbed otherwise than the scan asks, is missed by all its points: it is looked for as well
 // where something else that lies on the floor says more.
@@ -207,8 +207,9 @@ void look_where_others_lie(const JointModel& joint, const CandidateScan& scan, i
   std::vector<std::vector<std::vector<double>>> also_from(scored.size());
   for (std::size_t i = 0; i < scored.size(); ++i)
     for (const ScoredCandidate& other : scored)
-      if (is_at_a_place(*scored[i].effect) && !is_a_patch(*scored[i].effect) && is_at_a_place(*other.effect) &&
-          other.p_value < kWorthAsking && other.test.statistic > scored[i].test.statistic)
+      if (is_looked_for_at_places(*scored[i].effect) && !is_a_patch(*scored[i].effect) &&
+          is_looked_for_at_places(*other.effect) && other.p_value < kWorthAsking &&
+          other.test.statistic > scored[i].test.statistic)
         also_from[i].push_back({other.test.shape[0], other.test.shape[1]});
   parallel_for(static_cast<int>(scored.size()), [&](int i) {
     const auto k = static_cast<std::size_t>(i);

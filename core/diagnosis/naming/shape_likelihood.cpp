@@ -17,8 +17,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kRounds = 4, kSamples = 40;
-constexpr double kWorst = 1e12;  // stands for a shape that cannot be
+constexpr int kSamplingRounds = 4, kSamples = 40;
+constexpr double kImpossible = 1e12;  // stands for a shape that cannot be
 
 // The likelihood over the free entries of an effect's shape, in units of strides; all else is fitted anew.
 struct Profile {
@@ -47,9 +47,9 @@ struct Profile {
   // it is one.
   double misfit(const std::vector<double>& shape, std::vector<double>* value = nullptr) const {
     for (std::size_t k = 0; k < effect.shapes.size(); ++k)
-      if (shape[k] < effect.shapes[k].low || shape[k] > effect.shapes[k].high) return kWorst;
+      if (shape[k] < effect.shapes[k].low || shape[k] > effect.shapes[k].high) return kImpossible;
     const CandidateTest t = scan.test(effect, shape);
-    if (t.value.empty()) return kWorst;
+    if (t.value.empty()) return kImpossible;
     for (std::size_t k = 0; k < t.value.size(); ++k)
       if (t.value[k] < effect.amplitudes[k].low || t.value[k] > effect.amplitudes[k].high) return 0.0;
     if (value) *value = t.value;
@@ -98,13 +98,13 @@ VectorXd widths(const Profile& profile, const std::vector<double>& centre, doubl
   return is_a_patch(profile.effect) ? width.cwiseMax(kPatchToBeginWith) : width;
 }
 
-struct Sample {
+struct ShapeSample {
   VectorXd at;
   double misfit = 0.0;
   std::vector<double> value;
 };
 
-MatrixXd amplitudes_of(const std::vector<Sample>& samples, const std::vector<double>& weight, Eigen::Index n) {
+MatrixXd amplitudes_of(const std::vector<ShapeSample>& samples, const std::vector<double>& weight, Eigen::Index n) {
   VectorXd mean = VectorXd::Zero(n);
   MatrixXd square = MatrixXd::Zero(n, n);
   double sum = 0.0;
@@ -139,8 +139,8 @@ void put_to_one(std::vector<double>& weight) {
 }
 
 // Against the mixture of all that was proposed; tempered until several samples count. `best`: the least misfit.
-std::vector<double> weights_of(const std::vector<Sample>& samples, const std::vector<Proposal>& proposals, double best,
-                               double inflation) {
+std::vector<double> weights_of(const std::vector<ShapeSample>& samples, const std::vector<Proposal>& proposals,
+                               double best, double inflation) {
   std::vector<double> log_proposed(samples.size()), weight(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     double sum = 0.0;
@@ -151,7 +151,7 @@ std::vector<double> weights_of(const std::vector<Sample>& samples, const std::ve
     double most = -1e300;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       weight[i] = temper * (-0.5 * (samples[i].misfit - best) / inflation) - log_proposed[i];
-      if (samples[i].misfit >= kWorst) weight[i] = -1e300;
+      if (samples[i].misfit >= kImpossible) weight[i] = -1e300;
       most = std::max(most, weight[i]);
     }
     for (double& w : weight) w = std::exp(w - most);
@@ -196,10 +196,10 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
   MatrixXd root = widths(profile, centre, best, inflation).asDiagonal();
   VectorXd mean = VectorXd::Zero(m);
   MatrixXd covariance = MatrixXd::Zero(m, m);
-  std::vector<Sample> samples;
+  std::vector<ShapeSample> samples;
   std::vector<Proposal> proposals;
   Random random(20240601);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSamplingRounds; ++round) {
     proposals.push_back({mean, root});
     const std::size_t from = samples.size();
     for (int i = 0; i < kSamples; ++i) {
@@ -208,7 +208,7 @@ ShapeLikelihood shape_likelihood(const JointModel& joint, int accepted, double i
       samples.push_back({mean + root * z, 0.0, {}});
     }
     parallel_for(kSamples, [&](int i) {
-      Sample& s = samples[from + static_cast<std::size_t>(i)];
+      ShapeSample& s = samples[from + static_cast<std::size_t>(i)];
       s.misfit = profile.misfit(profile.shape(s.at, centre), &s.value);
     });
     for (std::size_t i = from; i < samples.size(); ++i)

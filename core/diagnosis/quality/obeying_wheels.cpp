@@ -11,7 +11,7 @@ namespace {
 constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 
 // Between one sample and the next, evenly.
-std::vector<WheelSample> between(const WheelSample& a, const WheelSample& b) {
+std::vector<WheelSample> evenly_between(const WheelSample& a, const WheelSample& b) {
   constexpr double kLongest_s = 0.01, kMostParts = 4000.0, kRounding = 1e-6;
   const double lasts_s = b.time_s - a.time_s, parts = std::min(kMostParts, std::ceil(lasts_s / kLongest_s - kRounding));
   std::vector<WheelSample> all;
@@ -47,7 +47,7 @@ Recording with_obeying_wheels(const Recording& recording, const DifferentialDriv
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     all.push_back(wheels[i]);
     if (i + 1 == wheels.size()) break;
-    const std::vector<WheelSample> held = between(wheels[i], wheels[i + 1]);
+    const std::vector<WheelSample> held = evenly_between(wheels[i], wheels[i + 1]);
     all.insert(all.end(), held.begin(), held.end());
   }
   const Channel &speed = *recording.channel("command_speed_mps"),

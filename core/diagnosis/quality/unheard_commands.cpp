@@ -12,12 +12,13 @@ namespace odolab {
 
 namespace {
 
-struct Moved {
+struct MovedMeanwhile {
   double way_m = 0.0, turn_rad = 0.0;
 };
 
 // What the commands between two times add up to.
-Moved told(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive, double from_s, double to_s) {
+MovedMeanwhile told_between(const std::vector<WheelSample>& obeyed, const DifferentialDrive& drive, double from_s,
+                            double to_s) {
   const WheelSample a = wheels_at(obeyed, from_s), b = wheels_at(obeyed, to_s);
   const double left_m = drive.wheel_radius_left_m * (b.left_rad - a.left_rad),
                right_m = drive.wheel_radius_right_m * (b.right_rad - a.right_rad);
@@ -54,7 +55,7 @@ std::optional<bool> goes_on_as_told(const std::vector<WheelSample>& obeyed, cons
   from_s += std::min(kSooner_s, 0.5 * (to_s - from_s));
   const auto a = pose_about(truth, from_s), b = pose_about(truth, to_s);
   if (!a || !b) return std::nullopt;
-  const Moved by_commands = told(obeyed, drive, from_s, to_s);
+  const MovedMeanwhile by_commands = told_between(obeyed, drive, from_s, to_s);
   const double chord_m = std::abs(by_commands.way_m * chord_share(by_commands.turn_rad));
   const bool has_headings = truth.front().heading_rad.has_value();
   if (chord_m < kOff_m && (!has_headings || std::abs(by_commands.turn_rad) < kOff_rad)) return std::nullopt;
@@ -116,17 +117,18 @@ TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const Differe
     const auto a = pose_about(truth, from_s), b = pose_about(truth, to_s);
     if (!a || !b) continue;
     const auto moved_to = [&](const Pose& other) {
-      return Moved{length(other.position() - a->position()), std::abs(wrapped(other.heading_rad - a->heading_rad))};
+      return MovedMeanwhile{length(other.position() - a->position()),
+                            std::abs(wrapped(other.heading_rad - a->heading_rad))};
     };
-    const Moved moved = moved_to(*b);
-    Moved furthest = moved;  // on the way: who went and came back did as he was told
+    const MovedMeanwhile moved = moved_to(*b);
+    MovedMeanwhile furthest = moved;  // on the way: who went and came back did as he was told
     for (double time_s = from_s + kStride_s; time_s < to_s; time_s += kStride_s)
       if (const auto then = pose_about(truth, time_s)) {
-        const Moved by = moved_to(*then);
+        const MovedMeanwhile by = moved_to(*then);
         furthest = {std::max(furthest.way_m, by.way_m), std::max(furthest.turn_rad, by.turn_rad)};
       }
-    const Moved now = told(obeyed, drive, from_s, to_s),
-                before = told(obeyed, drive, from_s - kSooner_s, to_s - kSooner_s);
+    const MovedMeanwhile now = told_between(obeyed, drive, from_s, to_s),
+                         before = told_between(obeyed, drive, from_s - kSooner_s, to_s - kSooner_s);
     const double way_m = at_least(now.way_m, before.way_m), turn_rad = at_least(now.turn_rad, before.turn_rad);
     if ((way_m > kLeast_m || turn_rad > kLeast_rad) && furthest.way_m < std::max(kHardly_m, kHardly * way_m) &&
         furthest.turn_rad < std::max(kHardly_rad, kHardly * turn_rad)) {

@@ -112,7 +112,7 @@ std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, con
 
 using Read = std::vector<std::vector<UnitSample>>;  // of each recording
 
-Read samples_of(std::vector<Understood> all) {
+Read samples_read(std::vector<Understood> all) {
   Read read;
   for (Understood& u : all) read.push_back(std::move(u.samples));
   return read;
@@ -268,9 +268,9 @@ class BesideTruth {
   // Once more, without what all of them together name.
   std::optional<Error> judge_beside_names() {
     const Read without =
-        samples_of(understood_without(*told_, train_.recordings, train_.runs, geometry_.clock_s, nominal_));
+        samples_read(understood_without(*told_, train_.recordings, train_.runs, geometry_.clock_s, nominal_));
     const Read held_out_without =
-        samples_of(understood_without(*told_, held_out_.recordings, held_out_.runs, held_out_.clock_s, nominal_));
+        samples_read(understood_without(*told_, held_out_.recordings, held_out_.runs, held_out_.clock_s, nominal_));
     for (std::size_t u = 0; u < units_.size(); ++u) {
       if (!acts_on(*told_, u)) {
         diagnoses_[u] = with_names(*told_, u, diagnoses_[u], diagnoses_[u]);

@@ -94,7 +94,7 @@ double cubic_at(double u, const Edge& a, const Edge& b, double step) {
   return a.at + by * u * u * (3.0 - 2.0 * u) + u * v * (v * s0 - u * s1);
 }
 
-void draw(std::vector<UnitSample>& samples, const std::vector<double>& way, std::size_t joint, double step) {
+void draw_joint(std::vector<UnitSample>& samples, const std::vector<double>& way, std::size_t joint, double step) {
   std::vector<Edge> edges = edges_of(samples, way, joint, step);
   if (edges.size() < 3 || flickers(edges)) return;
   give_slopes(edges, step);
@@ -116,7 +116,7 @@ std::vector<UnitSample> with_joints_drawn(std::vector<UnitSample> samples) {
   if (samples.empty()) return samples;
   const std::vector<double> way = ways_of(samples);
   for (std::size_t joint = 0; joint < samples.front().joints.size(); ++joint)
-    if (const double step = step_of(samples, joint); step > 0.0) draw(samples, way, joint, step);
+    if (const double step = step_of(samples, joint); step > 0.0) draw_joint(samples, way, joint, step);
   return samples;
 }
 

@@ -17,17 +17,18 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kStretch_m = 0.5, kStretch_rad = 1.0;  // Eq. 1: so short that the wheels hardly err, beside the truth
-constexpr std::size_t kFewest = 4;                      // samples of a stretch
-constexpr double kShortestStep_s = 0.03;                // truth samples closer together are thinned out
-constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kHeld = 1e-7;
-constexpr double kDeterminedShare = 0.2;
-constexpr double kHuber = 3.0;
-constexpr int kIterations = 8;
+constexpr double kGeometryStretch_m = 0.5,
+                 kGeometryStretch_rad = 1.0;   // Eq. 1: so short that the wheels hardly err, beside the truth
+constexpr std::size_t kFewestPassed = 4;       // samples of a stretch
+constexpr double kShortestTruthStep_s = 0.03;  // truth samples closer together are thinned out
+constexpr double kGeometryWheelPrior = 0.1, kGeometryClockPrior_s = 0.2, kHeld = 1e-7;
+constexpr double kDeterminedGeometryShare = 0.2;
+constexpr double kGeometryHuber = 3.0;
+constexpr int kGeometryIterations = 8;
 constexpr double kStep = 1e-5;
 
 // Truth samples of one run that a unit passes in one stretch.
-struct Stretch {
+struct UnitStretch {
   std::size_t first = 0, last = 0;  // of the thinned truth; the last belongs to it
 };
 
@@ -45,17 +46,18 @@ struct Unknowns {
   int count() const { return joint_count() + 4 * units + runs; }
   double prior(int k) const {
     if (k < joint_count()) return joints[static_cast<std::size_t>(k)].prior;
-    if (k < clock(0)) return wheels_are_held ? kHeld : (k - joint_count()) % 4 == 3 ? kAsidePrior_m : kWheelPrior;
-    return kClockPrior_s;
+    if (k < clock(0))
+      return wheels_are_held ? kHeld : (k - joint_count()) % 4 == 3 ? kAsidePrior_m : kGeometryWheelPrior;
+    return kGeometryClockPrior_s;
   }
 };
 
-struct Normal {
+struct GeometryNormal {
   MatrixXd information, spread;
   VectorXd gradient;
 };
 
-Normal zero(int n) { return {MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), VectorXd::Zero(n)}; }
+GeometryNormal zero(int n) { return {MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), VectorXd::Zero(n)}; }
 
 // One unit in one run.
 class Passage {
@@ -64,15 +66,15 @@ class Passage {
       : run_(&run), nominal_(nominal), unknowns_(&unknowns), number_(run_number), unit_(unit) {
     drive_ = units_of(nominal)[static_cast<std::size_t>(unit)].drive;
     for (const TimedPose& t : run.tracked)
-      if (tracked_.empty() || t.time_s > tracked_.back().time_s + kShortestStep_s) tracked_.push_back(t);
+      if (tracked_.empty() || t.time_s > tracked_.back().time_s + kShortestTruthStep_s) tracked_.push_back(t);
     cut_into_stretches();
     find_own_joints();
   }
 
   // The linearised problem about x. `with_spread`: also the covariance of the gradient.
-  Normal normal_at(const VectorXd& x, bool with_spread) const {
+  GeometryNormal normal_at(const VectorXd& x, bool with_spread) const {
     const int n = unknowns_->count();
-    Normal normal = zero(n);
+    GeometryNormal normal = zero(n);
     if (stretches_.empty()) return normal;
     std::vector<Pose> by_wheels;
     const std::vector<Vector3d> residuals = residuals_at(x, measured(), &by_wheels);
@@ -88,13 +90,13 @@ class Passage {
     const Vector3d sigma = deviations(residuals);
     std::vector<Vector3d> weights;
     std::size_t i = 0;
-    for (const Stretch& s : stretches_) {
+    for (const UnitStretch& s : stretches_) {
       VectorXd score = VectorXd::Zero(n);
       for (std::size_t k = s.first; k <= s.last; ++k, ++i) {
         Vector3d weight;
         for (int row = 0; row < 3; ++row) {
           const double z = std::abs(residuals[i][row]) / sigma[row];
-          weight[row] = (z <= kHuber ? 1.0 : kHuber / z) / (sigma[row] * sigma[row]);
+          weight[row] = (z <= kGeometryHuber ? 1.0 : kGeometryHuber / z) / (sigma[row] * sigma[row]);
         }
         const MatrixXd weighted = jacobian[i].transpose() * weight.asDiagonal();
         normal.information += weighted * jacobian[i];
@@ -122,7 +124,7 @@ class Passage {
     for (const Vector3d& r : residuals_at(x, measured()))
       for (int k = 0; k < 3; ++k) {
         const double z = std::abs(r[k]) / sigma[k];
-        sum += z <= kHuber ? z * z : kHuber * (2.0 * z - kHuber);
+        sum += z <= kGeometryHuber ? z * z : kGeometryHuber * (2.0 * z - kGeometryHuber);
       }
     return sum;
   }
@@ -174,8 +176,8 @@ class Passage {
         travel_m += length(step.position());
         turn_rad += std::abs(step.heading_rad);
       }
-      if (travel_m < kStretch_m && turn_rad < kStretch_rad) continue;
-      if (i - first + 1 >= kFewest) stretches_.push_back({first, i});
+      if (travel_m < kGeometryStretch_m && turn_rad < kGeometryStretch_rad) continue;
+      if (i - first + 1 >= kFewestPassed) stretches_.push_back({first, i});
       first = i + 1;
       travel_m = turn_rad = 0.0;
     }
@@ -205,7 +207,7 @@ class Passage {
     const At now = at(x);
     std::vector<Vector3d> all;
     if (by_wheels_alone) *by_wheels_alone = tracked;
-    for (const Stretch& s : stretches_) {
+    for (const UnitStretch& s : stretches_) {
       std::vector<Pose> by_joints, by_wheels, tracked_T_own;
       for (std::size_t k = s.first; k <= s.last; ++k) {
         const double at_s =
@@ -264,7 +266,7 @@ class Passage {
       if (steps[j] <= 0.0) continue;
       std::map<long long, VectorXd> by_step;
       std::size_t i = 0;
-      for (const Stretch& s : stretches_)
+      for (const UnitStretch& s : stretches_)
         for (std::size_t k = s.first; k <= s.last; ++k, ++i) {
           std::vector<double> joints = joints_at(run_->samples, tracked_[k].time_s - now.offset_s);
           const long long step = std::llround(joints[j] / steps[j]);
@@ -286,17 +288,17 @@ class Passage {
   int number_, unit_;
   DifferentialDrive drive_;
   Track tracked_;
-  std::vector<Stretch> stretches_;
+  std::vector<UnitStretch> stretches_;
   std::vector<int> own_joints_;
 };
 
-Normal sum_of(const std::vector<Passage>& passages, const VectorXd& x, bool with_spread) {
-  std::vector<Normal> parts(passages.size());
+GeometryNormal sum_of_passages(const std::vector<Passage>& passages, const VectorXd& x, bool with_spread) {
+  std::vector<GeometryNormal> parts(passages.size());
   parallel_for(static_cast<int>(passages.size()), [&](int i) {
     parts[static_cast<std::size_t>(i)] = passages[static_cast<std::size_t>(i)].normal_at(x, with_spread);
   });
-  Normal sum = zero(static_cast<int>(x.size()));
-  for (const Normal& one : parts) {
+  GeometryNormal sum = zero(static_cast<int>(x.size()));
+  for (const GeometryNormal& one : parts) {
     sum.information += one.information;
     sum.spread += one.spread;
     sum.gradient += one.gradient;
@@ -323,7 +325,7 @@ void hold_the_body(const Vehicle& nominal, const Unknowns& unknowns, MatrixXd& o
 }
 
 // One run as a fit to others sees it; its clock is its own.
-double squares_of(const JoinedRun& run, const GeometryFit& fit, double clock_s, std::vector<Vector3d>& sigma) {
+double squares_of_run(const JoinedRun& run, const GeometryFit& fit, double clock_s, std::vector<Vector3d>& sigma) {
   Unknowns none;
   none.units = static_cast<int>(fit.drives.size());
   none.runs = 1;
@@ -375,13 +377,13 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
   for (int k = 0; k < n; ++k) prior[k] = 1.0 / (unknowns.prior(k) * unknowns.prior(k));
   MatrixXd of_prior = prior.asDiagonal();
   hold_the_body(nominal, unknowns, of_prior);
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Normal normal = sum_of(passages, x, false);
+  for (int iteration = 0; iteration < kGeometryIterations; ++iteration) {
+    const GeometryNormal normal = sum_of_passages(passages, x, false);
     const VectorXd step = (normal.information + of_prior).ldlt().solve(normal.gradient - of_prior * x);
     x += step;
     if (step.cwiseAbs().maxCoeff() < 1e-6) break;
   }
-  const Normal normal = sum_of(passages, x, true);
+  const GeometryNormal normal = sum_of_passages(passages, x, true);
   const MatrixXd inverse = (normal.information + of_prior).inverse();
   const MatrixXd covariance = inverse * (normal.spread + of_prior) * inverse;
 
@@ -393,7 +395,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     Vehicle copy = nominal;
     e.nominal = e.parameter.of(copy);
     e.stderr_value = std::sqrt(covariance(k, k));
-    e.determined = e.stderr_value < kDeterminedShare * e.parameter.prior;
+    e.determined = e.stderr_value < kDeterminedGeometryShare * e.parameter.prior;
     e.value = e.determined ? e.nominal + x[k] : e.nominal;
     if (e.determined) e.parameter.of(fit.vehicle) = e.value;
     fit.joints.push_back(std::move(e));
@@ -402,7 +404,7 @@ GeometryFit fitted_geometry(const std::vector<JoinedRun>& runs, const Vehicle& n
     fit.drives.push_back(passages[static_cast<std::size_t>(u)].drive_at(x));
     const int aside = unknowns.aside(u);
     fit.aside_stderr_m.push_back(std::sqrt(covariance(aside, aside)));
-    if (fit.aside_stderr_m.back() < kDeterminedShare * kAsidePrior_m)
+    if (fit.aside_stderr_m.back() < kDeterminedGeometryShare * kAsidePrior_m)
       move_aside(fit.vehicle, static_cast<std::size_t>(u), x[aside]);
   }
   for (int r = 0; r < unknowns.runs; ++r) {
@@ -442,8 +444,8 @@ double left_out_ratio(const std::vector<JoinedRun>& runs, const Vehicle& nominal
     std::vector<JoinedRun> others = runs;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
     std::vector<Vector3d> sigma;
-    with += squares_of(runs[r], fitted_geometry(others, nominal, held), all.clock_s[r], sigma);
-    without += squares_of(runs[r], fitted_geometry(others, nominal, held_without), all.clock_s[r], sigma);
+    with += squares_of_run(runs[r], fitted_geometry(others, nominal, held), all.clock_s[r], sigma);
+    without += squares_of_run(runs[r], fitted_geometry(others, nominal, held_without), all.clock_s[r], sigma);
   }
   return without > 0.0 ? with / without : 1.0;
 }

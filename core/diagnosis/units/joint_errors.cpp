@@ -60,8 +60,8 @@ double scatter_of(const std::vector<std::vector<UnitSample>>& samples, std::size
 }
 
 // Change for each second of a number of the samples, over a sixth of one to both sides.
-std::vector<double> rates_of(const std::vector<UnitSample>& samples,
-                             const std::function<double(const UnitSample&)>& number) {
+std::vector<double> rates_of_number(const std::vector<UnitSample>& samples,
+                                    const std::function<double(const UnitSample&)>& number) {
   constexpr double kAside_s = 0.15;
   std::vector<double> rates;
   std::size_t a = 0, b = 0;
@@ -77,8 +77,10 @@ std::vector<double> rates_of(const std::vector<UnitSample>& samples,
 // v times omega of a unit, m/s2.
 std::vector<double> pulled_aside(const std::vector<UnitSample>& samples, std::size_t unit,
                                  const DifferentialDrive& drive) {
-  const std::vector<double> left = rates_of(samples, [&](const UnitSample&s) { return s.wheels[unit].left_rad; }),
-                            right = rates_of(samples, [&](const UnitSample&s) { return s.wheels[unit].right_rad; });
+  const std::vector<double> left =
+                                rates_of_number(samples, [&](const UnitSample&s) { return s.wheels[unit].left_rad; }),
+                            right =
+                                rates_of_number(samples, [&](const UnitSample&s) { return s.wheels[unit].right_rad; });
   std::vector<double> pulled;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double l = drive.wheel_radius_left_m * left[i], r = drive.wheel_radius_right_m * right[i];
@@ -87,7 +89,7 @@ std::vector<double> pulled_aside(const std::vector<UnitSample>& samples, std::si
   return pulled;
 }
 
-std::vector<Motions> motions_in(const DriveView& view, const OfRuns& runs, std::size_t functions) {
+std::vector<Motions> motions_by_joint(const DriveView& view, const OfRuns& runs, std::size_t functions) {
   std::vector<Motions> out(functions);
   const auto run = runs.find(view.recording);
   if (run == runs.end()) return out;
@@ -111,7 +113,7 @@ void multiply(OfRun& run) {
 }
 
 // Root mean square of what amplitudes come to over all samples, about its mean: that would be a bias.
-double size_of(const OfRuns& runs, const std::vector<double>& value) {
+double size_of_amplitudes(const OfRuns& runs, const std::vector<double>& value) {
   double n = 0.0, sum = 0.0, squares = 0.0;
   for (const auto& [name, run] : runs)
     for (std::size_t i = 0; i < run.off.time_s.size(); ++i) {
@@ -135,16 +137,16 @@ TruthError error_of(OfRuns runs, const JointName& joint, const std::string& vari
   term->component = error.channel;
   term->amplitudes.resize(functions);
   term->motions = [shared, functions](const DriveView& view, const std::vector<double>&) {
-    return motions_in(view, *shared, functions);
+    return motions_by_joint(view, *shared, functions);
   };
   error.term = std::move(term);
   error.is_more_than_rounding = [shared, least](const std::vector<double>& value) {
-    return size_of(*shared, value) > least;
+    return size_of_amplitudes(*shared, value) > least;
   };
   return error;
 }
 
-GenericCurve curve_over(const ReadingRange& range, const JointName& joint) {
+GenericCurve curve_over_reading(const ReadingRange& range, const JointName& joint) {
   constexpr int kPoints = 41;
   const double low = range.first(), high = range.last();
   GenericCurve curve;
@@ -221,7 +223,7 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     });
     errors->push_back(error_of(by_reading, name, kWhatItReads, kSteps * steps[j]));
     errors->back().is_of_a_length = range.is_length;
-    errors->back().curves = {curve_over(range, name)};
+    errors->back().curves = {curve_over_reading(range, name)};
     const auto add = [&](const char* variable,
                          const std::function<std::vector<double>(const std::vector<UnitSample>&)>& of) {
       const OfRuns runs =
@@ -232,7 +234,7 @@ std::shared_ptr<const std::vector<TruthError>> joint_errors(const std::vector<st
     add("which way it went last", [&](const auto& of_run) { return ways_of_reading(of_run, j, steps[j]); });
     if (range.is_length) continue;
     add("how fast it turns [rad/s]",
-        [&](const auto& of_run) { return rates_of(of_run, [&](const UnitSample& s) { return s.joints[j]; }); });
+        [&](const auto& of_run) { return rates_of_number(of_run, [&](const UnitSample& s) { return s.joints[j]; }); });
     // By so many seconds it is read late; where the truth's clock is fitted a little off, so is every joint.
     errors->back().is_more_than_rounding =
         [rounding = errors->back().is_more_than_rounding](const std::vector<double>& value) {

@@ -18,17 +18,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStretch_m = 1.0, kStretch_rad = 2.0;  // twice those of the geometry: an encoder errs over longer ways
-constexpr double kLeastSteps = 3.0;                     // a reading that is rounded errs by 0.3 of its step
-constexpr double kMostOfSquares = 0.9;                  // of the squares of each run, by a fit to the others
-constexpr double kPrior_rad = 0.05, kPrior_m = 0.02;    // as of the biases
-constexpr double kHuber = 3.0;
-constexpr int kShapes = 2 * kWavesOfReading + 1;  // the last: which way it went last
+constexpr double kReadingStretch_m = 1.0,
+                 kReadingStretch_rad = 2.0;           // twice those of the geometry: an encoder errs over longer ways
+constexpr double kLeastSteps = 3.0;                   // a reading that is rounded errs by 0.3 of its step
+constexpr double kMostOfSquares = 0.9;                // of the squares of each run, by a fit to the others
+constexpr double kPrior_rad = 0.05, kPrior_m = 0.02;  // as of the biases
+constexpr double kReadingHuber = 3.0;
+constexpr int kReadingShapes = 2 * kWavesOfReading + 1;  // the last: which way it went last
 
 VectorXd shapes_at(double reading, double way, const ReadingRange& range) {
   std::vector<double> s = waves_of_reading(reading, range);
   s.push_back(way);
-  return Eigen::Map<const VectorXd>(s.data(), kShapes);
+  return Eigen::Map<const VectorXd>(s.data(), kReadingShapes);
 }
 
 // One run of one unit.
@@ -49,7 +50,7 @@ class Laid {
         turn_rad += std::abs(step.heading_rad);
       }
       while (sample + 1 < run.samples.size() && run.samples[sample + 1].time_s <= at_s) ++sample;
-      if (stretches_.empty() || travel_m > kStretch_m || turn_rad > kStretch_rad) {
+      if (stretches_.empty() || travel_m > kReadingStretch_m || turn_rad > kReadingStretch_rad) {
         stretches_.emplace_back();
         travel_m = turn_rad = 0.0;
       }
@@ -108,7 +109,9 @@ struct Problem {
   MatrixXd by, shapes;  // `shapes`: at each sample
 };
 
-double huber(double z) { return std::abs(z) <= kHuber ? z * z : kHuber * (2.0 * std::abs(z) - kHuber); }
+double huber(double z) {
+  return std::abs(z) <= kReadingHuber ? z * z : kReadingHuber * (2.0 * std::abs(z) - kReadingHuber);
+}
 
 double squares(const VectorXd& v) {
   double sum = 0.0;
@@ -121,13 +124,13 @@ Problem problem_of(const Laid& run, std::size_t joint, double step, const Readin
   Problem p;
   const std::vector<double> ways = ways_of_reading(run.samples(), joint, step),
                             readings = mean_readings(run.samples(), joint);
-  p.shapes.resize(static_cast<Eigen::Index>(ways.size()), kShapes);
+  p.shapes.resize(static_cast<Eigen::Index>(ways.size()), kReadingShapes);
   for (std::size_t i = 0; i < ways.size(); ++i)
     p.shapes.row(static_cast<Eigen::Index>(i)) = shapes_at(readings[i], ways[i], range);
   p.left = run.residuals(joint, {});
-  p.by.resize(p.left.size(), kShapes);
+  p.by.resize(p.left.size(), kReadingShapes);
   constexpr double kStep = 1e-4;
-  for (int k = 0; k < kShapes; ++k) {
+  for (int k = 0; k < kReadingShapes; ++k) {
     std::vector<double> error(ways.size());
     for (std::size_t i = 0; i < ways.size(); ++i) error[i] = kStep * p.shapes(static_cast<Eigen::Index>(i), k);
     p.by.col(k) = (run.residuals(joint, error) - p.left) / kStep;
@@ -139,17 +142,17 @@ Problem problem_of(const Laid& run, std::size_t joint, double step, const Readin
   return p;
 }
 
-VectorXd fitted(const std::vector<Problem>& problems, std::size_t without, double prior) {
-  VectorXd x = VectorXd::Zero(kShapes);
+VectorXd fitted_shapes(const std::vector<Problem>& problems, std::size_t without, double prior) {
+  VectorXd x = VectorXd::Zero(kReadingShapes);
   for (int iteration = 0; iteration < 4; ++iteration) {
-    MatrixXd information = MatrixXd::Identity(kShapes, kShapes) / (prior * prior);
+    MatrixXd information = MatrixXd::Identity(kReadingShapes, kReadingShapes) / (prior * prior);
     VectorXd gradient = -x / (prior * prior);
     for (std::size_t r = 0; r < problems.size(); ++r) {
       if (r == without) continue;
       const Problem& p = problems[r];
       const VectorXd rest = p.left + p.by * x;
       for (Eigen::Index i = 0; i < rest.size(); ++i) {
-        const double w = std::min(1.0, kHuber / std::max(1e-9, std::abs(rest[i])));
+        const double w = std::min(1.0, kReadingHuber / std::max(1e-9, std::abs(rest[i])));
         information += w * p.by.row(i).transpose() * p.by.row(i);
         gradient -= w * rest[i] * p.by.row(i).transpose();
       }
@@ -170,7 +173,7 @@ Eigen::Vector3d deviations_of(const VectorXd& residuals) {
 }
 
 // Of the error, root mean square about its mean: that would be a bias.
-double size_of(const std::vector<Problem>& problems, const VectorXd& x) {
+double size_of_error(const std::vector<Problem>& problems, const VectorXd& x) {
   double size = 0.0, n = 0.0, mean = 0.0;
   for (const Problem& p : problems) {
     const VectorXd error = p.shapes * x;
@@ -183,7 +186,7 @@ double size_of(const std::vector<Problem>& problems, const VectorXd& x) {
 }
 
 // Over the reading, without the way it went; the band by leaving out each run in turn.
-Response response_of(const VectorXd& x, const std::vector<VectorXd>& others, const ReadingRange& range) {
+Response response_over_reading(const VectorXd& x, const std::vector<VectorXd>& others, const ReadingRange& range) {
   constexpr int kPoints = 41;
   const double low = range.first(), high = range.last();
   const double n = static_cast<double>(others.size());
@@ -232,23 +235,23 @@ std::optional<ErringJoint> erring_joint(const std::vector<JoinedRun>& runs, cons
     bool in_each = true;
     std::vector<VectorXd> others;  // fits without one run each
     for (std::size_t r = 0; r < problems.size(); ++r) {
-      others.push_back(fitted(problems, r, prior));
+      others.push_back(fitted_shapes(problems, r, prior));
       const double before = squares(problems[r].left), after = squares(problems[r].left + problems[r].by * others[r]);
       in_each = in_each && after < kMostOfSquares * before;
       without += before;
       with += after;
     }
     if (!in_each) continue;
-    const VectorXd x = fitted(problems, problems.size(), prior);
+    const VectorXd x = fitted_shapes(problems, problems.size(), prior);
     ErringJoint erring;
     erring.joint = j;
-    erring.size = size_of(problems, x);
+    erring.size = size_of_error(problems, x);
     erring.step = steps[j];
-    erring.play = std::abs(x[kShapes - 1]);
+    erring.play = std::abs(x[kReadingShapes - 1]);
     erring.left_out_ratio = with / without;
     erring.gain = 0.5 * (without - with);
     if (erring.size < kLeastSteps * steps[j] || (most && most->gain > erring.gain)) continue;
-    erring.by_reading = response_of(x, others, range);
+    erring.by_reading = response_over_reading(x, others, range);
     most = std::move(erring);
   }
   return most;
@@ -269,7 +272,7 @@ void add_erring_joint(const ErringJoint& erring, const Vehicle& vehicle, Diagnos
   f.effect = "unknown";
   f.component = own.component;
   f.log_likelihood_gain = erring.gain;
-  f.p_value = chi_square_tail(2.0 * erring.gain, kShapes);
+  f.p_value = chi_square_tail(2.0 * erring.gain, kReadingShapes);
   f.where.regime = by_way ? "by which way " + name + " went last" : "by what " + name + " reads";
   f.sentence = text;
   d.findings.insert(d.findings.begin(), f);

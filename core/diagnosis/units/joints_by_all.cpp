@@ -12,7 +12,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kApart_s = 0.1;  // samples of the truth: wheels err by less than it does meanwhile
+constexpr double kTruthApart_s = 0.1;  // samples of the truth: wheels err by less than it does meanwhile
 
 // When a unit was at a place, on the encoders' clock.
 TimeStretches times_at(const WhereFound::Zone& zone, const JoinedRun& run, const Vehicle& vehicle, double late_s,
@@ -23,7 +23,7 @@ TimeStretches times_at(const WhereFound::Zone& zone, const JoinedRun& run, const
     const double at_s = t.time_s - late_s;
     const Pose axle = t.pose * tracked_T_axle(vehicle, unit, joints_at(run.samples, at_s));
     if (std::hypot(axle.x_m - zone.x_m, axle.y_m - zone.y_m) < zone.radius_m + kBeside_m)
-      times.emplace_back(at_s - kApart_s, at_s + kApart_s);
+      times.emplace_back(at_s - kTruthApart_s, at_s + kTruthApart_s);
   }
   return times;
 }
@@ -49,7 +49,7 @@ std::optional<Finding> tell_joints_by_all(const std::vector<JoinedRun>& runs, co
   std::vector<JoinedRun> beside = runs;
   for (std::size_t r = 0; r < beside.size(); ++r) {
     JoinedRun& run = beside[r];
-    run.tracked = at_least_apart(run.tracked, kApart_s);
+    run.tracked = at_least_apart(run.tracked, kTruthApart_s);
     run.samples = std::move(understood[r].samples);
     const double late_s = nominal.truth.time_offset_s + geometry.clock_s[r];
     for (std::size_t u = 0; u < of_units.size() && u < run.guessed.size(); ++u)

@@ -14,7 +14,7 @@ namespace odolab {
 
 namespace {
 
-FitTable joined(const std::vector<Diagnosis>& diagnoses, FitTable Diagnosis::*table) {
+FitTable joined_table(const std::vector<Diagnosis>& diagnoses, FitTable Diagnosis::*table) {
   FitTable sum;
   const auto join = [&](std::optional<FitFigures> FitTable::*entry) {
     FitFigures all;
@@ -48,7 +48,7 @@ std::vector<NotTestable> not_testable_in(const std::vector<Diagnosis>& diagnoses
   return all;
 }
 
-Verdict verdict_of(const std::vector<Diagnosis>& diagnoses, const std::vector<Finding>& findings) {
+Verdict merged_verdict(const std::vector<Diagnosis>& diagnoses, const std::vector<Finding>& findings) {
   const auto any = [&](Verdict v) {
     return std::any_of(diagnoses.begin(), diagnoses.end(), [&](const Diagnosis& d) { return d.verdict == v; });
   };
@@ -126,10 +126,10 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   if (leave_out_small_rest(d.findings))
     d.warnings.push_back("beside the names given something small is left that no name describes");
   put_in_order(d.findings);
-  d.verdict = verdict_of(diagnoses, d.findings);
+  d.verdict = merged_verdict(diagnoses, d.findings);
   d.cannot_judge = std::any_of(diagnoses.begin(), diagnoses.end(), std::mem_fn(&Diagnosis::cannot_judge));
-  d.train = joined(diagnoses, &Diagnosis::train);
-  d.held_out = joined(diagnoses, &Diagnosis::held_out);
+  d.train = joined_table(diagnoses, &Diagnosis::train);
+  d.held_out = joined_table(diagnoses, &Diagnosis::held_out);
   d.not_testable = not_testable_in(diagnoses, units);
   d.asked = merged_asked(diagnoses, geometry, units);
   if (std::holds_alternative<Tracked>(nominal.kind))

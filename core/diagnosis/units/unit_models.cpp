@@ -8,20 +8,12 @@
 
 namespace odolab {
 
-namespace {
-
-bool is_of_a_joint(const std::string& effect) {
-  return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
-}
-
-}  // namespace
-
 std::vector<ActiveEffect> effects_of_unit(const std::vector<ActiveEffect>& effects, const VehicleUnit& unit,
                                           const std::vector<VehicleUnit>& all) {
   std::vector<ActiveEffect> own;
   for (ActiveEffect active : effects) {
     if (active.effect == "clock_rate" && !carries_truth(all)) continue;  // it is in the recordings
-    if (is_of_a_joint(active.effect) || (active.component == "truth" && !unit.carries_truth)) continue;
+    if (is_bias_of_a_joint(active.effect) || (active.component == "truth" && !unit.carries_truth)) continue;
     const std::optional<std::string> component = component_in_unit(unit.name, active.component, all);
     if (!component) continue;
     active.component = *component;

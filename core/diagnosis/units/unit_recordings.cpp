@@ -20,7 +20,7 @@ struct Row {
   double x_m = kNone, y_m = kNone, heading_rad = kNone;
 };
 
-Recording recording_by(std::vector<Row> rows, const Recording& from) {
+Recording recording_by_rows(std::vector<Row> rows, const Recording& from) {
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time_s < b.time_s; });
   Recording recording;
   recording.name = from.name;
@@ -76,7 +76,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
   if (!by_joints) {
     for (const TruthSample& t : truth_samples(recording))
       rows.push_back({t.time_s, kNone, kNone, t.position.x_m, t.position.y_m, t.heading_rad.value_or(kNone)});
-    return recording_by(std::move(rows), recording);
+    return recording_by_rows(std::move(rows), recording);
   }
   const std::vector<UnitSample> joined = with_joints_drawn(samples);
   const double offset_s = vehicle.truth.time_offset_s + clock_s;
@@ -106,7 +106,7 @@ Recording recording_of_unit(const Recording& recording, const std::vector<UnitSa
       rows.push_back(pose_row(s.time_s, pose * tracked_T_axle(vehicle, unit, s.joints)));
     }
   }
-  return recording_by(std::move(rows), recording);
+  return recording_by_rows(std::move(rows), recording);
 }
 
 }  // namespace odolab

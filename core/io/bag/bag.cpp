@@ -20,20 +20,16 @@ constexpr std::uint64_t kLargestMessage = 1ull << 28;
 constexpr std::uint64_t kMessagesToNameJoints = 200;  // joint states of one topic that are looked at for names
 constexpr std::size_t kMostNames = 1000;
 
-bool ends_in(const std::string& path, std::string_view ending) {
-  return path.size() >= ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 bool is_bag_file(const std::string& path) {
   std::error_code failure;
   if (!fs::is_regular_file(path, failure)) return false;
   const std::string start = read_file_start(path, 16);
-  return starts_like_mcap(start) || starts_like_sqlite(start) || ends_in(path, ".mcap") || ends_in(path, ".db3");
+  return starts_like_mcap(start) || starts_like_sqlite(start) || path.ends_with(".mcap") || path.ends_with(".db3");
 }
 
 bool is_compressed_bag_file(const std::string& path) {
-  return ends_in(path, ".mcap.zstd") || ends_in(path, ".db3.zstd") || ends_in(path, ".mcap.zst") ||
-         ends_in(path, ".db3.zst");
+  return path.ends_with(".mcap.zstd") || path.ends_with(".db3.zstd") || path.ends_with(".mcap.zst") ||
+         path.ends_with(".db3.zst");
 }
 
 // "run_2" before "run_10".
@@ -84,7 +80,7 @@ Result<BagFileReading> read_bag_file(const std::string& file, const BagSink& sin
   if (starts_like_mcap(start)) return read_mcap(file, sink, progress);
   if (starts_like_sqlite(start)) return read_sqlite_bag(file, sink, progress);
   if (!is_compressed_bag_file(file))
-    return ends_in(file, ".db3") ? read_sqlite_bag(file, sink, progress) : read_mcap(file, sink, progress);
+    return file.ends_with(".db3") ? read_sqlite_bag(file, sink, progress) : read_mcap(file, sink, progress);
   const Result<UnpackedFile> unpacked = UnpackedFile::of(file, progress);
   if (!unpacked) return unpacked.error();
   const bool sqlite = starts_like_sqlite(read_file_start(unpacked->path(), 16));

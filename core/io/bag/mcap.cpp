@@ -15,7 +15,7 @@ namespace odolab {
 
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 constexpr std::uint64_t kLargestChunk = 1ull << 30;  // beyond it a size is taken for damage
 constexpr std::size_t kDamageToTell = 20;
 
@@ -41,8 +41,8 @@ class Reader {
   Reader(FileWindow file, const BagSink& sink) : file_(std::move(file)), sink_(sink) {}
 
   BagFileReading read() {
-    crc_ = crc32(file_.peek(kMagic.size()));
-    file_.advance(kMagic.size());
+    crc_ = crc32(file_.peek(kMcapMagic.size()));
+    file_.advance(kMcapMagic.size());
     while (!ended_) {
       if (file_.left() == 0) {
         tell("the file ends without the record that closes it: it was not finished; all that stands in it was read");
@@ -246,8 +246,8 @@ class Reader {
   // Whether the file has the end that a finished one has.
   bool ends_properly() {
     const std::uint64_t here = file_.position();
-    file_.seek(file_.size() - std::min<std::uint64_t>(file_.size(), kMagic.size()));
-    const bool finished = file_.peek(kMagic.size()) == kMagic;
+    file_.seek(file_.size() - std::min<std::uint64_t>(file_.size(), kMcapMagic.size()));
+    const bool finished = file_.peek(kMcapMagic.size()) == kMcapMagic;
     file_.seek(here);
     return finished;
   }
@@ -270,8 +270,8 @@ class Reader {
   std::vector<std::uint64_t> chunks_of_summary() {
     constexpr std::uint64_t kFooterSize = 20;
     std::vector<std::uint64_t> offsets;
-    const std::uint64_t closing = kRecordHead + kFooterSize + kMagic.size();
-    if (file_.size() < closing + kMagic.size()) return offsets;
+    const std::uint64_t closing = kRecordHead + kFooterSize + kMcapMagic.size();
+    if (file_.size() < closing + kMcapMagic.size()) return offsets;
     file_.seek(file_.size() - closing);
     ByteCursor footer(file_.peek(closing));
     if (footer.u8() != kFooter || footer.u64() != kFooterSize) return offsets;
@@ -314,12 +314,12 @@ class Reader {
 
 }  // namespace
 
-bool starts_like_mcap(std::string_view start) { return start.substr(0, kMagic.size()) == kMagic; }
+bool starts_like_mcap(std::string_view start) { return start.substr(0, kMcapMagic.size()) == kMcapMagic; }
 
 Result<BagFileReading> read_mcap(const std::string& path, const BagSink& sink, const Progress& progress) {
   Result<FileWindow> file = FileWindow::open(path, progress);
   if (!file) return file.error();
-  if (!starts_like_mcap(file->peek(kMagic.size())))
+  if (!starts_like_mcap(file->peek(kMcapMagic.size())))
     return Error{path, file->size() == 0 ? "an empty file" : "other first bytes", "an MCAP file"};
   return Reader(std::move(*file), sink).read();
 }

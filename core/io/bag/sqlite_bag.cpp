@@ -14,7 +14,7 @@ namespace odolab {
 
 namespace {
 
-constexpr std::string_view kMagic("SQLite format 3\0", 16);
+constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
 
 struct Close {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -68,10 +68,10 @@ bool has_ordinary_tables(const Database& database) {
 
 }  // namespace
 
-bool starts_like_sqlite(std::string_view start) { return start.substr(0, kMagic.size()) == kMagic; }
+bool starts_like_sqlite(std::string_view start) { return start.substr(0, kSqliteMagic.size()) == kSqliteMagic; }
 
 Result<BagFileReading> read_sqlite_bag(const std::string& path, const BagSink& sink, const Progress& progress) {
-  if (!starts_like_sqlite(read_file_start(path, kMagic.size())))
+  if (!starts_like_sqlite(read_file_start(path, kSqliteMagic.size())))
     return Error{path, "other first bytes", "an SQLite database, as rosbag2 writes it"};
   BagFileReading reading;
   // A recording that was interrupted left its last messages in a log beside the file. Without one, the file is opened

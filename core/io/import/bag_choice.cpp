@@ -71,7 +71,7 @@ bool says_no_truth(const std::string& name) {
   return false;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed_topics(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < kMost; ++i) text += (i ? ", " : "") + names[i];
@@ -132,12 +132,13 @@ std::optional<Error> choose_truth(const std::string& path, const BagContents& co
         return Error{path,
                      "no chain of transforms from " + in_quotes(from) + " to " + in_quotes(to) + " on " +
                          in_quotes(wish.substr(0, first)),
-                     "--truth with frames that are joined by " + listed(names_of(all))};
+                     "--truth with frames that are joined by " + listed_topics(names_of(all))};
     }
     if (meant.empty())
       return Error{path, "no poses on " + in_quotes(wish),
-                   all.empty() ? "a bag with poses" : "--truth with one of " + listed(names_of(all))};
-    return Error{path, "several transforms on " + in_quotes(wish), "--truth with one of " + listed(names_of(meant))};
+                   all.empty() ? "a bag with poses" : "--truth with one of " + listed_topics(names_of(all))};
+    return Error{path, "several transforms on " + in_quotes(wish),
+                 "--truth with one of " + listed_topics(names_of(meant))};
   }
   std::vector<TruthCandidate> said, said_poses, others;
   for (const TruthCandidate& c : all) {
@@ -156,10 +157,10 @@ std::optional<Error> choose_truth(const std::string& path, const BagContents& co
     choice.warnings.push_back("taken as the outside truth: " + others.front().name() + "; --truth says otherwise");
   } else if (said.empty() && others.empty()) {
     if (!all.empty())
-      choice.warnings.push_back("no outside truth was found; --truth can name one of " + listed(names_of(all)));
+      choice.warnings.push_back("no outside truth was found; --truth can name one of " + listed_topics(names_of(all)));
   } else {
     return Error{path, "several that may be the outside truth",
-                 "--truth with one of " + listed(names_of(said.empty() ? others : said)) + ", or none"};
+                 "--truth with one of " + listed_topics(names_of(said.empty() ? others : said)) + ", or none"};
   }
   return std::nullopt;
 }
@@ -176,7 +177,7 @@ std::optional<Error> choose_wheels(const std::string& path, const BagContents& c
   if (topics.empty()) {
     if (!wishes.wheels.empty())
       return Error{path, "no joint states on " + in_quotes(wishes.wheels),
-                   names.empty() ? "a bag with joint states" : "--wheels with one of " + listed(names)};
+                   names.empty() ? "a bag with joint states" : "--wheels with one of " + listed_topics(names)};
     if (!wishes.left_joint.empty()) return Error{path, "no joint states", "a bag with the joints that were named"};
     return std::nullopt;
   }
@@ -199,16 +200,16 @@ std::optional<Error> choose_wheels(const std::string& path, const BagContents& c
   if (matches.size() > 1) {
     std::vector<std::string> on;
     for (const Match& match : matches) on.push_back(match.topic->topic.name);
-    return Error{path, "drive wheels on several topics", "--wheels with one of " + listed(on)};
+    return Error{path, "drive wheels on several topics", "--wheels with one of " + listed_topics(on)};
   }
   if (matches.empty()) {
     const BagTopicContents& first = *topics.front();
     if (!wishes.left_joint.empty())
       for (const std::string& joint : {wishes.left_joint, wishes.right_joint})
         if (!has(first, joint))
-          return Error{path, "no joint " + in_quotes(joint), "--joints LEFT,RIGHT of " + listed(first.joints)};
+          return Error{path, "no joint " + in_quotes(joint), "--joints LEFT,RIGHT of " + listed_topics(first.joints)};
     return Error{path, "joints of which two are not plainly the drive wheels",
-                 "--joints LEFT,RIGHT of " + listed(first.joints)};
+                 "--joints LEFT,RIGHT of " + listed_topics(first.joints)};
   }
   choice.wheels = matches.front().topic->topic.name;
   choice.left_joint = matches.front().left;
@@ -229,16 +230,17 @@ std::optional<Error> choose_commands(const std::string& path, const BagContents&
   if (!wish.empty()) {
     if (std::find(all.begin(), all.end(), wish) == all.end())
       return Error{path, "no twists on " + in_quotes(wish),
-                   all.empty() ? "a bag with twists" : "--commands with one of " + listed(all)};
+                   all.empty() ? "a bag with twists" : "--commands with one of " + listed_topics(all)};
     choice.commands = wish;
   } else if (all.size() == 1) {
     choice.commands = all.front();
   } else if (plain.size() == 1) {
     choice.commands = plain.front();
-    choice.warnings.push_back("taken as the commands: " + plain.front() + ", of " + listed(all));
+    choice.warnings.push_back("taken as the commands: " + plain.front() + ", of " + listed_topics(all));
   } else if (all.size() > 1) {
-    if (choice.wheels.empty()) return Error{path, "several topics of twists", "--commands with one of " + listed(all)};
-    choice.warnings.push_back("commands are left out; --commands can name one of " + listed(all));
+    if (choice.wheels.empty())
+      return Error{path, "several topics of twists", "--commands with one of " + listed_topics(all)};
+    choice.warnings.push_back("commands are left out; --commands can name one of " + listed_topics(all));
   }
   return std::nullopt;
 }
@@ -269,7 +271,7 @@ Result<BagChoice> chosen_of_bag(const std::string& path, const BagContents& cont
     std::vector<std::string> types;
     for (const BagTopicContents& topic : contents.topics)
       types.push_back(topic.topic.name + " (" + (topic.topic.type.empty() ? "no type" : topic.topic.type) + ")");
-    return Error{path, types.empty() ? "a bag without topics" : "a bag with " + listed(types),
+    return Error{path, types.empty() ? "a bag without topics" : "a bag with " + listed_topics(types),
                  "joint states, twists, odometry, poses or transforms with messages, in CDR"};
   }
   if (choice.wheels.empty() && choice.commands.empty())

@@ -13,7 +13,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
 struct Source {
@@ -35,7 +34,7 @@ std::optional<std::size_t> column_index(const std::string& column, const std::ve
   return std::nullopt;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed_in_quotes(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < 12; ++i) text += (i ? ", " : "") + in_quotes(names[i]);
   return names.size() > 12 ? text + ", ..." : text;
@@ -74,9 +73,10 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
                    "one, or the column's number in the mapping"};
     if (!at && one_of_several && !header.empty()) continue;
     if (!at)
-      return Error{path + ":" + std::to_string(line),
-                   header.empty() ? std::to_string(cells) + " columns without names" : "the columns " + listed(header),
-                   "a column " + in_quotes(column.column) + " for " + column.becomes};
+      return Error{
+          path + ":" + std::to_string(line),
+          header.empty() ? std::to_string(cells) + " columns without names" : "the columns " + listed_in_quotes(header),
+          "a column " + in_quotes(column.column) + " for " + column.becomes};
     const Source source{&column, *at,
                         unit_factor(column.becomes, column.kind, column.unit).value_or(1.0) * column.factor};
     if (column.becomes == "time_s") {
@@ -89,7 +89,7 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
     }
   }
   if (layout.channels.empty() && layout.quaternion[2].cell == kNowhere && layout.quaternion[3].cell == kNowhere)
-    return Error{path + ":" + std::to_string(line), "the columns " + listed(header),
+    return Error{path + ":" + std::to_string(line), "the columns " + listed_in_quotes(header),
                  "one that the mapping names for wheels, commands or truth, as in left_wheel_rad=COLUMN"};
   if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0))
     return Error{path, "no column for time_s", "time_s=COLUMN, or a period between rows"};
@@ -110,9 +110,9 @@ std::optional<std::string> no_seconds(const MappedColumn& time, double lasted_s,
          "' is in seconds: time_s=" + time.column + ",ms (or us, ns) says otherwise";
 }
 
-bool recognises(const std::string&, std::string_view) { return false; }  // only where a mapping is given
+bool recognises_none(const std::string&, std::string_view) { return false; }  // only where a mapping is given
 
-Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
+Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
   const TextMapping& mapping = wishes.mapping;
   Result<TextRows> rows = TextRows::open(path, mapping.shape, streams.progress);
   if (!rows) return rows.error();
@@ -218,7 +218,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
 }  // namespace
 
 ForeignFormat mapped_text_format() {
-  return {"mapped text", "any text of columns with --map or --mapping", recognises, nullptr, stream};
+  return {"mapped text", "any text of columns with --map or --mapping", recognises_none, nullptr, stream_mapped_text};
 }
 
 }  // namespace odolab

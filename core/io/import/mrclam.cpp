@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::string_view kOdometry = "Odometry", kGroundtruth = "Groundtruth";
 
-bool is_odometry(std::string_view start) { return start.find("# Odometry Data") != std::string_view::npos; }
+bool is_mrclam_odometry(std::string_view start) { return start.find("# Odometry Data") != std::string_view::npos; }
 bool is_groundtruth(std::string_view start) { return start.find("# Robot Groundtruth Data") != std::string_view::npos; }
 
-bool recognises(const std::string& path, std::string_view start) {
+bool recognises_mrclam(const std::string& path, std::string_view start) {
   if (start.empty() || start.front() != '#') return false;
   const std::string name = std::filesystem::path(path).filename().string();
   const bool named =
       name.find("_Odometry.dat") != std::string::npos || name.find("_Groundtruth.dat") != std::string::npos;
-  return named || is_odometry(start) || is_groundtruth(start);
+  return named || is_mrclam_odometry(start) || is_groundtruth(start);
 }
 
 bool holds_odometry(const std::string& path) {
@@ -53,7 +53,7 @@ SampledChannels in_order(const NumberRows& rows, const std::vector<std::string>&
   return sampled;
 }
 
-Result<ImportedRecording> read(const std::vector<std::string>& sources) {
+Result<ImportedRecording> read_mrclam(const std::vector<std::string>& sources) {
   if (sources.size() > 2)
     return Error{sources[2], "a third file", "an Odometry.dat and a Groundtruth.dat of one robot"};
   const std::string other = sources.size() == 2 ? sources[1] : partner_of(sources[0]);
@@ -102,7 +102,8 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
 }  // namespace
 
 ForeignFormat mrclam_format() {
-  return {"the UTIAS data set", "a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat", recognises, read};
+  return {"the UTIAS data set", "a UTIAS RobotN_Odometry.dat with its RobotN_Groundtruth.dat", recognises_mrclam,
+          read_mrclam};
 }
 
 }  // namespace odolab

@@ -9,8 +9,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
-
 std::string_view without_byte_order_mark(std::string_view text) {
   return text.substr(0, 3) == "\xEF\xBB\xBF" ? text.substr(3) : text;
 }

@@ -16,12 +16,14 @@ namespace odolab {
 
 namespace {
 
-bool is_odometry(std::string_view start) { return numbers_in_first_row(start, ',') == 3; }
+bool is_optiodom_odometry(std::string_view start) { return numbers_in_first_row(start, ',') == 3; }
 bool is_motive(std::string_view start) {
   if (start.substr(0, 3) == "\xEF\xBB\xBF") start.remove_prefix(3);
   return start.substr(0, 14) == "Format Version";
 }
-bool recognises(const std::string&, std::string_view start) { return is_odometry(start) || is_motive(start); }
+bool recognises_raw(const std::string&, std::string_view start) {
+  return is_optiodom_odometry(start) || is_motive(start);
+}
 
 // The same name with another ending, or nothing where the name does not end so.
 std::string with_ending(const std::string& path, const std::string& ending, const std::string& other) {
@@ -164,7 +166,7 @@ void keep_between(SampledChannels& sampled, double from_s, double to_s) {
 
 std::string rounded_text(double value, int decimals) { return formatted("%.*f", decimals, value); }
 
-Result<ImportedRecording> read(const std::vector<std::string>& sources) {
+Result<ImportedRecording> read_raw(const std::vector<std::string>& sources) {
   if (sources.size() > 2) return Error{sources[2], "a third file", "an _odo.csv and an _opti.csv"};
   std::string odometry_path, motive_path;
   for (const std::string& source : sources) {
@@ -223,7 +225,7 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
 }  // namespace
 
 ForeignFormat optiodom_raw_format() {
-  return {"OptiOdom, raw", "a raw OptiOdom pair (_odo.csv and _opti.csv)", recognises, read};
+  return {"OptiOdom, raw", "a raw OptiOdom pair (_odo.csv and _opti.csv)", recognises_raw, read_raw};
 }
 
 }  // namespace odolab

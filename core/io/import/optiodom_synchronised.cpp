@@ -9,9 +9,11 @@ namespace odolab {
 
 namespace {
 
-bool recognises(const std::string&, std::string_view start) { return numbers_in_first_row(start, ',') == 6; }
+bool recognises_synchronised(const std::string&, std::string_view start) {
+  return numbers_in_first_row(start, ',') == 6;
+}
 
-Result<ImportedRecording> read(const std::vector<std::string>& sources) {
+Result<ImportedRecording> read_synchronised(const std::vector<std::string>& sources) {
   if (sources.size() > 1) return Error{sources[1], "a second file", "one synchronised file alone"};
   const std::string& path = sources.front();
   NumberRowsShape shape;
@@ -45,7 +47,8 @@ Result<ImportedRecording> read(const std::vector<std::string>& sources) {
 }  // namespace
 
 ForeignFormat optiodom_synchronised_format() {
-  return {"OptiOdom, synchronised", "a synchronised OptiOdom file (six columns)", recognises, read};
+  return {"OptiOdom, synchronised", "a synchronised OptiOdom file (six columns)", recognises_synchronised,
+          read_synchronised};
 }
 
 }  // namespace odolab

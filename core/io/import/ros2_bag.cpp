@@ -16,7 +16,7 @@ namespace {
 // Between the clock of the stamps in the messages and that of the log, beyond which the two are not the same clock.
 constexpr std::int64_t kOtherClock_ns = 1'000'000'000;
 
-bool recognises(const std::string& path, std::string_view) { return is_bag(path); }
+bool recognises_bag(const std::string& path, std::string_view) { return is_bag(path); }
 
 // How the messages of a topic came by their stamps.
 struct Stamps {
@@ -51,7 +51,7 @@ void warn(const std::string& topic, const Stamps& stamps, bool has_header, std::
                        (has_header ? "their headers have no stamp" : "their type has no stamp of its own"));
 }
 
-Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
+Result<Done> stream_bag(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
   const Result<BagContents> contents = contents_of_bag(path, streams.progress);
   if (!contents) return contents.error();
   Result<BagChoice> choice = chosen_of_bag(path, *contents, wishes);
@@ -169,7 +169,7 @@ Result<Done> stream(const std::string& path, const ImportWishes& wishes, SampleS
 }  // namespace
 
 ForeignFormat ros2_bag_format() {
-  return {"ROS 2 bags", "a ROS 2 bag (a folder, or its .mcap or .db3 file)", recognises, nullptr, stream};
+  return {"ROS 2 bags", "a ROS 2 bag (a folder, or its .mcap or .db3 file)", recognises_bag, nullptr, stream_bag};
 }
 
 }  // namespace odolab

@@ -14,9 +14,9 @@ namespace odolab {
 
 namespace {
 
-constexpr std::size_t kWindow = 1024;                 // samples that one may come late by
-constexpr std::int64_t kLatest_ns = (1ll << 62) - 1;  // so that sums and differences of two stamps fit
-constexpr std::size_t kKeptNumbers = 1 << 17;         // a megabyte
+constexpr std::size_t kWindow = 1024;                    // samples that one may come late by
+constexpr std::int64_t kLatestSum_ns = (1ll << 62) - 1;  // so that sums and differences of two stamps fit
+constexpr std::size_t kKeptNumbers = 1 << 17;            // a megabyte
 
 double bits_of(std::int64_t time_ns) {
   double bits;
@@ -46,7 +46,7 @@ SampleSpool::SampleSpool(std::vector<std::string> channels, std::string spill_fo
     : channels_(std::move(channels)), spill_folder_(std::move(spill_folder)), angles_(channels_.size()) {}
 
 void SampleSpool::add(std::int64_t time_ns, const double* values) {
-  if (time_ns > kLatest_ns || time_ns < -kLatest_ns) {
+  if (time_ns > kLatestSum_ns || time_ns < -kLatestSum_ns) {
     ++beyond_;
     return;
   }

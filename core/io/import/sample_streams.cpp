@@ -11,8 +11,6 @@ namespace odolab {
 
 namespace {
 
-constexpr double kEmpty = std::numeric_limits<double>::quiet_NaN();
-
 // Rows out of several streams, each in order of time.
 class Rows {
  public:

@@ -12,11 +12,7 @@ namespace odolab {
 
 namespace {
 
-const std::vector<std::string> kKinds = {"total", "rate", "increment"};
-
-bool ends_in(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
+const std::vector<std::string> kColumnKinds = {"total", "rate", "increment"};
 
 bool is_quaternion(const std::string& channel) {
   return channel == "truth_qx" || channel == "truth_qy" || channel == "truth_qz" || channel == "truth_qw";
@@ -35,10 +31,10 @@ std::optional<double> factor_among(const std::string& unit, std::initializer_lis
 
 std::string units_of(const std::string& channel, ColumnKind kind) {
   if (channel == "time_s") return "s, ms, us or ns";
-  if (ends_in(channel, "_ticks")) return kind == ColumnKind::rate ? "counts/s" : "counts";
-  if (ends_in(channel, "_radps")) return "rad/s, deg/s or rpm";
-  if (ends_in(channel, "_mps")) return "m/s, cm/s, mm/s or km/h";
-  const bool angle = ends_in(channel, "_rad");
+  if (channel.ends_with("_ticks")) return kind == ColumnKind::rate ? "counts/s" : "counts";
+  if (channel.ends_with("_radps")) return "rad/s, deg/s or rpm";
+  if (channel.ends_with("_mps")) return "m/s, cm/s, mm/s or km/h";
+  const bool angle = channel.ends_with("_rad");
   if (kind == ColumnKind::rate) return angle ? "rad/s, deg/s, turns/s or rpm" : "m/s, cm/s, mm/s or km/h";
   return angle ? "rad, deg, mrad or turns" : "m, cm or mm";
 }
@@ -54,14 +50,14 @@ std::optional<Error> problem_in(const MappedColumn& column, const std::string& w
     return Error{where + ": " + channel, "no column", "a name of the header or a number from 1"};
   if (!unit_factor(channel, column.kind, column.unit))
     return Error{where + ": " + channel, in_quotes(column.unit), units_of(channel, column.kind)};
-  const bool adds_up = ends_in(channel, "_wheel_rad") || ends_in(channel, "_ticks") || channel == "steering_rad";
+  const bool adds_up = channel.ends_with("_wheel_rad") || channel.ends_with("_ticks") || channel == "steering_rad";
   if (column.kind != ColumnKind::total && !adds_up)
-    return Error{where + ": " + channel, kKinds[static_cast<std::size_t>(column.kind)],
+    return Error{where + ": " + channel, kColumnKinds[static_cast<std::size_t>(column.kind)],
                  "total: only wheels are added up from rates and increments"};
   return std::nullopt;
 }
 
-void put(TextMapping& mapping, MappedColumn column) {
+void put_column(TextMapping& mapping, MappedColumn column) {
   for (MappedColumn& known : mapping.columns)
     // files that are given together may call their time differently
     if (known.becomes == column.becomes && (column.becomes != "time_s" || known.column == column.column)) {
@@ -79,12 +75,12 @@ std::optional<double> unit_factor(const std::string& channel, ColumnKind kind, c
   if (channel == "time_s") return factor_among(unit, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}});
   if (is_quaternion(channel)) return std::nullopt;
   const bool rate = kind == ColumnKind::rate;
-  if (ends_in(channel, "_ticks")) return factor_among(unit, {{rate ? "counts/s" : "counts", 1.0}});
-  if (ends_in(channel, "_radps") || (rate && ends_in(channel, "_rad")))
+  if (channel.ends_with("_ticks")) return factor_among(unit, {{rate ? "counts/s" : "counts", 1.0}});
+  if (channel.ends_with("_radps") || (rate && channel.ends_with("_rad")))
     return factor_among(unit, {{"rad/s", 1.0}, {"deg/s", kPi / 180.0}, {"turns/s", turn}, {"rpm", turn / 60.0}});
-  if (ends_in(channel, "_mps") || (rate && ends_in(channel, "_m")))
+  if (channel.ends_with("_mps") || (rate && channel.ends_with("_m")))
     return factor_among(unit, {{"m/s", 1.0}, {"cm/s", 0.01}, {"mm/s", 0.001}, {"km/h", 1.0 / 3.6}});
-  if (ends_in(channel, "_rad"))
+  if (channel.ends_with("_rad"))
     return factor_among(unit, {{"rad", 1.0}, {"deg", kPi / 180.0}, {"mrad", 1e-3}, {"turns", turn}});
   return factor_among(unit, {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}});
 }
@@ -105,16 +101,16 @@ std::optional<Error> add_column(TextMapping& mapping, const std::string& words) 
   }
   column.column = name;
   for (std::size_t i = 1; i < cells.size(); ++i) {
-    const auto kind = std::find(kKinds.begin(), kKinds.end(), cells[i]);
-    if (kind != kKinds.end())
-      column.kind = static_cast<ColumnKind>(kind - kKinds.begin());
+    const auto kind = std::find(kColumnKinds.begin(), kColumnKinds.end(), cells[i]);
+    if (kind != kColumnKinds.end())
+      column.kind = static_cast<ColumnKind>(kind - kColumnKinds.begin());
     else if (const std::optional<double> factor = number_from(cells[i]))
       column.factor *= *factor;
     else
       column.unit = cells[i];
   }
   if (auto problem = problem_in(column, "--map")) return problem;
-  put(mapping, std::move(column));
+  put_column(mapping, std::move(column));
   return std::nullopt;
 }
 
@@ -150,12 +146,12 @@ Result<TextMapping> read_text_mapping(const std::string& path) {
     table.field("becomes", column.becomes);
     table.field("column", column.column);
     table.field("unit", column.unit);
-    table.choice("kind", column.kind, kKinds);
+    table.choice("kind", column.kind, kColumnKinds);
     table.field("factor", column.factor);
     if (table.failure()) break;
     const std::string where = top->place_of("column[" + std::to_string(number) + "]");
     if (auto problem = problem_in(column, where)) top->fail(*problem);
-    put(mapping, std::move(column));
+    put_column(mapping, std::move(column));
   }
   if (Result<Done> done = top->finish(); !done) return done.error();
   if (mapping.empty()) return Error{path, "no [[column]]", "one for each column that is to be read"};

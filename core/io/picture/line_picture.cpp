@@ -52,7 +52,7 @@ std::string pale(Look look) {
 
 Stroke solid(Look look) { return {stroke_of(look).colour, 1.5, ""}; }
 
-std::vector<Point> outline(const DrawnBand& band, const Axis& x, const Axis& y) {
+std::vector<Point> outline_of_band(const DrawnBand& band, const Axis& x, const Axis& y) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < band.x.size(); ++i)
     if (std::isfinite(band.x[i]) && std::isfinite(band.high[i]))
@@ -95,7 +95,7 @@ std::string line_picture(const LinePicture& picture) {
     const double width_px = std::max(8.0, x.px(to) - x.px(from)), from_px = 0.5 * (x.px(from) + x.px(to) - width_px);
     svg.rectangle({from_px, top}, width_px, bottom - top, picture.marked_ink);
   }
-  for (const DrawnBand& band : picture.bands) svg.polygon(outline(band, x, y), pale(band.look), {});
+  for (const DrawnBand& band : picture.bands) svg.polygon(outline_of_band(band, x, y), pale(band.look), {});
   svg.end_clip();
   const double x_step = round_step(x.high - x.low, 10), y_step = round_step(y.high - y.low, 6);
   for (double tick : x.ticks(10)) {

@@ -20,7 +20,7 @@ void append_pixels(std::string& text, double value) {
 constexpr char kName = '\x01';
 
 // FNV-1a: the same picture has the same name in every run, and others on the same page have another.
-std::string name_of(const std::string& body) {
+std::string name_by_content(const std::string& body) {
   std::uint64_t hash = 1469598103934665603ULL;
   for (char c : body) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   char buffer[20];
@@ -207,7 +207,7 @@ std::string Svg::finished() const {
   append_pixels(size, width_);
   std::string height;
   append_pixels(height, height_);
-  const std::string name = name_of(body_);
+  const std::string name = name_by_content(body_);
   std::string body;
   body.reserve(body_.size() + 256);
   for (char c : body_) c == kName ? body += name : body += c;

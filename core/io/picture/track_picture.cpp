@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTop_px = 46.0, kSide_px = 18.0, kBottom_px = 58.0;
 
-std::vector<Vec2> outline(const Shape& shape) {
+std::vector<Vec2> outline_of_shape(const Shape& shape) {
   if (const auto* polygon = std::get_if<Polygon>(&shape)) return polygon->corners;
   std::vector<Vec2> corners;
   if (const auto* r = std::get_if<Rectangle>(&shape)) {
@@ -36,7 +36,7 @@ FloorView view_of(const TrackPicture& picture) {
     for (const TimedPose& p : drawn.track) box.include(p.pose.position());
   if (box.empty()) {
     for (const SlipZone& zone : picture.floor.slip_zones)
-      for (Vec2 corner : outline(zone.shape)) box.include(corner);
+      for (Vec2 corner : outline_of_shape(zone.shape)) box.include(corner);
     for (const Bump& bump : picture.floor.bumps) box.include(bump.centre);
   }
   return {box, {kSide_px, kTop_px}, picture.width_px - 2.0 * kSide_px, picture.height_px - kTop_px - kBottom_px};
@@ -69,7 +69,7 @@ std::string track_picture(const TrackPicture& picture) {
   view.draw_grid(svg);
   for (const SlipZone& zone : picture.floor.slip_zones) {
     std::vector<Point> corners;
-    for (Vec2 c : outline(zone.shape)) corners.push_back(view.at(c));
+    for (Vec2 c : outline_of_shape(zone.shape)) corners.push_back(view.at(c));
     svg.polygon(corners, hatching, {ink::kSky, 1.2, ""});
   }
   for (const Bump& bump : picture.floor.bumps) {

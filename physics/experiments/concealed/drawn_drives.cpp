@@ -73,9 +73,19 @@ WheelSpeedPath by_wheels(Random& random, const Driving& d, double duration_s, do
   return path;
 }
 
-enum Kind { eight_slow, eight_fast, square_ccw, square_cw, there_and_back, points, spinning, shunting, kKinds };
+enum DriveKind {
+  eight_slow,
+  eight_fast,
+  square_ccw,
+  square_cw,
+  there_and_back,
+  points,
+  spinning,
+  shunting,
+  kDriveKinds
+};
 
-DrawnDrive drive(Random& random, Kind kind, const Pace& pace) {
+DrawnDrive draw_drive(Random& random, DriveKind kind, const Pace& pace) {
   DrawnDrive out;
   const double duration_s = random.uniform(40.0, 80.0);
   out.start = {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-kPi, kPi)};
@@ -107,7 +117,7 @@ DrawnDrive drive(Random& random, Kind kind, const Pace& pace) {
       break;
     case spinning:
     case shunting:
-    case kKinds:
+    case kDriveKinds:
       out.name = kind == spinning ? "spins" : "shunting";
       out.path = by_wheels(random, out.driving, duration_s, 0.075, kind == spinning);
       break;
@@ -125,23 +135,23 @@ DrawnDrives drawn_drives(Random& random, bool poor) {
   if (poor) {
     const double side_m = random.uniform(2.0, 4.0);
     for (int run = 0; run < 6; ++run) {
-      DrawnDrive d = drive(random, run % 2 == 0 ? square_cw : square_ccw, pace);
+      DrawnDrive d = draw_drive(random, run % 2 == 0 ? square_cw : square_ccw, pace);
       d.driving = pace.slow;
       d.path = SquarePath{side_m, run % 2 == 0};
       d.name += "_" + std::to_string(run / 2 + 1);
       drives.given.push_back(d);
     }
-    for (Kind kind : {eight_fast, shunting}) drives.held_out.push_back(drive(random, kind, pace));
+    for (DriveKind kind : {eight_fast, shunting}) drives.held_out.push_back(draw_drive(random, kind, pace));
   } else {
-    Kind kinds[kKinds];
-    for (int k = 0; k < kKinds; ++k) kinds[k] = static_cast<Kind>(k);
-    for (int k = kKinds - 1; k > 0; --k) {  // shuffled
+    DriveKind kinds[kDriveKinds];
+    for (int k = 0; k < kDriveKinds; ++k) kinds[k] = static_cast<DriveKind>(k);
+    for (int k = kDriveKinds - 1; k > 0; --k) {  // shuffled
       const int other = std::min(k, static_cast<int>(random.uniform() * (k + 1.0)));
       std::swap(kinds[k], kinds[other]);
     }
     const int given = 4 + std::min(2, static_cast<int>(random.uniform() * 3.0));
-    for (int k = 0; k < given; ++k) drives.given.push_back(drive(random, kinds[k], pace));
-    for (int k = given; k < given + 2; ++k) drives.held_out.push_back(drive(random, kinds[k], pace));
+    for (int k = 0; k < given; ++k) drives.given.push_back(draw_drive(random, kinds[k], pace));
+    for (int k = given; k < given + 2; ++k) drives.held_out.push_back(draw_drive(random, kinds[k], pace));
   }
   for (DrawnDrive& d : drives.held_out) d.name = "held_out_" + d.name;
   return drives;

@@ -13,7 +13,7 @@ double log_uniform(Random& random, double low, double high) {
   return low * std::exp(random.uniform() * std::log(high / low));
 }
 
-int one_of(Random& random, int count) {
+int index_below(Random& random, int count) {
   return std::min(count - 1, static_cast<int>(random.uniform() * static_cast<double>(count)));
 }
 
@@ -63,7 +63,7 @@ DrawnRobot drawn_robot(Random& random, bool smooth) {
   nominal.wheel_radius_right_m *= random.uniform(0.98, 1.02);
   nominal.wheelbase_m *= random.uniform(0.96, 1.04);
   constexpr double kCounts[] = {1000.0, 2000.0, 4096.0, 16384.0};
-  nominal.encoder_counts_per_revolution = kCounts[one_of(random, 4)];
+  nominal.encoder_counts_per_revolution = kCounts[index_below(random, 4)];
   s.vehicle.name = "drawn robot";
   s.vehicle.kind = nominal;
   s.vehicle.truth.axle_T_tracked = {random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.05), 0.0};
@@ -75,8 +75,8 @@ DrawnRobot drawn_robot(Random& random, bool smooth) {
 
   constexpr double kEncoder_s[] = {0.010, 0.020, 0.025};
   constexpr double kTruth_s[] = {0.005, 0.008, 0.010, 0.016, 0.020};
-  s.sensors.encoder_period_s = kEncoder_s[one_of(random, 3)];
-  s.sensors.truth_period_s = kTruth_s[one_of(random, 5)];
+  s.sensors.encoder_period_s = kEncoder_s[index_below(random, 3)];
+  s.sensors.truth_period_s = kTruth_s[index_below(random, 5)];
   s.sensors.truth_position_noise_m = log_uniform(random, 3e-4, 3e-3);
   s.sensors.truth_heading_noise_rad = log_uniform(random, 5e-4, 3e-3);
   robot.stamp_jitter_s = random.uniform(0.0, 3e-4);

@@ -93,7 +93,7 @@ System system_of(const std::vector<InnovationRun>& runs, const InnovationModel& 
   return all;
 }
 
-std::vector<double> significance_in(const System& system, int runs) {
+std::vector<double> significance_in_system(const System& system, int runs) {
   const Matrix covariance = inverse(system.information);
   std::vector<double> sigma;
   for (int k = kShared + runs; k < covariance.n; ++k)
@@ -110,7 +110,7 @@ void set_sizes(std::vector<InnovationRun>& runs, const std::vector<double>& size
 
 std::vector<double> significance(const std::vector<InnovationRun>& runs, const InnovationModel& truth) {
   const std::vector<double> clocks(runs.size(), truth.truth.time_offset_s);
-  return significance_in(system_of(runs, truth, clocks), static_cast<int>(runs.size()));
+  return significance_in_system(system_of(runs, truth, clocks), static_cast<int>(runs.size()));
 }
 
 OracleFit oracle_fit(std::vector<InnovationRun> runs, const InnovationModel& start) {
@@ -122,7 +122,7 @@ OracleFit oracle_fit(std::vector<InnovationRun> runs, const InnovationModel& sta
   for (int iteration = 0; iteration < 3; ++iteration) {
     set_sizes(runs, fit.size);
     const System system = system_of(runs, fit.model, clock_s);
-    fit.significance = significance_in(system, n);
+    fit.significance = significance_in_system(system, n);
     const Matrix covariance = inverse(system.information);
     std::vector<double> step(system.score.size(), 0.0);
     for (int i = 0; i < covariance.n; ++i)

@@ -25,7 +25,7 @@ struct Window {
 };
 
 // One run, its truth cut into windows, and what of the model acts in it.
-struct Run {
+struct WindowedRun {
   const Recording* recording;
   Vehicle vehicle;
   std::vector<ActiveEffect> others;
@@ -76,7 +76,7 @@ class Question {
       if (by_turn && !has_wheels(r)) continue;
       const Track truth = truth_track(r);
       if (truth.size() < 10) continue;
-      Run run{&r, model.vehicle_in(r.name), model.effects_in(r.name), {}};
+      WindowedRun run{&r, model.vehicle_in(r.name), model.effects_in(r.name), {}};
       run.others.erase(std::remove_if(run.others.begin(), run.others.end(),
                                       [&](const ActiveEffect& e) {
                                         // the clock of each run is in vehicle_in
@@ -114,7 +114,7 @@ class Question {
 
   // Errors of one half's windows: three numbers each, in metres.
   Eigen::VectorXd errors(std::size_t k, const Eigen::VectorXd& p, bool judged) const {
-    const Run& run = runs_[k];
+    const WindowedRun& run = runs_[k];
     Vehicle vehicle = run.vehicle;
     auto& drive = std::get<DifferentialDrive>(vehicle.kind);
     drive.wheel_radius_left_m *= 1.0 + p[0] - p[1];
@@ -219,7 +219,7 @@ class Question {
 
  private:
   std::string effect_;
-  std::vector<Run> runs_;
+  std::vector<WindowedRun> runs_;
 };
 
 double trimmed_mean(std::vector<double> squares) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDuration_s = 60.0, kGrid_s = 0.01;
 
-Case a_case() {
+Case minutes_case() {
   CaseSettings c;
   c.runs = 2;
   c.duration_s = kDuration_s;
@@ -20,7 +20,7 @@ Case a_case() {
 InnovationModel model_of(const Case& c) { return {c.actual, c.nominal.truth, {0.001, 0.001, 0.002}}; }
 
 TEST(AlignedClock, FindsHowLateATruthIsAndHowMuchFasterTheWheelsClockRuns) {
-  const Case c = a_case();
+  const Case c = minutes_case();
   struct Clock {
     double offset_s, rate;
   };
@@ -37,7 +37,7 @@ TEST(AlignedClock, FindsHowLateATruthIsAndHowMuchFasterTheWheelsClockRuns) {
 }
 
 TEST(AlignedClock, GainsNothingWhereTheClocksAgree) {
-  const Case c = a_case();
+  const Case c = minutes_case();
   for (const Recording& r : c.recordings) {
     const auto run = innovation_run(r, c.nominal);
     ASSERT_TRUE(run);

@@ -44,7 +44,7 @@ Recording carried_by_odometry(Recording r, const DifferentialDrive& drive, std::
   return r;
 }
 
-Case a_case(const std::string& effect = "", double size = 0.0, bool without_noise = false) {
+Case carried_case(const std::string& effect = "", double size = 0.0, bool without_noise = false) {
   CaseSettings c;
   c.effect = effect;
   c.size = size;
@@ -57,7 +57,7 @@ Case a_case(const std::string& effect = "", double size = 0.0, bool without_nois
 std::size_t count_of_truth(const Recording& r) { return truth_samples(r).size(); }
 
 TEST(CarriedTruth, IsLeftToItsCorrections) {
-  const Case c = a_case();
+  const Case c = carried_case();
   const Recording carried = carried_by_odometry(c.recordings[0], c.actual);
   const std::optional<MeasuredRecording> measured = without_carried_truth(carried);
   ASSERT_TRUE(measured);
@@ -74,7 +74,7 @@ TEST(CarriedTruth, IsLeftToItsCorrections) {
 }
 
 TEST(CarriedTruth, CalibratesAsItsCorrectionsByThemselves) {
-  Case c = a_case();
+  Case c = carried_case();
   std::vector<Recording> corrections_alone;
   for (Recording& r : c.recordings) {
     const Recording carried = carried_by_odometry(r, c.actual);
@@ -98,7 +98,7 @@ TEST(CarriedTruth, CalibratesAsItsCorrectionsByThemselves) {
 }
 
 TEST(CarriedTruth, IsNoMissingPhysicsAndHidesNone) {
-  Case sound = a_case(), creeps = a_case("floor_slope_creep", 3.0);
+  Case sound = carried_case(), creeps = carried_case("floor_slope_creep", 3.0);
   for (Case* c : {&sound, &creeps})
     for (Recording& r : c->recordings) r = carried_by_odometry(std::move(r), c->actual);
   EXPECT_EQ(diagnose(sound.recordings, {}, sound.nominal)->verdict, Verdict::nothing_missing);
@@ -113,7 +113,7 @@ TEST(CarriedTruth, IsNoneThatIsMeasuredHoweverWell) {
   for (const char* effect : {"", "slip_zone", "lateral_slip", "collision"})
     for (const bool without_noise : {false, true})
       for (const bool rounded : {false, true}) {
-        Case c = a_case(effect, 1.0, without_noise);
+        Case c = carried_case(effect, 1.0, without_noise);
         for (Recording& r : c.recordings) {
           for (Channel& channel : r.channels)
             if (rounded && (channel.name == "truth_x_m" || channel.name == "truth_y_m"))
@@ -124,14 +124,14 @@ TEST(CarriedTruth, IsNoneThatIsMeasuredHoweverWell) {
 }
 
 TEST(CarriedTruth, CannotBeToldWithoutHeadings) {
-  const Case c = a_case();
+  const Case c = carried_case();
   Recording r = carried_by_odometry(c.recordings[0], c.actual);
   std::erase_if(r.channels, [](const Channel& channel) { return channel.name == "truth_heading_rad"; });
   EXPECT_FALSE(without_carried_truth(r));
 }
 
 TEST(ComputedTruth, IsSaidOfARobotsOwnOdometryAndOfNothingMeasured) {
-  Case c = a_case();
+  Case c = carried_case();
   EXPECT_FALSE(warning_of_computed_truth(c.recordings[0]));
   for (Recording& r : c.recordings) r = carried_by_odometry(std::move(r), c.actual, std::size_t{1} << 30);
   const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);

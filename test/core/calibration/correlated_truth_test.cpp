@@ -34,7 +34,7 @@ Recording with_smoothed_truth(Recording r, int samples) {
   return r;
 }
 
-Case a_case() {
+Case correlated_case() {
   CaseSettings c;
   c.runs = 3;
   c.duration_s = 40.0;
@@ -42,7 +42,7 @@ Case a_case() {
 }
 
 TEST(CorrelatedTruth, KeepsSamplesThatAreSoFarApartAndAllThatIsNotTruth) {
-  const Recording whole = a_case().recordings[0], fewer = with_truth_apart(whole, 0.1);
+  const Recording whole = correlated_case().recordings[0], fewer = with_truth_apart(whole, 0.1);
   double last_s = -1.0;
   for (std::size_t i = 0; i < fewer.time_s.size(); ++i) {
     EXPECT_EQ(std::isnan(fewer.channel("truth_x_m")->values[i]),
@@ -57,7 +57,7 @@ TEST(CorrelatedTruth, KeepsSamplesThatAreSoFarApartAndAllThatIsNotTruth) {
 }
 
 TEST(CorrelatedTruth, OfATrackerThatSmoothsBendsNoCalibration) {
-  Case c = a_case();
+  Case c = correlated_case();
   for (Recording& r : c.recordings) r = with_smoothed_truth(std::move(r), 9);
   const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);
   ASSERT_TRUE(fit);
@@ -66,7 +66,7 @@ TEST(CorrelatedTruth, OfATrackerThatSmoothsBendsNoCalibration) {
 }
 
 TEST(CorrelatedTruth, IsNotSuspectedWhereTheNoiseIsWhite) {
-  const Case c = a_case();
+  const Case c = correlated_case();
   const Result<LeastSquaresCalibration> fit = calibrate_least_squares(c.recordings, c.nominal);
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->truth_apart_s, 0.0);

@@ -15,25 +15,25 @@ namespace {
 
 using Series = std::vector<double>;
 
-constexpr double kPeriod_s = 0.02;
+constexpr double kStampPeriod_s = 0.02;
 constexpr int kRows = 1500;
 
 double late_s(Random& random, double mean_s) { return -mean_s * std::log(1.0 - random.uniform()); }
 
 // A wheel that speeds up, slows down and turns back: up to 5 rad/s.
-double turned_rad(double t) { return 10.0 * std::sin(0.5 * t) + 0.7 * t; }
+double turned_to_and_fro_rad(double t) { return 10.0 * std::sin(0.5 * t) + 0.7 * t; }
 
 double counted_rad(double rad) { return 0.003 * std::floor(rad / 0.003); }
 
 Series evenly() {
   Series taken_s;
-  for (int i = 0; i < kRows; ++i) taken_s.push_back(1e6 + kPeriod_s * i);  // as a long-running clock counts
+  for (int i = 0; i < kRows; ++i) taken_s.push_back(1e6 + kStampPeriod_s * i);  // as a long-running clock counts
   return taken_s;
 }
 
 Series read_at(const Series& taken_s) {
   Series rad;
-  for (double t : taken_s) rad.push_back(counted_rad(turned_rad(t - 1e6)));
+  for (double t : taken_s) rad.push_back(counted_rad(turned_to_and_fro_rad(t - 1e6)));
   return rad;
 }
 
@@ -69,7 +69,7 @@ TEST(EvenStamps, OfAnEvenPeriodThatAreRoundedToHundredthsLieOnOneStraightLine) {
     stamps.push_back(0.01 * (i < kRows / 2 ? std::floor(hundredths + 0.5) : std::ceil(hundredths - 0.5)));
   }
   Series rad;
-  for (double t : taken_s) rad.push_back(counted_rad(turned_rad(t)));
+  for (double t : taken_s) rad.push_back(counted_rad(turned_to_and_fro_rad(t)));
   const std::optional<EvenStamps> even = even_stamps(stamps, {rad});
   ASSERT_TRUE(even);
   EXPECT_LT(unevenness_s(even->time_s, taken_s), 1e-5);
@@ -83,7 +83,7 @@ TEST(EvenStamps, ReadingsThatArriveLateAreGivenTheirEvenTimesBack) {
   // The lateness of 4 ms is averaged over five seconds, 250 rows, twice as badly at a line's ends: 0.25 to 0.5 ms.
   EXPECT_LT(unevenness_s(even->time_s, taken), 0.0005);
   EXPECT_NEAR(even->trembling_s, unevenness_s(stamps, taken), 0.0003);  // less what the line followed
-  EXPECT_NEAR(even->period_s, kPeriod_s, 1e-4);  // lateness over the root of 1500 rows and 20 rows apart
+  EXPECT_NEAR(even->period_s, kStampPeriod_s, 1e-4);  // lateness over the root of 1500 rows and 20 rows apart
 }
 
 TEST(EvenStamps, TrueStampsOfUnevenSamplingAreBelieved) {
@@ -95,13 +95,13 @@ TEST(EvenStamps, TrueStampsOfUnevenSamplingAreBelieved) {
 
   // A loop that waits a period and then needs its time.
   Series waited{1e6};
-  while (waited.size() < kRows) waited.push_back(waited.back() + kPeriod_s + late_s(random, 0.003));
+  while (waited.size() < kRows) waited.push_back(waited.back() + kStampPeriod_s + late_s(random, 0.003));
   EXPECT_FALSE(even_stamps(waited, {read_at(waited), read_at(waited)}));
 
   // An encoder that speaks at each of its counts: its rows are even in angle, not in time.
   Series spoken, counts;
   for (double t = 0.0, last = 0.0; t < 10.0; t += 1e-4)
-    if (const double now = std::floor(turned_rad(t) / 0.1); now != last) {
+    if (const double now = std::floor(turned_to_and_fro_rad(t) / 0.1); now != last) {
       last = now;
       spoken.push_back(t);
       counts.push_back(0.1 * now);
@@ -176,7 +176,7 @@ TEST(EvenStamps, RowsThatAreOftenMissingLeaveTheirGapWhereStampsTrembleLittle) {
   const auto even = even_stamps(stamps, {read_at(taken), read_at(taken)});
   ASSERT_TRUE(even);
   EXPECT_LT(unevenness_s(even->time_s, taken), 0.25 * kTrembles_s);
-  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_NEAR(even->time_s[i], taken[i], 0.1 * kPeriod_s) << i;
+  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_NEAR(even->time_s[i], taken[i], 0.1 * kStampPeriod_s) << i;
 }
 
 TEST(EvenStamps, ATruthIsJudgedByItsOwnPath) {

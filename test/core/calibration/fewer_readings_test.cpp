@@ -8,7 +8,7 @@ namespace odolab {
 namespace {
 
 // Each wheel speeds up evenly for ten seconds, read at 100 Hz; none are lost but for 0.3 s.
-InnovationRun speeding_up() {
+InnovationRun run_speeding_up() {
   InnovationRun run;
   for (int i = 0; i <= 1000; ++i) {
     const double t = 0.01 * i;
@@ -24,7 +24,7 @@ InnovationRun speeding_up() {
 }
 
 TEST(FewerReadings, AreNoFurtherApartThanAskedForButWhereTheyWere) {
-  const InnovationRun few = with_fewer_readings(speeding_up(), 0.034);
+  const InnovationRun few = with_fewer_readings(run_speeding_up(), 0.034);
   EXPECT_EQ(few.wheels.front().time_s, 0.0);
   EXPECT_EQ(few.wheels.back().time_s, 10.0);
   int longer = 0;
@@ -34,7 +34,7 @@ TEST(FewerReadings, AreNoFurtherApartThanAskedForButWhereTheyWere) {
 }
 
 TEST(FewerReadings, AreThoseThatWere) {
-  const InnovationRun few = with_fewer_readings(speeding_up(), 0.034);
+  const InnovationRun few = with_fewer_readings(run_speeding_up(), 0.034);
   for (const WheelSample& w : few.wheels) {
     EXPECT_EQ(w.left_rad, 0.5 * w.time_s * w.time_s);
     EXPECT_EQ(w.right_rad, 1.5 * w.time_s * w.time_s);
@@ -49,7 +49,7 @@ TEST(FewerReadings, AreThoseThatWere) {
 }
 
 TEST(FewerReadings, KeepWhereAWheelComesToRest) {
-  const InnovationRun few = with_fewer_readings(speeding_up(), 0.034);
+  const InnovationRun few = with_fewer_readings(run_speeding_up(), 0.034);
   unsigned settles = 0;
   for (std::size_t i = 0; i < few.settles.size(); ++i)
     if (few.settles[i]) {
@@ -60,7 +60,7 @@ TEST(FewerReadings, KeepWhereAWheelComesToRest) {
 }
 
 TEST(FewerReadings, KeepBothEndsOfWhatIsLeftOut) {
-  InnovationRun run = speeding_up();
+  InnovationRun run = run_speeding_up();
   run.left_out = {{run.wheels[101].time_s, run.wheels[102].time_s}};
   const InnovationRun few = with_fewer_readings(run, 0.034);
   for (const std::size_t k : {101u, 102u})
@@ -70,7 +70,7 @@ TEST(FewerReadings, KeepBothEndsOfWhatIsLeftOut) {
 }
 
 TEST(FewerReadings, AreNotTakenOfCommands) {
-  InnovationRun run = speeding_up();
+  InnovationRun run = run_speeding_up();
   run.speeds_are_held = true;
   EXPECT_EQ(with_fewer_readings(run, 0.034).wheels.size(), run.wheels.size());
 }

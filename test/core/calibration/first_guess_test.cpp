@@ -31,7 +31,7 @@ InnovationRun winding_arcs(double radius_m, double wheelbase_m) {
   return run;
 }
 
-DifferentialDrive drive(double radius_m, double wheelbase_m) {
+DifferentialDrive drive_with(double radius_m, double wheelbase_m) {
   DifferentialDrive d;
   d.wheel_radius_left_m = d.wheel_radius_right_m = radius_m;
   d.wheelbase_m = wheelbase_m;
@@ -39,24 +39,24 @@ DifferentialDrive drive(double radius_m, double wheelbase_m) {
 }
 
 TEST(FirstGuess, FindsARobotOfHalfTheBelievedSize) {
-  const FirstGuess guess = first_guess({winding_arcs(0.05, 0.2)}, drive(0.1, 0.4));
+  const FirstGuess guess = first_guess({winding_arcs(0.05, 0.2)}, drive_with(0.1, 0.4));
   ASSERT_TRUE(guess.trusted);
   // Chords instead of arcs over half a second: (0.4 rad)^2 / 24.
   EXPECT_NEAR(guess.drive.wheel_radius_left_m, 0.05, 0.0005);
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
-  EXPECT_EQ(contradiction_in({winding_arcs(0.05, 0.2)}, drive(0.1, 0.4)), "");
+  EXPECT_EQ(contradiction_in({winding_arcs(0.05, 0.2)}, drive_with(0.1, 0.4)), "");
 }
 
 TEST(FirstGuess, IsNotLedAstrayByOneJumpOfACounter) {
   InnovationRun run = winding_arcs(0.05, 0.2);
   for (std::size_t i = 700; i < run.wheels.size(); ++i) run.wheels[i].left_rad += 1e6;
-  const FirstGuess guess = first_guess({run}, drive(0.05, 0.2));
+  const FirstGuess guess = first_guess({run}, drive_with(0.05, 0.2));
   ASSERT_TRUE(guess.trusted);
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
 }
 
 TEST(FirstGuess, NamesWhatNoCalibrationMends) {
-  const DifferentialDrive nominal = drive(0.05, 0.2);
+  const DifferentialDrive nominal = drive_with(0.05, 0.2);
   const auto says = [&](const InnovationRun& run, const char* words) {
     const std::string found = contradiction_in({run}, nominal);
     EXPECT_NE(found.find(words), std::string::npos) << words << ": " << found;
@@ -87,8 +87,8 @@ TEST(FirstGuess, ExplainsADriveThatCrawlsMostOfTheTime) {
     run.truth.push_back({truth.time_s + t, truth.position + on + Vec2{0.001 * random.normal(), 0.001 * random.normal()},
                          *truth.heading_rad + 0.002 * random.normal()});
   }
-  EXPECT_EQ(contradiction_in({run}, drive(0.05, 0.2)), "");
-  const FirstGuess guess = first_guess({run}, drive(0.05, 0.2));
+  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "");
+  const FirstGuess guess = first_guess({run}, drive_with(0.05, 0.2));
   ASSERT_TRUE(guess.trusted);
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
 }

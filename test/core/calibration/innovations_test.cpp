@@ -20,7 +20,7 @@ InnovationModel model_off_nominal() {
   return m;
 }
 
-double& parameter(InnovationModel& m, InnovationRun& run, int c) {
+double& model_parameter(InnovationModel& m, InnovationRun& run, int c) {
   switch (c) {
     case column::wheel_radius_left:
       return m.drive.wheel_radius_left_m;
@@ -80,11 +80,11 @@ TEST(Innovations, DerivativesOfTheMotionAgreeWithDifferences) {
   for (int c = 0; c < summed.columns; ++c) {
     if (c >= column::mounting_x && c <= column::mounting_heading) continue;  // the motion does not know them
     const double h = 1e-6;
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     const SummedRun above = summed_up(run, m);
-    parameter(m, run, c) -= 2 * h;
+    model_parameter(m, run, c) -= 2 * h;
     const SummedRun below = summed_up(run, m);
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     for (std::size_t i = 0; i < summed.motions.size(); ++i) {
       const Pose &a = above.motions[i].motion, &b = below.motions[i].motion;
       const double* d =
@@ -110,11 +110,11 @@ TEST(Innovations, InformationOfOneMeasurementAgreesWithDifferences) {
   std::vector<std::array<double, 3>> j(static_cast<std::size_t>(p));
   for (int c = 0; c < p; ++c) {
     const double h = 1e-6;
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     const Innovation above = innovations_of(run, m).at(0);
-    parameter(m, run, c) -= 2 * h;
+    model_parameter(m, run, c) -= 2 * h;
     const Innovation below = innovations_of(run, m).at(0);
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     for (int k = 0; k < 3; ++k) j[c][k] = -(above.residual[k] - below.residual[k]) / (2 * h);
   }
   // Whitened by the covariance at hand.
@@ -147,11 +147,11 @@ TEST(Innovations, DerivativesPassThroughTheGain) {
   const std::vector<Innovation> at = innovations_of(run, m);
   for (int c = 0; c < p; ++c) {
     const double h = 1e-6;
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     const std::vector<Innovation> above = innovations_of(run, m);
-    parameter(m, run, c) -= 2 * h;
+    model_parameter(m, run, c) -= 2 * h;
     const std::vector<Innovation> below = innovations_of(run, m);
-    parameter(m, run, c) += h;
+    model_parameter(m, run, c) += h;
     // Squared length of the whitened derivative: the information's diagonal. The differences also contain the change of
     // the gain and of the whitening, which the filter holds fixed: a share of the order of the residual over the
     // leverage.

@@ -9,7 +9,7 @@
 namespace odolab::test {
 namespace {
 
-Case a_case(double late_s, CaseSettings::Truth truth = CaseSettings::Truth::mocap) {
+Case late_case(double late_s, CaseSettings::Truth truth = CaseSettings::Truth::mocap) {
   CaseSettings settings;
   settings.runs = 2;
   settings.duration_s = 50.0;
@@ -21,7 +21,7 @@ Case a_case(double late_s, CaseSettings::Truth truth = CaseSettings::Truth::moca
 
 TEST(LateTruth, OfSecondsIsToldFromHeadingsInDegreesAndMendedByTheVehiclesFile) {
   for (const double late_s : {2.0, -3.5, 11.0}) {
-    const Case c = a_case(late_s);
+    const Case c = late_case(late_s);
     const Result<LeastSquaresCalibration> refused = calibrate_least_squares(c.recordings, c.nominal);
     ASSERT_FALSE(refused) << late_s;
     char says[40];
@@ -38,7 +38,7 @@ TEST(LateTruth, OfSecondsIsToldFromHeadingsInDegreesAndMendedByTheVehiclesFile) 
 }
 
 TEST(LateTruth, IsNotSuspectedWhereTheClocksAgreeToTenths) {
-  const Case c = a_case(0.2);
+  const Case c = late_case(0.2);
   std::vector<InnovationRun> runs;
   for (const Recording& r : c.recordings) runs.push_back(*innovation_run(r, c.nominal));
   EXPECT_FALSE(late_truth_s(runs));

@@ -21,7 +21,7 @@ struct Phase {
 };
 
 // Truck A and B steer to their angles, B keeps the link's length.
-Recording drive(const LinkedTrucks& actual, const std::vector<Phase>& phases, std::uint64_t seed) {
+Recording driven_by_phases(const LinkedTrucks& actual, const std::vector<Phase>& phases, std::uint64_t seed) {
   LinkedKinematics v(actual, {}, 0.0, 0.0, actual.link_length_m);
   std::vector<LinkedSample> samples{rounded(v.reading(), actual, seed)};
   double wobble = 0.0;
@@ -60,7 +60,7 @@ std::vector<Phase> with_crabbing() {
   return phases;
 }
 
-const ParameterEstimate& named(const InternalCalibration& c, const std::string& name) {
+const ParameterEstimate& linked_parameter(const InternalCalibration& c, const std::string& name) {
   for (const ParameterEstimate& p : c.parameters)
     if (p.name == name) return p;
   ADD_FAILURE() << name;
@@ -69,7 +69,7 @@ const ParameterEstimate& named(const InternalCalibration& c, const std::string& 
 
 // Within four of its own standard errors, and those no larger than asked.
 void expect_found(const InternalCalibration& c, const std::string& name, double should, double largest_stderr) {
-  const ParameterEstimate& p = named(c, name);
+  const ParameterEstimate& p = linked_parameter(c, name);
   EXPECT_TRUE(p.determined) << name;
   EXPECT_NEAR(p.value, should, 4.0 * p.stderr_value) << name;
   EXPECT_LT(p.stderr_value, largest_stderr) << name;
@@ -85,8 +85,9 @@ TEST(LinkedCalibration, FindsUnequalWheelsAndWheelbasesOfBothTrucks) {
   actual.truck_b.wheel_radius_left_m = 0.0755;
   Vehicle nominal;
   nominal.kind = clapper();
-  const Result<InternalCalibration> found =
-      calibrate_linked({drive(actual, straights_and_turns(), 1), drive(actual, straights_and_turns(), 2)}, nominal);
+  const Result<InternalCalibration> found = calibrate_linked(
+      {driven_by_phases(actual, straights_and_turns(), 1), driven_by_phases(actual, straights_and_turns(), 2)},
+      nominal);
   ASSERT_TRUE(found) << found.error().message();
   expect_found(*found, "truck_a.wheel_radius_left_m", 0.075 * 0.999, 6e-5);
   expect_found(*found, "truck_a.wheel_radius_right_m", 0.075 * 1.001, 6e-5);
@@ -104,7 +105,7 @@ TEST(LinkedCalibration, FindsTheLinkLengthsBiasInTurns) {
   for (int i = 0; i < 3; ++i)
     for (double angle : {0.7, -0.7}) tight.push_back({angle, -angle, 0.45, 15.0});
   const Result<InternalCalibration> found =
-      calibrate_linked({drive(actual, tight, 3), drive(actual, tight, 4)}, nominal);
+      calibrate_linked({driven_by_phases(actual, tight, 3), driven_by_phases(actual, tight, 4)}, nominal);
   ASSERT_TRUE(found) << found.error().message();
   expect_found(*found, "link_length_offset_m", 0.002, 1.5e-3);
 }
@@ -116,13 +117,13 @@ TEST(LinkedCalibration, TellsBiasedEncodersFromUnequalWheelsOnlyByDrivingSideway
   Vehicle nominal;
   nominal.kind = clapper();
   const std::vector<Phase> straight = {{0.0, 0.0, 0.45, 40.0}, {0.0, 0.0, -0.45, 20.0}};
-  const Result<InternalCalibration> in_line = calibrate_linked({drive(actual, straight, 5)}, nominal);
+  const Result<InternalCalibration> in_line = calibrate_linked({driven_by_phases(actual, straight, 5)}, nominal);
   ASSERT_TRUE(in_line) << in_line.error().message();
-  EXPECT_FALSE(named(*in_line, "link_angle_a_offset_rad").determined);
+  EXPECT_FALSE(linked_parameter(*in_line, "link_angle_a_offset_rad").determined);
   ASSERT_FALSE(in_line->cannot_tell.empty());
   EXPECT_NE(in_line->cannot_tell.front().find("sideways"), std::string::npos);
-  const Result<InternalCalibration> sideways =
-      calibrate_linked({drive(actual, with_crabbing(), 6), drive(actual, with_crabbing(), 7)}, nominal);
+  const Result<InternalCalibration> sideways = calibrate_linked(
+      {driven_by_phases(actual, with_crabbing(), 6), driven_by_phases(actual, with_crabbing(), 7)}, nominal);
   ASSERT_TRUE(sideways) << sideways.error().message();
   expect_found(*sideways, "link_angle_a_offset_rad", radians(1.0), radians(0.3));
   expect_found(*sideways, "link_angle_b_offset_rad", radians(-1.0), radians(0.3));
@@ -140,13 +141,14 @@ TEST(LinkedCalibration, ClaimsNoMoreThanItKnows) {
   double chi2 = 0.0;
   int count = 0;
   for (std::uint64_t seed = 20; seed < 28; ++seed) {
-    const Result<InternalCalibration> found = calibrate_linked({drive(actual, with_crabbing(), seed)}, nominal);
+    const Result<InternalCalibration> found =
+        calibrate_linked({driven_by_phases(actual, with_crabbing(), seed)}, nominal);
     ASSERT_TRUE(found) << found.error().message();
     const std::pair<const char*, double> truth[] = {
         {"truck_a.wheel_radius_left_m", 0.075}, {"truck_a.wheelbase_m", 0.34},     {"truck_b.wheelbase_m", 0.343},
         {"link_angle_a_offset_rad", 0.0},       {"link_angle_b_offset_rad", 0.01}, {"link_length_offset_m", -0.003}};
     for (const auto& [name, should] : truth) {
-      const ParameterEstimate& p = named(*found, name);
+      const ParameterEstimate& p = linked_parameter(*found, name);
       if (!p.determined) continue;
       const double z = (p.value - should) / p.stderr_value;
       chi2 += z * z;

@@ -12,20 +12,20 @@ namespace {
 
 constexpr FittedNoise kNoise = {0.003, 0.001, 0.004, 0.0015, 0.0012, 0.001};
 
-struct Driven {
+struct DrivenWithNoise {
   InnovationModel model;
   InnovationRun run;
   SummedRun summed;
 };
 
-Driven driven(bool with_heading) {
+DrivenWithNoise driven_with_noise(bool with_heading) {
   Random random(3);
   test::GeneratorSettings g;
   g.duration_s = 60.0;
   g.wheel_noise = kNoise.wheel_m_per_sqrt_m;
   g.truth_position_noise_m = kNoise.truth_position_m;
   g.truth_heading_noise_rad = kNoise.truth_heading_rad;
-  Driven d;
+  DrivenWithNoise d;
   d.model.drive = g.drive;
   d.model.truth = g.truth;
   d.model.truth.axle_T_tracked = {0.06, -0.04, 0.1};
@@ -40,14 +40,14 @@ Driven driven(bool with_heading) {
   return d;
 }
 
-NoiseSlopes sums_of(const Driven& d, const FittedNoise& noise) {
+NoiseSlopes sums_of(const DrivenWithNoise& d, const FittedNoise& noise) {
   InnovationModel model = d.model;
   model.noise = noise;
   return noise_slopes(d.run, d.summed, model);
 }
 
 // Of twice the negative log-likelihood by the logarithm of one size.
-double slope_by_differences(const Driven& d, const FittedNoise& noise, int size) {
+double slope_by_differences(const DrivenWithNoise& d, const FittedNoise& noise, int size) {
   constexpr double kBy = 1e-4;
   FittedNoise more = noise, less = noise;
   size_of(more, size) *= std::exp(kBy);
@@ -57,7 +57,7 @@ double slope_by_differences(const Driven& d, const FittedNoise& noise, int size)
 
 TEST(NoiseFit, SlopesAgreeWithDifferences) {
   for (bool with_heading : {true, false}) {
-    const Driven d = driven(with_heading);
+    const DrivenWithNoise d = driven_with_noise(with_heading);
     const NoiseSlopes sums = sums_of(d, kNoise);
     for (int size = 0; size < noise_size::count; ++size) {
       const double slope = slope_by_differences(d, kNoise, size);
@@ -74,7 +74,7 @@ TEST(NoiseFit, SlopesAgreeWithDifferences) {
 constexpr FittedNoise kLasting = {0.003, 0.001, 0.004, 0.0015, 0.0012, 0.001, 0.004, 0.003, 2.0};
 
 TEST(NoiseFit, SlopesAgreeWithDifferencesWhereTheTruthsNoiseLasts) {
-  const Driven d = driven(true);
+  const DrivenWithNoise d = driven_with_noise(true);
   const NoiseSlopes sums = sums_of(d, kLasting);
   for (int size = 0; size < noise_size::count; ++size) {
     const double slope = slope_by_differences(d, kLasting, size);
@@ -83,7 +83,7 @@ TEST(NoiseFit, SlopesAgreeWithDifferencesWhereTheTruthsNoiseLasts) {
 }
 
 TEST(NoiseFit, ATruthThatHardlyComesBackIsOneThatNeverDoes) {
-  const Driven d = driven(true);
+  const DrivenWithNoise d = driven_with_noise(true);
   FittedNoise never = kLasting, hardly = kLasting;
   never.wander_lasts_s = 0.0;
   hardly.wander_lasts_s = 1e5;  // of which the run is a two-thousandth
@@ -95,7 +95,7 @@ TEST(NoiseFit, ATruthThatHardlyComesBackIsOneThatNeverDoes) {
 
 TEST(NoiseFit, CurvatureIsThatOfTheMeanOverManyRuns) {
   // Fisher: the expected curvature. A run's own scatters about it by one over the root of its samples.
-  const Driven d = driven(true);
+  const DrivenWithNoise d = driven_with_noise(true);
   const NoiseSlopes sums = sums_of(d, kNoise);
   for (int size : {noise_size::wheel, noise_size::position, noise_size::heading}) {
     constexpr double kBy = 1e-3;
@@ -108,7 +108,7 @@ TEST(NoiseFit, CurvatureIsThatOfTheMeanOverManyRuns) {
 }
 
 TEST(NoiseFit, FindsTheSizesThatWereDrawn) {
-  const Driven d = driven(true);
+  const DrivenWithNoise d = driven_with_noise(true);
   const auto likelihood = [&](const FittedNoise& noise) { return sums_of(d, noise); };
   const NoiseFit fit{{noise_size::wheel, noise_size::position, noise_size::heading}, {0.003, 0.002, 0.005}};
   int calls = 0;
@@ -134,7 +134,7 @@ TEST(NoiseFit, FindsTheSizesThatWereDrawn) {
 }
 
 TEST(NoiseFit, HoldsSizesAtTheLeastThatAnyRealNoiseHas) {
-  Driven d = driven(true);
+  DrivenWithNoise d = driven_with_noise(true);
   for (RelativeMotion& m : d.summed.motions) m = {};  // it stands, and every reading is the same
   for (TruthSample& t : d.run.truth) t.position = d.run.truth[0].position, t.heading_rad = d.run.truth[0].heading_rad;
   const auto likelihood = [&](const FittedNoise& noise) { return sums_of(d, noise); };

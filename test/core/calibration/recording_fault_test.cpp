@@ -19,7 +19,7 @@ std::vector<Recording> three_runs(const test::Case& c) {
   return runs;
 }
 
-test::Case a_case(const std::string& effect, double size, std::uint64_t seed) {
+test::Case faulty_case(const std::string& effect, double size, std::uint64_t seed) {
   test::CaseSettings s;
   s.effect = effect;
   s.size = size;
@@ -54,7 +54,7 @@ void expect_named(const test::Case& c, const std::function<void(Recording&)>& sp
 }
 
 TEST(RecordingFault, NamesTheOneRunWhoseColumnsAreNotWhatTheyAreCalled) {
-  const test::Case c = a_case("", 0.0, 5);
+  const test::Case c = faulty_case("", 0.0, 5);
   expect_named(
       c, [](Recording& r) { scale(r, "truth_heading_rad", 180.0 / kPi); }, "degrees");
   expect_named(
@@ -81,7 +81,7 @@ TEST(RecordingFault, NamesTheOneRunWhoseColumnsAreNotWhatTheyAreCalled) {
 }
 
 TEST(RecordingFault, NamesAnEncoderThatIsDeadAndNotAPivotAboutItsWheel) {
-  const test::Case c = a_case("", 0.0, 5);
+  const test::Case c = faulty_case("", 0.0, 5);
   expect_named(
       c, [](Recording& r) { scale(r, "left_wheel_rad", 0.0); }, "left wheel that never turns");
   Random random(3);
@@ -93,14 +93,14 @@ TEST(RecordingFault, NamesAnEncoderThatIsDeadAndNotAPivotAboutItsWheel) {
 }
 
 TEST(RecordingFault, SeesMillimetresWithoutHeadings) {
-  test::Case c = a_case("", 0.0, 6);
+  test::Case c = faulty_case("", 0.0, 6);
   for (Recording& r : c.recordings) column(r, "truth_heading_rad").assign(r.time_s.size(), std::nan(""));
   expect_named(
       c, [](Recording& r) { scale(r, "truth_x_m", 1e3), scale(r, "truth_y_m", 1e3); }, "millimetres");
 }
 
 TEST(RecordingFault, SaysOfAllTogetherWhatAllShare) {
-  const test::Case c = a_case("", 0.0, 7);
+  const test::Case c = faulty_case("", 0.0, 7);
   std::vector<Recording> runs = three_runs(c);
   for (Recording& r : runs) std::swap(column(r, "left_wheel_rad"), column(r, "right_wheel_rad"));
   for (const std::optional<Error>& fault : faults_in(runs, c.nominal)) {
@@ -114,7 +114,7 @@ TEST(RecordingFault, SaysOfAllTogetherWhatAllShare) {
 // by 4 %, and a vehicle file that is a third off.
 TEST(RecordingFault, TakesNoPhysicsForAFault) {
   for (const char* effect : {"slip_zone", "radius_drift", "lateral_slip", "turn_scrub", "collision", "magnet"}) {
-    test::Case c = a_case(effect, 10.0, 8);
+    test::Case c = faulty_case(effect, 10.0, 8);
     DifferentialDrive& drive = std::get<DifferentialDrive>(c.nominal.kind);
     drive.wheel_radius_left_m *= 1.3;
     drive.wheelbase_m *= 0.7;

@@ -7,7 +7,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kCount_rad = 0.00628;  // 1000 to a turn
+constexpr double kSmoothedCount_rad = 0.00628;  // 1000 to a turn
 
 // A wheel that speeds up from rest, goes on evenly and stops, read 100 times a second; the right one backward.
 double turned_rad(double time_s) {
@@ -22,7 +22,8 @@ std::vector<WheelSample> readings() {
   std::vector<WheelSample> all;
   for (int i = 0; i <= 700; ++i) {
     const double t = 0.01 * i, rad = turned_rad(t);
-    all.push_back({t, kCount_rad * std::floor(rad / kCount_rad), kCount_rad * std::floor(-rad / kCount_rad)});
+    all.push_back({t, kSmoothedCount_rad * std::floor(rad / kSmoothedCount_rad),
+                   kSmoothedCount_rad * std::floor(-rad / kSmoothedCount_rad)});
   }
   return all;
 }
@@ -56,7 +57,7 @@ TEST(SmoothedReadings, FollowAnEvenWheelToATenthOfACount) {
   // that where they are not whole.
   for (const WheelSample& s : smooth)
     if (s.time_s > 2.5 && s.time_s < 4.5) {
-      EXPECT_NEAR(s.left_rad + 0.5 * kCount_rad, turned_rad(s.time_s), 0.1 * kCount_rad);
+      EXPECT_NEAR(s.left_rad + 0.5 * kSmoothedCount_rad, turned_rad(s.time_s), 0.1 * kSmoothedCount_rad);
     }
 }
 

@@ -8,11 +8,11 @@
 namespace odolab {
 namespace {
 
-constexpr double kPeriod_s = 0.02;
+constexpr double kWheelPeriod_s = 0.02;
 
 std::vector<WheelSample> read_of(double duration_s, double count_rad, double (*turned_rad)(double)) {
   std::vector<WheelSample> readings;
-  for (double t = 0.0; t < duration_s; t += kPeriod_s) {
+  for (double t = 0.0; t < duration_s; t += kWheelPeriod_s) {
     const double rad = turned_rad(t);
     readings.push_back({t, count_rad * std::floor(rad / count_rad), rad});
   }
@@ -33,9 +33,10 @@ TEST(WheelAccelerations, OfAQuickStartAddUpToTheSpeedReached) {
   double left = 0.0, right = 0.0, late = 0.0;
   const auto accelerations = wheel_accelerations(readings);
   for (std::size_t i = 0; i < accelerations.size(); ++i) {
-    left += kPeriod_s * accelerations[i].left_radps2;
-    right += kPeriod_s * accelerations[i].right_radps2;
-    if (std::abs(kPeriod_s * static_cast<double>(i) - 2.15) > 0.35) late += std::abs(accelerations[i].right_radps2);
+    left += kWheelPeriod_s * accelerations[i].left_radps2;
+    right += kWheelPeriod_s * accelerations[i].right_radps2;
+    if (std::abs(kWheelPeriod_s * static_cast<double>(i) - 2.15) > 0.35)
+      late += std::abs(accelerations[i].right_radps2);
   }
   EXPECT_NEAR(right, 5.0, 0.01 * 5.0);
   EXPECT_NEAR(left, 5.0, 0.02 * 5.0);
@@ -48,7 +49,7 @@ TEST(WheelAccelerations, OfCoarseCountsAreSmoothedUntilTheirTrembleIsAThousandth
   double off = 0.0, all = 0.0;
   const auto accelerations = wheel_accelerations(readings);
   for (std::size_t i = 0; i < accelerations.size(); ++i) {
-    const double truth = -8.0 * 0.81 * std::sin(0.9 * kPeriod_s * (static_cast<double>(i) + 0.5));
+    const double truth = -8.0 * 0.81 * std::sin(0.9 * kWheelPeriod_s * (static_cast<double>(i) + 0.5));
     const double by = accelerations[i].left_radps2 - truth;
     off += by * by;
     all += truth * truth;

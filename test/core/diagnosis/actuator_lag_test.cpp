@@ -13,7 +13,7 @@ namespace {
 constexpr double kLag_s = 0.065;
 
 // Joystick driving; the base follows with a lag. It is told so often, of 2000 times a second one in so many.
-Recording driven(int number, double lag_s, int told_every = 40) {
+Recording driven_with_lag(int number, double lag_s, int told_every = 40) {
   Random random(static_cast<std::uint64_t>(70 + number));
   double wanted_mps = 0.0, wanted_radps = 0.0;
   const double most_mps = 0.0005 * told_every, most_radps = 0.0015 * told_every;
@@ -32,7 +32,7 @@ Recording driven(int number, double lag_s, int told_every = 40) {
 // Seen from its commands alone, a base that lags is nearly one that is late.
 TEST(ActuatorLag, IsToldFromADelayThatTakesAlmostAllOfIt) {
   std::vector<Recording> recordings;
-  for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, kLag_s));
+  for (int n = 1; n <= 4; ++n) recordings.push_back(driven_with_lag(n, kLag_s));
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.verdict, Verdict::found);
@@ -77,7 +77,7 @@ TEST(ActuatorLag, PutsTheBaseBehindByWhatItsEquationSaysInTheMeanOfEachStep) {
 TEST(ActuatorLag, IsToldThoughACommandIsHeldForAsLong) {
   for (const double lag_s : {0.012, 0.024}) {
     std::vector<Recording> recordings;
-    for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, lag_s));
+    for (int n = 1; n <= 4; ++n) recordings.push_back(driven_with_lag(n, lag_s));
     const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
     ASSERT_EQ(d.verdict, Verdict::found) << lag_s;
     ASSERT_EQ(d.findings.size(), 1U) << lag_s;
@@ -92,7 +92,7 @@ TEST(ActuatorLag, IsToldThoughACommandIsHeldForAsLong) {
 TEST(ActuatorLag, StaysBesideADelayThatSaysNoMore) {
   constexpr double kShortLag_s = 0.004;
   std::vector<Recording> recordings;
-  for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, kShortLag_s));
+  for (int n = 1; n <= 4; ++n) recordings.push_back(driven_with_lag(n, kShortLag_s));
   const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
   ASSERT_EQ(d.verdict, Verdict::ambiguous);
   EXPECT_EQ(d.findings.front().effect, "truth_time_offset");
@@ -108,7 +108,7 @@ TEST(ActuatorLag, IsAsLongAsItSaysWhereCommandsAreFarApart) {
   constexpr int kTenTimesASecond = 200;
   std::vector<Recording> recordings;
   for (int n = 1; n <= 4; ++n) {
-    recordings.push_back(driven(n, kLag_s, kTenTimesASecond));
+    recordings.push_back(driven_with_lag(n, kLag_s, kTenTimesASecond));
     for (Channel& c : recordings.back().channels)
       for (std::size_t row = 0; c.name.rfind("command", 0) == 0 && row < c.values.size(); ++row)
         if (row % 10 != 0) c.values[row] = std::nan("");  // of rows a hundredth of a second apart

@@ -32,7 +32,8 @@ SpeedProfile as_driven(const std::vector<DriveLeg>& legs, const DifferentialDriv
 }
 
 // One robot, 1.3 % and 2 % off its drawing, with an effect of the generator.
-Recording driven(const std::vector<DriveLeg>& legs, const std::string& effect, double size, std::uint64_t seed) {
+Recording driven_along_legs(const std::vector<DriveLeg>& legs, const std::string& effect, double size,
+                            std::uint64_t seed) {
   Random random(seed);
   GeneratorSettings g;
   g.drive = {0.0760, 0.0755, 0.347};
@@ -60,7 +61,8 @@ TEST(Advice, SaysThatStraightsShowNothingOfWhatHappensInTurnsAndSendsIntoTurns) 
     straights.push_back({5.0, k % 2 == 0 ? 0.3 : -0.3, 0.0});
     straights.push_back({1.0, 0.0, 0.0});
   }
-  const Result<Diagnosis> d = diagnose({driven(straights, "", 0.0, 1), driven(straights, "", 0.0, 2)}, {}, Vehicle{});
+  const Result<Diagnosis> d =
+      diagnose({driven_along_legs(straights, "", 0.0, 1), driven_along_legs(straights, "", 0.0, 2)}, {}, Vehicle{});
   ASSERT_TRUE(d);
   for (const char* effect : {"tyre_compression", "turn_scrub", "lateral_slip", "turn_speed_loss"}) {
     const NotTestable* n = entry(*d, effect);
@@ -89,12 +91,13 @@ TEST(Advice, ResolvesAPairThatLookedAlikeOnceItIsFollowed) {
       legs.push_back({0.8, 0.0, 0.0});
     }
   const char* const effect = "tyre_compression";
-  std::vector<Recording> recordings = {driven(legs, effect, 1.0, 11), driven(legs, effect, 1.0, 12)};
+  std::vector<Recording> recordings = {driven_along_legs(legs, effect, 1.0, 11),
+                                       driven_along_legs(legs, effect, 1.0, 12)};
   const Result<Diagnosis> before = diagnose(recordings, {}, Vehicle{});
   ASSERT_TRUE(before);
   ASSERT_EQ(before->verdict, Verdict::ambiguous);
   ASSERT_FALSE(before->next_legs.empty()) << before->next_drive;
-  recordings.push_back(driven(before->next_legs, effect, 1.0, 13));
+  recordings.push_back(driven_along_legs(before->next_legs, effect, 1.0, 13));
   const Result<Diagnosis> after = diagnose(recordings, {}, Vehicle{});
   ASSERT_TRUE(after);
   EXPECT_EQ(after->verdict, Verdict::found);

@@ -7,20 +7,20 @@
 namespace odolab {
 namespace {
 
-constexpr double kReading_s = 0.04, kCount_rad = 0.007;
+constexpr double kHeldReading_s = 0.04, kHeldCount_rad = 0.007;
 
 // Both wheels go fast and slow by turns, in whole counts; the left one's readings hold for so long at each of these
 // times, and what it turns meanwhile is lost.
-std::vector<WheelSample> holding(const std::vector<double>& at_s, double lasts_s) {
+std::vector<WheelSample> wheels_held_at(const std::vector<double>& at_s, double lasts_s) {
   std::vector<WheelSample> wheels;
   double left_rad = 0.0, right_rad = 0.0;
-  const auto counted = [](double rad) { return kCount_rad * std::floor(rad / kCount_rad); };
+  const auto counted = [](double rad) { return kHeldCount_rad * std::floor(rad / kHeldCount_rad); };
   for (int i = 0; i <= 1500; ++i) {
-    const double t = kReading_s * i;
+    const double t = kHeldReading_s * i;
     bool holds = false;
     for (const double from_s : at_s) holds = holds || (t > from_s && t < from_s + lasts_s - 1e-6);
-    if (!holds) left_rad += kReading_s * (1.5 + std::sin(0.5 * t));
-    right_rad += kReading_s * 3.0;
+    if (!holds) left_rad += kHeldReading_s * (1.5 + std::sin(0.5 * t));
+    right_rad += kHeldReading_s * 3.0;
     wheels.push_back({t, counted(left_rad), counted(right_rad)});
   }
   return wheels;
@@ -35,7 +35,7 @@ KnownHolds known_of(const std::vector<WheelSample>& wheels, const std::vector<do
 }
 
 TEST(AlikeHolds, AreFoundWhereTheWheelIsSlowAndAreKnownFromWhereItIsFast) {
-  const std::vector<WheelSample> wheels = holding({4.0, 14.0, 28.0, 36.0}, 0.28);
+  const std::vector<WheelSample> wheels = wheels_held_at({4.0, 14.0, 28.0, 36.0}, 0.28);
   const KnownHolds known = known_of(wheels, {4.0, 14.0, 28.0}, 0.28);
   EXPECT_EQ(known.times, 3);
   const TimeStretches found = holds_alike(wheels, Wheel::left, known);
@@ -45,7 +45,7 @@ TEST(AlikeHolds, AreFoundWhereTheWheelIsSlowAndAreKnownFromWhereItIsFast) {
 }
 
 TEST(AlikeHolds, AreNoneWhereFewAreKnownOrTheseAreNotAlike) {
-  const std::vector<WheelSample> wheels = holding({4.0, 14.0, 28.0, 36.0}, 0.28);
+  const std::vector<WheelSample> wheels = wheels_held_at({4.0, 14.0, 28.0, 36.0}, 0.28);
   EXPECT_TRUE(holds_alike(wheels, Wheel::left, known_of(wheels, {4.0, 14.0}, 0.28)).empty());
   KnownHolds known = known_of(wheels, {4.0, 14.0, 28.0}, 0.28);
   known.longest_s = 0.8;
@@ -53,21 +53,21 @@ TEST(AlikeHolds, AreNoneWhereFewAreKnownOrTheseAreNotAlike) {
 }
 
 TEST(AlikeHolds, AreOfTheirOwnLengthAndNotOfAVehicleThatStands) {
-  const std::vector<WheelSample> wheels = holding({4.0, 14.0, 28.0}, 0.28);
+  const std::vector<WheelSample> wheels = wheels_held_at({4.0, 14.0, 28.0}, 0.28);
   const KnownHolds known = known_of(wheels, {4.0, 14.0, 28.0}, 0.28);
-  EXPECT_TRUE(holds_alike(holding({36.0}, 0.48), Wheel::left, known).empty());
-  std::vector<WheelSample> stands = holding({36.0}, 0.28);
+  EXPECT_TRUE(holds_alike(wheels_held_at({36.0}, 0.48), Wheel::left, known).empty());
+  std::vector<WheelSample> stands = wheels_held_at({36.0}, 0.28);
   for (WheelSample& w : stands) w.right_rad = w.left_rad;
   EXPECT_TRUE(holds_alike(stands, Wheel::left, known).empty());
-  EXPECT_EQ(holds_alike(holding({36.0}, 0.28), Wheel::left, known).size(), 1u);
+  EXPECT_EQ(holds_alike(wheels_held_at({36.0}, 0.28), Wheel::left, known).size(), 1u);
 }
 
 // What crawls from count to count holds between all of them.
 TEST(AlikeHolds, AreNoneOfAWheelThatCrawls) {
-  const std::vector<WheelSample> wheels = holding({4.0, 14.0, 28.0}, 0.28);
+  const std::vector<WheelSample> wheels = wheels_held_at({4.0, 14.0, 28.0}, 0.28);
   const KnownHolds known = known_of(wheels, {4.0, 14.0, 28.0}, 0.28);
   std::vector<WheelSample> crawls;
-  for (int i = 0; i <= 1500; ++i) crawls.push_back({kReading_s * i, kCount_rad * std::floor(i / 7.0), 0.1 * i});
+  for (int i = 0; i <= 1500; ++i) crawls.push_back({kHeldReading_s * i, kHeldCount_rad * std::floor(i / 7.0), 0.1 * i});
   EXPECT_TRUE(holds_alike(crawls, Wheel::left, known).empty());
 }
 

@@ -10,7 +10,7 @@
 namespace odolab::test {
 namespace {
 
-constexpr Vec2 kPlace{0.45, 0.0};
+constexpr Vec2 kPlaceOfBump{0.45, 0.0};
 constexpr double kReach_m = 0.08, kExtra_m = 0.004, kClimbed_m = 0.04;  // across the wheel's way, and along it
 
 // A robot that drives out and home again over something that lies on the floor: by its left wheel on the way out, and,
@@ -30,7 +30,7 @@ std::vector<Recording> over_and_back(Random& random) {
   for (int run = 0; run < 2; ++run) {
     g.inject = [=, b = g.drive.wheelbase_m](InjectedStep& s) {
       for (int wheel = 0; wheel < 2; ++wheel) {
-        const Vec2 from_wheel = inverse(s.pose) * kPlace - Vec2{0.0, wheel == 0 ? 0.5 * b : -0.5 * b};
+        const Vec2 from_wheel = inverse(s.pose) * kPlaceOfBump - Vec2{0.0, wheel == 0 ? 0.5 * b : -0.5 * b};
         if (std::abs(from_wheel.x_m) > 0.5 * kClimbed_m || std::abs(from_wheel.y_m) > kReach_m) continue;
         double& way_m = wheel == 0 ? s.left_m : s.right_m;
         way_m *= 1.0 - kExtra_m / kClimbed_m;
@@ -55,7 +55,7 @@ TEST(Bump, IsOneThingOnTheFloorThoughEitherWheelMeetsIt) {
       EXPECT_LT(std::abs(p.value - kExtra_m), 4.0 * p.stderr_value);
     } else {  // it is met anywhere within reach
       const bool is_x = p.name == "x_m";
-      EXPECT_NEAR(p.value, is_x ? kPlace.x_m : kPlace.y_m, is_x ? kReach_m : 2.0 * kReach_m) << p.name;
+      EXPECT_NEAR(p.value, is_x ? kPlaceOfBump.x_m : kPlaceOfBump.y_m, is_x ? kReach_m : 2.0 * kReach_m) << p.name;
     }
   }
   int physics = 0;

@@ -10,7 +10,7 @@ namespace odolab::test {
 namespace {
 
 constexpr double kTrail_m = 0.04;  // between the trails that the forms have
-constexpr double kOff_rad = 5.0 * kPi / 180.0;
+constexpr double kCastorOff_rad = 5.0 * kPi / 180.0;
 
 // Straights forth and back, in which it turns about within half a second, each long enough for a castor to swing round.
 SpeedProfile straights(int run) {
@@ -32,7 +32,7 @@ std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& d
       const double way_m = 0.5 * 0.075 * (s.left_radps + s.right_radps) * s.dt_s;
       const int now = way_m > 0.0 ? 1 : -1;
       if (now != direction) {
-        angle_rad = kPi - kOff_rad, direction = now;
+        angle_rad = kPi - kCastorOff_rad, direction = now;
         this_rad = kick_rad * (1.0 + scatter * each.normal());
       }
       const double swung = std::min(angle_rad, std::sin(angle_rad) * std::abs(way_m) / kTrail_m);
@@ -43,11 +43,11 @@ std::vector<Recording> forth_and_back(Random& random, const DifferentialDrive& d
   return three_runs(g, random, straights, swinging);
 }
 
-void expect_measured(const Diagnosis& d, double kick_rad) {
+void expect_kick_measured(const Diagnosis& d, double kick_rad) {
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.findings.front().effect, "castor_reversal_kick");
   const FoundParameter& p = d.findings.front().parameters.front();
-  EXPECT_LT(std::abs(p.value - kick_rad * (1.0 - kOff_rad / kPi)), 3.0 * p.stderr_value)
+  EXPECT_LT(std::abs(p.value - kick_rad * (1.0 - kCastorOff_rad / kPi)), 3.0 * p.stderr_value)
       << p.value << " +- " << p.stderr_value;
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "collision");
 }
@@ -55,7 +55,8 @@ void expect_measured(const Diagnosis& d, double kick_rad) {
 TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {
   constexpr double kKick_rad = 0.008;
   Random random(61);
-  expect_measured(diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, kKick_rad), {}, Vehicle{}).value(), kKick_rad);
+  expect_kick_measured(diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, kKick_rad), {}, Vehicle{}).value(),
+                       kKick_rad);
 }
 
 TEST(CastorReversalKick, IsOneThoughNoTwoOfItsKicksAreAlike) {
@@ -72,7 +73,7 @@ TEST(CastorReversalKick, IsMeasuredThoughItTurnsTheVehicleByLessThanACountOfItsW
   Random random(62);
   Vehicle nominal;
   nominal.kind = drive;
-  expect_measured(diagnose(forth_and_back(random, drive, kick_rad), {}, nominal).value(), kick_rad);
+  expect_kick_measured(diagnose(forth_and_back(random, drive, kick_rad), {}, nominal).value(), kick_rad);
 }
 
 // Where friction under the castors lets go bit by bit, each metre takes the same share of what is left of a kick.

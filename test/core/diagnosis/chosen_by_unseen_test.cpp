@@ -29,7 +29,7 @@ Recording dragging(Random& random, const std::string& name, double forwards_s, d
   return r;
 }
 
-int said(const Diagnosis& d, const std::string& effect) {
+int times_said(const Diagnosis& d, const std::string& effect) {
   return static_cast<int>(std::count_if(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
     return f.effect == effect || std::any_of(f.alternatives.begin(), f.alternatives.end(),
                                              [&](const Alternative& a) { return a.effect == effect; });
@@ -43,12 +43,12 @@ TEST(Diagnose, LetsRunsHeldOutChooseBetweenNamesThatTheOthersDoNotTellApart) {
                                         dragging(random, "run_3", 24.0, 26.0, 0.0)};
   const Recording back_and_forth = dragging(random, "held_out", 5.0, 5.0, 0.3);
   const Diagnosis alone = diagnose(given, {}, Vehicle{}).value();
-  EXPECT_EQ(said(alone, "one_sided_drag"), 1);
-  EXPECT_EQ(said(alone, "payload_radius_change"), 1);
+  EXPECT_EQ(times_said(alone, "one_sided_drag"), 1);
+  EXPECT_EQ(times_said(alone, "payload_radius_change"), 1);
   const Diagnosis chosen = diagnose(given, {back_and_forth}, Vehicle{}).value();
-  ASSERT_EQ(said(chosen, "one_sided_drag"), 1);
+  ASSERT_EQ(times_said(chosen, "one_sided_drag"), 1);
   EXPECT_EQ(chosen.findings.front().effect, "one_sided_drag");
-  EXPECT_EQ(said(chosen, "payload_radius_change"), 0);
+  EXPECT_EQ(times_said(chosen, "payload_radius_change"), 0);
 }
 
 // Both wheels slip by the vehicle's acceleration. On straights, and in bends at an even pace, that is the same as each
@@ -84,7 +84,7 @@ TEST(Diagnose, LetsRunsHeldOutChooseTheFormOfANameThatTheOthersDoNotTell) {
     Recording spins = slipping(random, true);
     spins.name = "held_out";
     const Diagnosis d = diagnose(given, {spins}, Vehicle{}).value();
-    ASSERT_EQ(said(d, "traction_slip"), 1) << seed;
+    ASSERT_EQ(times_said(d, "traction_slip"), 1) << seed;
     const auto slip = std::find_if(d.findings.begin(), d.findings.end(),
                                    [](const Finding& f) { return f.effect == "traction_slip"; });
     ASSERT_NE(slip, d.findings.end());

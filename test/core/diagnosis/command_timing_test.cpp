@@ -30,7 +30,7 @@ Recording asked_now_and_then(int number, double loss) {
   });
 }
 
-Diagnosis diagnosed(double loss) {
+Diagnosis diagnosed_with_loss(double loss) {
   std::vector<Recording> recordings;
   for (int n = 1; n <= 3; ++n) recordings.push_back(asked_now_and_then(n, loss));
   return diagnose(recordings, {}, Vehicle{}).value();
@@ -44,7 +44,7 @@ bool is_late(const Finding& f) {
 // Commands that are acted on sooner one time and later the next leave what looks like pushes, and hid what is missing:
 // of a real robot a loss in turns had been *unknown*.
 TEST(CommandTiming, IsNoiseWhereABaseAsksForCommandsNowAndThen) {
-  const Diagnosis d = diagnosed(0.0);
+  const Diagnosis d = diagnosed_with_loss(0.0);
   EXPECT_NE(d.verdict, Verdict::unknown_effect);
   for (const Finding& f : d.findings) EXPECT_TRUE(is_late(f)) << f.effect;
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
@@ -54,7 +54,7 @@ TEST(CommandTiming, IsNoiseWhereABaseAsksForCommandsNowAndThen) {
 
 TEST(CommandTiming, HidesNoLossInTurns) {
   constexpr double kLoss = 0.3;
-  const Diagnosis d = diagnosed(kLoss);
+  const Diagnosis d = diagnosed_with_loss(kLoss);
   EXPECT_NE(d.verdict, Verdict::unknown_effect);
   ASSERT_FALSE(d.findings.empty());
   const Finding& f = d.findings.front();

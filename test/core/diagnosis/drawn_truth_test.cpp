@@ -10,7 +10,7 @@ namespace odolab {
 namespace {
 
 // Ten times a second, a straight of 10 s and then a circle of a metre, at 0.5 m/s; off by noise of so much.
-std::vector<TruthSample> driven(double noise_m) {
+std::vector<TruthSample> straight_then_circle(double noise_m) {
   Random random(31);
   std::vector<TruthSample> truth;
   for (int i = 0; i < 600; ++i) {
@@ -35,7 +35,7 @@ void draw_a_line(std::vector<TruthSample>& truth, std::size_t from, std::size_t 
 }
 
 TEST(DrawnTruth, IsFoundWhereGapsWereFilledWithStraightLines) {
-  std::vector<TruthSample> truth = driven(0.005);
+  std::vector<TruthSample> truth = straight_then_circle(0.005);
   draw_a_line(truth, 200, 206);
   draw_a_line(truth, 410, 425);
   const TimeStretches drawn = drawn_truth(truth);
@@ -48,7 +48,7 @@ TEST(DrawnTruth, IsFoundWhereGapsWereFilledWithStraightLines) {
 
 // Nearly round the circle in twelve seconds: the line goes a fifteenth of the way, slower than the truth trembles.
 TEST(DrawnTruth, IsFoundWhereItsLineIsSlowAndLong) {
-  std::vector<TruthSample> truth = driven(0.005);
+  std::vector<TruthSample> truth = straight_then_circle(0.005);
   draw_a_line(truth, 200, 318);
   const TimeStretches drawn = drawn_truth(truth);
   ASSERT_EQ(drawn.size(), 1u);
@@ -58,15 +58,17 @@ TEST(DrawnTruth, IsFoundWhereItsLineIsSlowAndLong) {
 
 // A tracker that holds what hardly changes.
 TEST(DrawnTruth, IsNotFoundWhereAVehicleRests) {
-  std::vector<TruthSample> truth = driven(0.005);
+  std::vector<TruthSample> truth = straight_then_circle(0.005);
   for (std::size_t i = 201; i < 300; ++i)
     truth[i].position = truth[200].position, truth[i].heading_rad = truth[200].heading_rad;
   EXPECT_TRUE(drawn_truth(truth).empty());
 }
 
-TEST(DrawnTruth, IsNotFoundInNoise) { EXPECT_TRUE(drawn_truth(driven(0.005)).empty()); }
+TEST(DrawnTruth, IsNotFoundInNoise) { EXPECT_TRUE(drawn_truth(straight_then_circle(0.005)).empty()); }
 
-TEST(DrawnTruth, IsNotFoundWhereAVehicleDrivesStraightWithoutNoise) { EXPECT_TRUE(drawn_truth(driven(0.0)).empty()); }
+TEST(DrawnTruth, IsNotFoundWhereAVehicleDrivesStraightWithoutNoise) {
+  EXPECT_TRUE(drawn_truth(straight_then_circle(0.0)).empty());
+}
 
 }  // namespace
 }  // namespace odolab

@@ -7,7 +7,7 @@ namespace odolab::test {
 namespace {
 
 // Three runs of one robot whose left wheel is 1 % out of round and stood at these angles when they began.
-Diagnosis diagnosed(const std::vector<double>& phases_rad) {
+Diagnosis diagnosed_at_phases(const std::vector<double>& phases_rad) {
   Random random(41);
   GeneratorSettings g = under_motion_capture({0.0758, 0.0754, 0.345}, 0.0015, 0.02);
   g.duration_s = 40.0;
@@ -20,7 +20,7 @@ Diagnosis diagnosed(const std::vector<double>& phases_rad) {
   return diagnose(recordings, {}, Vehicle{}).value();
 }
 
-const FoundParameter* parameter(const Finding& f, const std::string& name) {
+const FoundParameter* parameter_or_none(const Finding& f, const std::string& name) {
   for (const FoundParameter& p : f.parameters)
     if (p.name == name) return &p;
   return nullptr;
@@ -28,14 +28,14 @@ const FoundParameter* parameter(const Finding& f, const std::string& name) {
 
 TEST(WheelEccentricity, HasAPhaseOfItsOwnInRunsThatStartAtOtherAnglesOfTheWheel) {
   const std::vector<double> phases_rad = {0.3, 2.4, -1.9};
-  const Diagnosis d = diagnosed(phases_rad);
+  const Diagnosis d = diagnosed_at_phases(phases_rad);
   ASSERT_FALSE(d.findings.empty());
   const Finding& f = d.findings.front();
   ASSERT_EQ(f.effect, "wheel_eccentricity");
   EXPECT_EQ(f.component, "left_wheel");
   const char* const names[4] = {"phase_rad", "phase_rad_2", "phase_rad_3", "amplitude"};
   for (int k = 0; k < 4; ++k) {
-    const FoundParameter* p = parameter(f, names[k]);
+    const FoundParameter* p = parameter_or_none(f, names[k]);
     ASSERT_TRUE(p) << names[k];
     // Four standard errors: a right tool is outside one time in four thousand, and the seed is fixed.
     EXPECT_LT(std::abs(k < 3 ? wrapped(p->value - phases_rad[k]) : p->value - 0.01), 4.0 * p->stderr_value) << names[k];
@@ -44,15 +44,15 @@ TEST(WheelEccentricity, HasAPhaseOfItsOwnInRunsThatStartAtOtherAnglesOfTheWheel)
   const FittedModel model = model_of(d);
   const std::vector<ActiveEffect> second = model.effects_in("run_2");
   ASSERT_EQ(second.size(), 1u);
-  EXPECT_EQ(second[0].parameter("phase_rad"), parameter(f, "phase_rad_2")->value);
+  EXPECT_EQ(second[0].parameter("phase_rad"), parameter_or_none(f, "phase_rad_2")->value);
 }
 
 TEST(WheelEccentricity, SharesItsPhaseWhereTheRunsDo) {
-  const Diagnosis d = diagnosed({0.3, 0.3, 0.3});
+  const Diagnosis d = diagnosed_at_phases({0.3, 0.3, 0.3});
   ASSERT_FALSE(d.findings.empty());
   ASSERT_EQ(d.findings.front().effect, "wheel_eccentricity");
-  EXPECT_TRUE(parameter(d.findings.front(), "phase_rad"));
-  EXPECT_FALSE(parameter(d.findings.front(), "phase_rad_2"));
+  EXPECT_TRUE(parameter_or_none(d.findings.front(), "phase_rad"));
+  EXPECT_FALSE(parameter_or_none(d.findings.front(), "phase_rad_2"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kRadius_m = 0.125, kCounts = 2048.0, kCount_rad = 2.0 * M_PI / kCounts, kReading_s = 0.01;
+constexpr double kJumpingRadius_m = 0.125, kCounts = 2048.0, kCount_rad = 2.0 * M_PI / kCounts, kReading_s = 0.01;
 
 struct Read {
   std::vector<double> time_s, angle_rad;
@@ -29,7 +29,7 @@ Read read(double (*speed_radps)(double)) {
   return out;
 }
 
-TimeStretches jumps_of(const Read& r) { return encoder_jumps(r.time_s, r.angle_rad, kRadius_m, kCount_rad); }
+TimeStretches jumps_of(const Read& r) { return encoder_jumps(r.time_s, r.angle_rad, kJumpingRadius_m, kCount_rad); }
 
 double drives(double time_s) { return 6.0 + 3.0 * std::sin(2.0 * time_s); }
 
@@ -69,7 +69,7 @@ TEST(EncoderJumps, AreNotWhereOnlyAStampIsLate) {
 TEST(EncoderJumps, AreNotWhereReadingsAreCoarse) {
   Read r = read([](double) { return 1.0; });
   for (double& a : r.angle_rad) a = 0.1 * std::floor(a / 0.1);
-  EXPECT_TRUE(encoder_jumps(r.time_s, r.angle_rad, kRadius_m, 0.1).empty());
+  EXPECT_TRUE(encoder_jumps(r.time_s, r.angle_rad, kJumpingRadius_m, 0.1).empty());
 }
 
 // Straight on at 0.3 m/s, read 25 times a second, for twelve seconds; the left wheel's reading falls behind by 0.1 rad

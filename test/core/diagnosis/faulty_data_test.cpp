@@ -55,7 +55,7 @@ TEST(FaultyData, ReportsAnEncoderThatStoodStillAsAFaultOfTheData) {
 }
 
 // Wheels that were not read for a while: their counts go on behind.
-void forget_wheels(Recording& r, double from_s, double to_s) {
+void lose_wheels(Recording& r, double from_s, double to_s) {
   for (std::size_t i = 0; i < r.time_s.size(); ++i)
     if (r.time_s[i] > from_s && r.time_s[i] < to_s) r.channels[0].values[i] = r.channels[1].values[i] = std::nan("");
 }
@@ -69,7 +69,7 @@ TEST(FaultyData, SaysWhereTheEncodersWereNotReadAndMakesNothingOfIt) {
   for (double lasts_s : {0.5, 4.0}) {
     Case c = generated_case(short_case("", 0.0), 7503);
     const Diagnosis whole = diagnosed(c);
-    forget_wheels(c.recordings[1], 12.01, 12.0 + lasts_s);
+    lose_wheels(c.recordings[1], 12.01, 12.0 + lasts_s);
     const Diagnosis d = diagnosed(c);
     ASSERT_EQ(d.findings.size(), 1u) << said(d);
     expect_only_faults(d);
@@ -110,8 +110,8 @@ TEST(FaultyData, NamesNothingWhereTheTruthReachesBeyondTheWheelsAndItsClockIsLat
   settings.truth_late_s = 0.08;
   Case c = generated_case(settings, 7505);
   for (Recording& r : c.recordings) {  // the wheels' log is cut while it drives
-    forget_wheels(r, -1.0, 3.0);
-    forget_wheels(r, 37.0, 50.0);
+    lose_wheels(r, -1.0, 3.0);
+    lose_wheels(r, 37.0, 50.0);
   }
   const Diagnosis d = diagnosed(c);
   for (const Finding& f : d.findings) EXPECT_EQ(f.effect, "truth_time_offset") << f.sentence;

@@ -21,7 +21,7 @@ Diagnosis with_mounting_turned_by(double rad) {
   return d;
 }
 
-Finding found(const std::string& effect, const std::string& parameter, double value) {
+Finding found_effect(const std::string& effect, const std::string& parameter, double value) {
   Finding f;
   f.effect = effect;
   f.component = "vehicle";
@@ -32,7 +32,7 @@ Finding found(const std::string& effect, const std::string& parameter, double va
 TEST(FittedModel, DoesNotTurnTheMountingForACrawlThatIsTheWheels) {
   // a mounting turned by -0.03 shows a straight as a crawl of 0.03 to the left
   Diagnosis d = with_mounting_turned_by(-0.03);
-  d.findings = {found("wheel_toe", "sideways_per_metre", 0.03)};
+  d.findings = {found_effect("wheel_toe", "sideways_per_metre", 0.03)};
   const FittedModel model = model_of(d);
   EXPECT_NEAR(model.vehicle.truth.axle_T_tracked.heading_rad, 0.0, 1e-15);
   ASSERT_EQ(model.effects.size(), 1u);
@@ -41,7 +41,7 @@ TEST(FittedModel, DoesNotTurnTheMountingForACrawlThatIsTheWheels) {
 
 TEST(FittedModel, KeepsEachRecordingsOwnClockWhereTheMeanIsAFindingToo) {
   Diagnosis d = with_mounting_turned_by(0.0);
-  d.findings = {found("truth_time_offset", "offset_s", 0.02)};
+  d.findings = {found_effect("truth_time_offset", "offset_s", 0.02)};
   const FittedModel model = model_of(d);
   EXPECT_TRUE(model.effects_in("two").empty());
   EXPECT_DOUBLE_EQ(model.vehicle_in("two").truth.time_offset_s, 0.03);

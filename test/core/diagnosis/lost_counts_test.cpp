@@ -10,7 +10,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kFrom_s = 6.0, kTo_s = 6.72, kReading_s = 0.04;
+constexpr double kFrom_s = 6.0, kTo_s = 6.72, kLostReading_s = 0.04;
 
 InnovationModel believed() {
   InnovationModel model;
@@ -21,7 +21,7 @@ InnovationModel believed() {
 
 // Straight on for twelve seconds, faster and faster, up to 0.6 m/s; the counters of some wheels hold for 0.7 s. A radio
 // that errs by 5 cm ten times a second says where the vehicle was; `stood`: it stood meanwhile.
-InnovationRun holding(bool left, bool right, bool stood) {
+InnovationRun run_holding(bool left, bool right, bool stood) {
   const InnovationModel model = believed();
   Random random(5);
   InnovationRun run;
@@ -29,7 +29,7 @@ InnovationRun holding(bool left, bool right, bool stood) {
   Pose pose;
   double left_rad = 0.0, right_rad = 0.0;
   for (int i = 0; i <= 300; ++i) {
-    const double t = kReading_s * i, by_rad = kReading_s * 0.5 * t;
+    const double t = kLostReading_s * i, by_rad = kLostReading_s * 0.5 * t;
     const bool holds = t > kFrom_s && t < kTo_s;
     if (!holds || !left) left_rad += by_rad;
     if (!holds || !right) right_rad += by_rad;
@@ -50,28 +50,28 @@ InnovationRun holding(bool left, bool right, bool stood) {
 }
 
 TEST(LostCounts, AreThoseOfBothWheelsWhereTheTruthGoesOn) {
-  const JumpsOfWheels found = lost_counts(holding(true, true, false), believed());
+  const JumpsOfWheels found = lost_counts(run_holding(true, true, false), believed());
   ASSERT_EQ(found.both.size(), 1u);
-  EXPECT_NEAR(found.both[0].first, kFrom_s, kReading_s);
-  EXPECT_NEAR(found.both[0].second, kTo_s, kReading_s);
+  EXPECT_NEAR(found.both[0].first, kFrom_s, kLostReading_s);
+  EXPECT_NEAR(found.both[0].second, kTo_s, kLostReading_s);
   EXPECT_TRUE(found.left.empty());
   EXPECT_TRUE(found.right.empty());
 }
 
 TEST(LostCounts, AreThoseOfOneWheelWhereTheTruthKeepsItsDirection) {
-  EXPECT_EQ(lost_counts(holding(true, false, false), believed()).left.size(), 1u);
-  EXPECT_EQ(lost_counts(holding(false, true, false), believed()).right.size(), 1u);
+  EXPECT_EQ(lost_counts(run_holding(true, false, false), believed()).left.size(), 1u);
+  EXPECT_EQ(lost_counts(run_holding(false, true, false), believed()).right.size(), 1u);
 }
 
 // A simulator's vehicle may stop within one reading.
 TEST(LostCounts, AreNoneWhereTheVehicleStood) {
-  const JumpsOfWheels found = lost_counts(holding(true, true, true), believed());
+  const JumpsOfWheels found = lost_counts(run_holding(true, true, true), believed());
   EXPECT_TRUE(found.both.empty() && found.left.empty() && found.right.empty());
 }
 
 // No truth on the way has to say it: no wheel turns by four radians in one reading.
 TEST(Checked, FindsACounterThatJumpsWhereOnlyTheEndsWereMeasured) {
-  const InnovationRun run = holding(false, false, false);
+  const InnovationRun run = run_holding(false, false, false);
   Recording recording;
   recording.name = "ends.csv";
   for (const char* name : {"left_wheel_rad", "right_wheel_rad", "truth_x_m", "truth_y_m", "truth_heading_rad"})

@@ -12,7 +12,7 @@ namespace {
 constexpr double kScrub_per_radps = 0.03;
 
 // Straights, and turns at so many rates, one after the other.
-SpeedProfile turning_at(std::vector<double> rates_radps) {
+SpeedProfile turning_at_rates(std::vector<double> rates_radps) {
   const DifferentialDrive drive;
   return [=](double t) {
     constexpr double kStraight_s = 3.0, kTurn_s = 2.0;
@@ -23,7 +23,7 @@ SpeedProfile turning_at(std::vector<double> rates_radps) {
   };
 }
 
-Recording driven(const std::vector<double>& rates_radps, Random& random, const std::string& name) {
+Recording driven_at_rates(const std::vector<double>& rates_radps, Random& random, const std::string& name) {
   GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.01);
   g.duration_s = 60.0;
   g.inject = [](InjectedStep& s) {  // omega (1 + k |omega|) is what the wheels roll
@@ -33,7 +33,7 @@ Recording driven(const std::vector<double>& rates_radps, Random& random, const s
                                (2.0 * kScrub_per_radps);
     s.turn_rad += (std::copysign(turns_radps, rolled_radps) - rolled_radps) * s.dt_s;
   };
-  Recording r = generated(g, turning_at(rates_radps), random);
+  Recording r = generated(g, turning_at_rates(rates_radps), random);
   r.name = name;
   return r;
 }
@@ -41,9 +41,10 @@ Recording driven(const std::vector<double>& rates_radps, Random& random, const s
 // At one turn rate a scrub is another wheelbase; at two others it is not.
 TEST(NamedBesideHeldOut, IsAScrubThatTheWheelbaseTakesUpInTheRunsThatWereGiven) {
   Random random(91);
-  const std::vector<Recording> given{driven({1.5, -1.5}, random, "run_1"), driven({-1.5, 1.5}, random, "run_2"),
-                                     driven({1.5, 1.5}, random, "run_3")};
-  const std::vector<Recording> held_out{driven({0.5, -2.5, 2.5, -0.5}, random, "run_4")};
+  const std::vector<Recording> given{driven_at_rates({1.5, -1.5}, random, "run_1"),
+                                     driven_at_rates({-1.5, 1.5}, random, "run_2"),
+                                     driven_at_rates({1.5, 1.5}, random, "run_3")};
+  const std::vector<Recording> held_out{driven_at_rates({0.5, -2.5, 2.5, -0.5}, random, "run_4")};
   const Diagnosis alone = diagnose(given, {}, Vehicle{}).value();
   EXPECT_EQ(alone.verdict, Verdict::nothing_missing) << "nothing shows in these";
   const Diagnosis d = diagnose(given, held_out, Vehicle{}).value();

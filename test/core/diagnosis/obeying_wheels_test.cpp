@@ -11,23 +11,23 @@
 namespace odolab {
 namespace {
 
-const double kEmpty = std::nan("");
-constexpr DifferentialDrive kDrive{0.07, 0.08, 0.4};
+const double kNotRead = std::nan("");
+constexpr DifferentialDrive kObeyingDrive{0.07, 0.08, 0.4};
 
 // A quarter of a circle of 1 m that is told once, and a truth in between.
 Recording quarter_turn() {
   Recording r;
   r.time_s = {0.0, 0.7, 2.0, 2.0};
-  r.channels = {{"command_speed_mps", {0.25 * kPi, kEmpty, 0.0, kEmpty}},
-                {"command_yaw_rate_radps", {0.25 * kPi, kEmpty, 0.0, kEmpty}},
-                {"truth_x_m", {kEmpty, 0.5, kEmpty, 1.0}}};
+  r.channels = {{"command_speed_mps", {0.25 * kPi, kNotRead, 0.0, kNotRead}},
+                {"command_yaw_rate_radps", {0.25 * kPi, kNotRead, 0.0, kNotRead}},
+                {"truth_x_m", {kNotRead, 0.5, kNotRead, 1.0}}};
   return r;
 }
 
 TEST(ObeyingWheels, DriveAlongTheArcThatIsToldAndNotAlongItsChord) {
-  const Recording obeying = with_obeying_wheels(quarter_turn(), kDrive);
+  const Recording obeying = with_obeying_wheels(quarter_turn(), kObeyingDrive);
   ASSERT_TRUE(problems_in(obeying).empty());
-  const Track track = dead_reckoned(wheel_samples(obeying, kDrive), kDrive, Pose{}, HeadingRule::arc);
+  const Track track = dead_reckoned(wheel_samples(obeying, kObeyingDrive), kObeyingDrive, Pose{}, HeadingRule::arc);
   ASSERT_GE(track.size(), 101u);  // 2 s in steps of 0.02 s
   for (const TimedPose& p : track) {
     const double turned = 0.25 * kPi * p.time_s;
@@ -37,7 +37,7 @@ TEST(ObeyingWheels, DriveAlongTheArcThatIsToldAndNotAlongItsChord) {
 }
 
 TEST(ObeyingWheels, LeaveWhatWasRecordedAsItWas) {
-  const Recording given = quarter_turn(), obeying = with_obeying_wheels(given, kDrive);
+  const Recording given = quarter_turn(), obeying = with_obeying_wheels(given, kObeyingDrive);
   EXPECT_EQ(command_samples(obeying).size(), 2u);
   const Channel& truth = *obeying.channel("truth_x_m");
   std::vector<std::pair<double, double>> samples;
@@ -51,7 +51,7 @@ TEST(ObeyingWheels, AreReadAtEachCommandAloneWhereTheseComeOftenEnough) {
   for (int i = 0; i < 50; ++i) often.time_s.push_back(0.01 * i);
   often.channels = {{"command_speed_mps", std::vector<double>(50, 0.3)},
                     {"command_yaw_rate_radps", std::vector<double>(50, 0.1)}};
-  EXPECT_EQ(with_obeying_wheels(often, kDrive).time_s, often.time_s);
+  EXPECT_EQ(with_obeying_wheels(often, kObeyingDrive).time_s, often.time_s);
 }
 
 // With an effect that does nothing the prediction goes along that arc, too, and has a row for each command.
@@ -59,7 +59,7 @@ TEST(ObeyingWheels, PredictARowForEachCommandAlongTheArc) {
   Recording told = quarter_turn();
   told.channels.pop_back();
   Vehicle vehicle;
-  vehicle.kind = kDrive;
+  vehicle.kind = kObeyingDrive;
   const Track track = predicted_track(told, vehicle, {{"one_sided_drag", "vehicle", {{"rad_per_m", 0.0}}}}).value();
   ASSERT_EQ(track.size(), 2u);
   EXPECT_EQ(track[1].time_s, 2.0);
@@ -72,7 +72,7 @@ TEST(ObeyingWheels, StayFewWhereACommandIsHeldForVeryLong) {
   Recording day;
   day.time_s = {0.0, 86400.0};
   day.channels = {{"command_speed_mps", {0.1, 0.0}}, {"command_yaw_rate_radps", {0.0, 0.0}}};
-  EXPECT_LE(with_obeying_wheels(day, kDrive).time_s.size(), 4001u);
+  EXPECT_LE(with_obeying_wheels(day, kObeyingDrive).time_s.size(), 4001u);
 }
 
 }  // namespace

@@ -8,18 +8,18 @@
 namespace odolab::test {
 namespace {
 
-struct Driven {
+struct DrivenOffTruth {
   InnovationRun run;
   InnovationModel model;
 };
 
 // A minute, under a truth whose frame wanders and comes back within two seconds.
-Driven driven() {
+DrivenOffTruth driven_off_truth() {
   Random random(9);
   GeneratorSettings g;
   g.duration_s = 60.0;
   g.truth.axle_T_tracked = {0.06, -0.04, 0.1};
-  Driven d;
+  DrivenOffTruth d;
   d.run = innovation_run(generated(g, rich_driving, random), Vehicle{}).value();
   d.run.set_aside[40] = 1;
   d.model.drive = g.drive;
@@ -37,7 +37,7 @@ Motions some_motions(const InnovationRun& run) {
 }
 
 TEST(LinearisedRun, CarriesAMotionAsTheFilterDoesWhereTheTruthsNoiseLasts) {
-  Driven d = driven();
+  DrivenOffTruth d = driven_off_truth();
   const LinearisedRun linear(d.run, d.model);
   const Motions motions = some_motions(d.run);
   std::vector<double> column(linear.residual().size(), 0.0);
@@ -58,7 +58,7 @@ TEST(LinearisedRun, CarriesAMotionAsTheFilterDoesWhereTheTruthsNoiseLasts) {
 }
 
 TEST(LinearisedRun, AsksTheOtherWayAboutForTheSameWhereTheTruthsNoiseLasts) {
-  const Driven d = driven();
+  const DrivenOffTruth d = driven_off_truth();
   const LinearisedRun linear(d.run, d.model);
   const Motions motions = some_motions(d.run);
   std::vector<double> column(linear.residual().size(), 0.0);
@@ -80,7 +80,7 @@ TEST(LinearisedRun, AsksTheOtherWayAboutForTheSameWhereTheTruthsNoiseLasts) {
 }
 
 TEST(LinearisedRun, CarriesItsParametersAsTheFilterDoesWhereTheTruthsNoiseLasts) {
-  Driven d = driven();
+  DrivenOffTruth d = driven_off_truth();
   const LinearisedRun linear(d.run, d.model);
   const std::size_t rows = linear.residual().size();
   std::vector<std::vector<double>> of(column::first_extra, std::vector<double>(rows, 0.0));

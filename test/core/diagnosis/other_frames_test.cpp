@@ -9,7 +9,7 @@
 namespace odolab::test {
 namespace {
 
-const FoundParameter& parameter(const Finding& f, const std::string& name) {
+const FoundParameter& frame_parameter(const Finding& f, const std::string& name) {
   for (const FoundParameter& p : f.parameters)
     if (p.name == name) return p;
   ADD_FAILURE() << name;
@@ -41,12 +41,12 @@ TEST(Diagnosis, KnowsAPushAsWellWhereStampsCountFrom1970AndTheRoomIsAMaps) {
   ASSERT_EQ(b.effect, "collision");
   // A stamp of 1970 holds a quarter of a microsecond; a place in such a map a nanometre.
   EXPECT_NEAR(b.log_likelihood_gain, a.log_likelihood_gain, 0.02 * a.log_likelihood_gain);
-  EXPECT_NEAR(parameter(b, "at_s").value - kLater_s, parameter(a, "at_s").value, 0.01);
-  EXPECT_NEAR(parameter(b, "at_s").stderr_value, parameter(a, "at_s").stderr_value,
-              0.1 * parameter(a, "at_s").stderr_value);
-  const Vec2 pushed = rotated({parameter(a, "dx_m").value, parameter(a, "dy_m").value}, kRoom.heading_rad);
-  EXPECT_NEAR(parameter(b, "dx_m").value, pushed.x_m, 0.2 * parameter(a, "dx_m").stderr_value);
-  EXPECT_NEAR(parameter(b, "dy_m").value, pushed.y_m, 0.2 * parameter(a, "dy_m").stderr_value);
+  EXPECT_NEAR(frame_parameter(b, "at_s").value - kLater_s, frame_parameter(a, "at_s").value, 0.01);
+  EXPECT_NEAR(frame_parameter(b, "at_s").stderr_value, frame_parameter(a, "at_s").stderr_value,
+              0.1 * frame_parameter(a, "at_s").stderr_value);
+  const Vec2 pushed = rotated({frame_parameter(a, "dx_m").value, frame_parameter(a, "dy_m").value}, kRoom.heading_rad);
+  EXPECT_NEAR(frame_parameter(b, "dx_m").value, pushed.x_m, 0.2 * frame_parameter(a, "dx_m").stderr_value);
+  EXPECT_NEAR(frame_parameter(b, "dy_m").value, pushed.y_m, 0.2 * frame_parameter(a, "dy_m").stderr_value);
 }
 
 }  // namespace

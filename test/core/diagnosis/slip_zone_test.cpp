@@ -12,8 +12,8 @@
 namespace odolab::test {
 namespace {
 
-constexpr Vec2 kPlace{0.4, 0.4};
-constexpr double kRadius_m = 0.3, kSlip = 0.0012;
+constexpr Vec2 kPlaceOfZone{0.4, 0.4};
+constexpr double kZoneRadius_m = 0.3, kSlip = 0.0012;
 
 // Figures of eight whose left circle goes through a patch of floor, faster in each run.
 SpeedProfile eights(int run) {
@@ -29,8 +29,8 @@ SpeedProfile eights(int run) {
 std::function<void(InjectedStep&)> slipping_by(double slip) {
   return [slip](InjectedStep& s) {
     const Vec2 side = rotated({0.0, 0.17}, s.pose.heading_rad);
-    if (length(s.pose.position() + side - kPlace) < kRadius_m) s.left_m *= 1.0 - slip;
-    if (length(s.pose.position() - side - kPlace) < kRadius_m) s.right_m *= 1.0 - slip;
+    if (length(s.pose.position() + side - kPlaceOfZone) < kZoneRadius_m) s.left_m *= 1.0 - slip;
+    if (length(s.pose.position() - side - kPlaceOfZone) < kZoneRadius_m) s.right_m *= 1.0 - slip;
   };
 }
 
@@ -52,8 +52,8 @@ TEST(SlipZone, IsFoundThoughAWheelLosesLessThanACountOnIt) {
       EXPECT_LT(std::abs(p.value - kSlip), 3.0 * p.stderr_value);
     }
   ASSERT_TRUE(d.findings.front().where.zone);
-  EXPECT_NEAR(d.findings.front().where.zone->x_m, kPlace.x_m, 0.2);
-  EXPECT_NEAR(d.findings.front().where.zone->y_m, kPlace.y_m, 0.2);
+  EXPECT_NEAR(d.findings.front().where.zone->x_m, kPlaceOfZone.x_m, 0.2);
+  EXPECT_NEAR(d.findings.front().where.zone->y_m, kPlaceOfZone.y_m, 0.2);
 }
 
 // Of another program's three runs one went 45 m away, so that patches were sought 1.5 m apart: one of 0.5 m that lost

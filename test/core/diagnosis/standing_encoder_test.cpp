@@ -9,14 +9,15 @@
 namespace odolab {
 namespace {
 
-constexpr DifferentialDrive kDrive{0.07, 0.07, 0.3};
-constexpr double kCount_rad = 2.0 * kPi / 2000.0;
+constexpr DifferentialDrive kStandingDrive{0.07, 0.07, 0.3};
+constexpr double kStandingCount_rad = 2.0 * kPi / 2000.0;
 
 // At 50 Hz for 4 s, after a first count both wheels at 14 in each interval; the left one as `left` makes it, in counts.
 template <typename Left>
-std::vector<WheelSample> driven(const Left& left) {
-  std::vector<WheelSample> wheels{{-0.02, -kCount_rad, -kCount_rad}};
-  for (int i = 0; i < 200; ++i) wheels.push_back({0.02 * i, kCount_rad * left(i), kCount_rad * 14.0 * i});
+std::vector<WheelSample> driven_by_left(const Left& left) {
+  std::vector<WheelSample> wheels{{-0.02, -kStandingCount_rad, -kStandingCount_rad}};
+  for (int i = 0; i < 200; ++i)
+    wheels.push_back({0.02 * i, kStandingCount_rad * left(i), kStandingCount_rad * 14.0 * i});
   return wheels;
 }
 
@@ -24,11 +25,11 @@ std::vector<WheelSample> driven(const Left& left) {
 double halts(int i) { return 14.0 * (i < 100 ? i : i < 107 ? 100 : i - 7); }
 
 TEST(HaltingEncoder, IsFoundThoughItStandsForAMomentAlone) {
-  const TimeStretches found = halting_encoder(driven(halts), Wheel::left, kDrive);
+  const TimeStretches found = halting_encoder(driven_by_left(halts), Wheel::left, kStandingDrive);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].first, 2.0, 1e-9);
   EXPECT_NEAR(found[0].second, 2.16, 1e-9);
-  EXPECT_TRUE(halting_encoder(driven(halts), Wheel::right, kDrive).empty());
+  EXPECT_TRUE(halting_encoder(driven_by_left(halts), Wheel::right, kStandingDrive).empty());
 }
 
 // From 0.15 to 0.35 m/s in half a second, and two intervals of it are not counted.
@@ -38,14 +39,14 @@ TEST(HaltingEncoder, IsFoundInTwoIntervalsWhileTheWheelSpeedsUp) {
     return std::floor(14.0 * i + 0.36 * t * t + 18.0 * std::max(0, i - 115));
   };
   const auto found =
-      halting_encoder(driven([&](int i) {
+      halting_encoder(driven_by_left([&](int i) {
                         return i < 103 ? speeds_up(i) : speeds_up(std::max(i, 105)) - speeds_up(105) + speeds_up(103);
                       }),
-                      Wheel::left, kDrive);
+                      Wheel::left, kStandingDrive);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(found[0].first, 2.06, 1e-9);
   EXPECT_NEAR(found[0].second, 2.12, 1e-9);
-  EXPECT_TRUE(halting_encoder(driven(speeds_up), Wheel::left, kDrive).empty());
+  EXPECT_TRUE(halting_encoder(driven_by_left(speeds_up), Wheel::left, kStandingDrive).empty());
 }
 
 // 0.16 m/s is gone and back within a quarter of a second each, at 0.6 m/s2.
@@ -57,19 +58,21 @@ TEST(HaltingEncoder, IsNoneWhereAWheelIsBrakedAndSpedUpAgain) {
     at += std::round(14.0 * std::clamp(from_halt / 12.0, 0.0, 1.0));
     counts.push_back(at);
   }
-  EXPECT_TRUE(
-      halting_encoder(driven([&](int i) { return counts[static_cast<std::size_t>(i)]; }), Wheel::left, kDrive).empty());
+  EXPECT_TRUE(halting_encoder(driven_by_left([&](int i) { return counts[static_cast<std::size_t>(i)]; }), Wheel::left,
+                              kStandingDrive)
+                  .empty());
 }
 
 TEST(HaltingEncoder, IsNoneWhereTheOtherWheelHaltsAsWell) {
-  std::vector<WheelSample> wheels = driven(halts);
+  std::vector<WheelSample> wheels = driven_by_left(halts);
   for (WheelSample& w : wheels) w.right_rad = w.left_rad;
-  EXPECT_TRUE(halting_encoder(wheels, Wheel::left, kDrive).empty());
+  EXPECT_TRUE(halting_encoder(wheels, Wheel::left, kStandingDrive).empty());
 }
 
 // A driver that asks more often than the encoder answers: each count is read five times and then comes at once.
 TEST(HaltingEncoder, IsNoneWhereReadingsAreRepeated) {
-  EXPECT_TRUE(halting_encoder(driven([](int i) { return 14.0 * (i - i % 5); }), Wheel::left, kDrive).empty());
+  EXPECT_TRUE(
+      halting_encoder(driven_by_left([](int i) { return 14.0 * (i - i % 5); }), Wheel::left, kStandingDrive).empty());
 }
 
 // Both wheels stand after a few counts; the left count goes back by a tenth of a turn, once in one reading and once

@@ -13,7 +13,7 @@ namespace {
 
 // A stick that is pushed to somewhere else every second and a half; the base follows as an oscillator of second order,
 // of 20 rad/s and that damping.
-Recording driven(int number, double damping) {
+Recording driven_with_damping(int number, double damping) {
   constexpr double kOwn_radps = 20.0;
   Random random(static_cast<std::uint64_t>(170 + number));
   double speed_up_mps2 = 0.0, turn_up_radps2 = 0.0;
@@ -28,15 +28,15 @@ Recording driven(int number, double damping) {
   });
 }
 
-std::vector<Recording> driven_by(double damping) {
+std::vector<Recording> runs_with_damping(double damping) {
   std::vector<Recording> recordings;
-  for (int n = 1; n <= 4; ++n) recordings.push_back(driven(n, damping));
+  for (int n = 1; n <= 4; ++n) recordings.push_back(driven_with_damping(n, damping));
   return recordings;
 }
 
 // It overshoots by exp(-pi damping / sqrt(1 - damping^2)) = 44 % of each change, half a period after it, 0.16 s.
 TEST(StepResponse, ShowsABaseThatOvershootsWhichIsNoLag) {
-  const Diagnosis d = diagnose(driven_by(0.25), {}, Vehicle{}).value();
+  const Diagnosis d = diagnose(runs_with_damping(0.25), {}, Vehicle{}).value();
   EXPECT_EQ(d.verdict, Verdict::unknown_effect);
   const auto response = std::find_if(d.responses.begin(), d.responses.end(), [](const Response& r) {
     return r.variable == "time since its command changed [s]";
@@ -50,7 +50,7 @@ TEST(StepResponse, ShowsABaseThatOvershootsWhichIsNoLag) {
 // Damped by half as much again as is critical it is two lags in a row, of 0.13 and 0.019 s: a lag that is a little
 // late.
 TEST(StepResponse, LeavesABaseThatCreepsUpToItsCommandsToItsLag) {
-  const Diagnosis d = diagnose(driven_by(1.5), {}, Vehicle{}).value();
+  const Diagnosis d = diagnose(runs_with_damping(1.5), {}, Vehicle{}).value();
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.findings.front().effect, "actuator_lag");
   EXPECT_NE(d.verdict, Verdict::unknown_effect);

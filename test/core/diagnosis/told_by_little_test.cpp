@@ -37,7 +37,8 @@ double duration_s(const std::vector<Leg>& legs) {
   return sum_s;
 }
 
-Recording driven(GeneratorSettings g, const std::vector<Leg>& legs, const std::string& name, std::uint64_t seed) {
+Recording driven_as_told(GeneratorSettings g, const std::vector<Leg>& legs, const std::string& name,
+                         std::uint64_t seed) {
   Random random(seed);
   g.duration_s = duration_s(legs) + 0.5;
   Recording recording = generated(g, along(legs, g.drive), random);
@@ -68,8 +69,8 @@ struct ClassroomRobot {
     file.kind = drive;
     const std::vector<Leg> straight = {{1.0, 0.0, 0.0}, {28.0, 0.1, 0.0}, {2.0, 0.0, 0.0}, {28.0, -0.09, 0.0}};
     for (std::uint64_t seed : {1u, 2u, 3u, 4u})
-      straights.push_back(driven(g, straight, "straight " + std::to_string(seed), seed));
-    turning = driven(
+      straights.push_back(driven_as_told(g, straight, "straight " + std::to_string(seed), seed));
+    turning = driven_as_told(
         g,
         {{10.0, 0.1, 0.0}, {4.0, 0.08, 0.4}, {10.0, 0.1, 0.0}, {4.0, 0.08, -0.4}, {10.0, 0.1, 0.0}, {4.0, 0.08, 0.4}},
         "turning", 5);

@@ -13,7 +13,7 @@ namespace odolab {
 namespace {
 
 // A stick that is pushed to somewhere else every second and a half, and let back now and then by a little.
-std::vector<Recording> driven_by(const std::function<void(test::CommandedBase&)>& obeys) {
+std::vector<Recording> driven_by_stick(const std::function<void(test::CommandedBase&)>& obeys) {
   std::vector<Recording> recordings;
   for (int n = 1; n <= 4; ++n) {
     Random random(static_cast<std::uint64_t>(260 + n));
@@ -29,20 +29,20 @@ std::vector<Recording> driven_by(const std::function<void(test::CommandedBase&)>
   return recordings;
 }
 
-const Response* drawn(const Diagnosis& d, const std::string& variable) {
+const Response* drawn_over(const Diagnosis& d, const std::string& variable) {
   for (const Response& r : d.responses)
     if (r.variable == variable) return &r;
   return nullptr;
 }
 
 TEST(ToldSpeeds, ShowThatABaseIsDeafToCommandsThatAreSmall) {
-  const Diagnosis d = diagnose(driven_by([](test::CommandedBase& b) {
+  const Diagnosis d = diagnose(driven_by_stick([](test::CommandedBase& b) {
                                  if (std::abs(b.speed_mps) < 0.05) b.speed_mps = 0.0;
                                }),
                                {}, Vehicle{})
                           .value();
   ASSERT_EQ(d.verdict, Verdict::unknown_effect);
-  const Response* forward = drawn(d, "speed as it is told [m/s]");
+  const Response* forward = drawn_over(d, "speed as it is told [m/s]");
   ASSERT_TRUE(forward);
   ASSERT_GT(forward->at.size(), 3U);
   ASSERT_LT(forward->at[1], 0.05);
@@ -54,7 +54,7 @@ TEST(ToldSpeeds, ShowThatABaseIsDeafToCommandsThatAreSmall) {
 constexpr double kFastest_mps = 0.55, kWheelbase_m = 0.34;
 
 TEST(ToldSpeeds, ShowThatAWheelGoesNoFasterThanItCan) {
-  const Diagnosis d = diagnose(driven_by([](test::CommandedBase& b) {
+  const Diagnosis d = diagnose(driven_by_stick([](test::CommandedBase& b) {
                                  const auto wheel = [&b](double sign) {
                                    return std::clamp(b.speed_mps + sign * 0.5 * kWheelbase_m * b.yaw_rate_radps,
                                                      -kFastest_mps, kFastest_mps);
@@ -65,7 +65,7 @@ TEST(ToldSpeeds, ShowThatAWheelGoesNoFasterThanItCan) {
                                {}, Vehicle{})
                           .value();
   ASSERT_EQ(d.verdict, Verdict::unknown_effect);
-  const Response* wheel = drawn(d, "speed of a wheel as it is told [m/s]");
+  const Response* wheel = drawn_over(d, "speed of a wheel as it is told [m/s]");
   ASSERT_TRUE(wheel);
   const double fastest_told = wheel->at.back();
   EXPECT_NEAR(wheel->value.back(), kFastest_mps / fastest_told - 1.0, 0.03);
@@ -99,7 +99,7 @@ TEST(ToldSpeeds, SayNothingOfWhatADriverSteersAgainst) {
 }
 
 TEST(ToldSpeeds, SayNothingOfABaseThatObeys) {
-  EXPECT_EQ(diagnose(driven_by([](test::CommandedBase&) {}), {}, Vehicle{})->verdict, Verdict::nothing_missing);
+  EXPECT_EQ(diagnose(driven_by_stick([](test::CommandedBase&) {}), {}, Vehicle{})->verdict, Verdict::nothing_missing);
 }
 
 }  // namespace

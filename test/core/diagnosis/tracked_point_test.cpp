@@ -11,7 +11,7 @@
 namespace odolab {
 namespace {
 
-test::Case calm_case(std::uint64_t seed) {
+test::Case case_of_tracked_point(std::uint64_t seed) {
   test::CaseSettings settings;
   settings.runs = 3;
   settings.duration_s = 60.0;
@@ -22,7 +22,7 @@ std::vector<double>& channel(Recording& r, const char* name) {
   return std::find_if(r.channels.begin(), r.channels.end(), [&](const Channel& c) { return c.name == name; })->values;
 }
 
-const Response* drawn(const Diagnosis& d, const char* channel) {
+const Response* drawn_channel(const Diagnosis& d, const char* channel) {
   const auto at =
       std::find_if(d.responses.begin(), d.responses.end(), [&](const Response& r) { return r.channel == channel; });
   return at == d.responses.end() ? nullptr : &*at;
@@ -36,7 +36,7 @@ double at(const Response& r, double where) {
 // Half of all headings show another tag, which stands so far to the left.
 TEST(TrackedPoint, ShowsASecondTagThatIsSeenFromBehind) {
   constexpr double kFurtherLeft_m = 0.006;
-  test::Case c = calm_case(22);
+  test::Case c = case_of_tracked_point(22);
   for (Recording& r : c.recordings) {
     std::vector<double>&x = channel(r, "truth_x_m"), &y = channel(r, "truth_y_m");
     const std::vector<double>& heading = channel(r, "truth_heading_rad");
@@ -49,7 +49,7 @@ TEST(TrackedPoint, ShowsASecondTagThatIsSeenFromBehind) {
   const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
   ASSERT_TRUE(d);
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
-  const Response* along_x = drawn(*d, "truth off along x [m]");
+  const Response* along_x = drawn_channel(*d, "truth off along x [m]");
   ASSERT_NE(along_x, nullptr);
   // To the left by the half wave 1/2 - 2 / pi (cos h - cos 3h / 3), of which the floor's x sees -sin h: 4 / (3 pi) of
   // it goes with sin 2h.
@@ -61,7 +61,7 @@ TEST(TrackedPoint, ShowsASecondTagThatIsSeenFromBehind) {
 // A station far to one side sees a prism of six faces, by so much nearer or farther as these go by.
 TEST(TrackedPoint, ShowsAPrismOfSixFaces) {
   constexpr double kNearer_m = 0.0015;
-  test::Case c = calm_case(24);
+  test::Case c = case_of_tracked_point(24);
   for (Recording& r : c.recordings) {
     std::vector<double>&x = channel(r, "truth_x_m"), &heading = channel(r, "truth_heading_rad");
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -79,13 +79,13 @@ TEST(TrackedPoint, ShowsAPrismOfSixFaces) {
 // Iron on the vehicle turns a compass by so much, once a turn: positions know nothing of it.
 TEST(TrackedPoint, ShowsACompassBesideIron) {
   constexpr double kDeviation_rad = 0.004;
-  test::Case c = calm_case(23);
+  test::Case c = case_of_tracked_point(23);
   for (Recording& r : c.recordings)
     for (double& heading : channel(r, "truth_heading_rad")) heading += kDeviation_rad * std::sin(heading);
   const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
   ASSERT_TRUE(d);
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
-  const Response* turned = drawn(*d, "truth's heading, off to the left [rad]");
+  const Response* turned = drawn_channel(*d, "truth's heading, off to the left [rad]");
   ASSERT_NE(turned, nullptr);
   const double from_side_to_side = at(*turned, 0.5 * kPi) - at(*turned, -0.5 * kPi);
   EXPECT_NEAR(from_side_to_side, 2.0 * kDeviation_rad, 0.1 * 2.0 * kDeviation_rad);  // points lie 0.13 rad apart
@@ -94,7 +94,7 @@ TEST(TrackedPoint, ShowsACompassBesideIron) {
 // A mount with play, which the body's turns push to one side or the other: a marker so far ahead of its pin.
 TEST(TrackedPoint, ShowsAMountThatIsLoose) {
   constexpr double kAhead_m = 0.15, kToEitherSide_rad = 0.008, kPushed_rad = 0.03;
-  test::Case c = calm_case(25);
+  test::Case c = case_of_tracked_point(25);
   for (Recording& r : c.recordings) {
     std::vector<double>&x = channel(r, "truth_x_m"), &y = channel(r, "truth_y_m"),
     &heading = channel(r, "truth_heading_rad");
@@ -121,7 +121,7 @@ TEST(TrackedPoint, ShowsAMountThatIsLoose) {
 
 // A marker that was put on anew for the second run, 1.5 mm to the side: less than is put right.
 TEST(TrackedPoint, ShowsAMarkerThatWasPutOnAnew) {
-  test::Case c = calm_case(24);
+  test::Case c = case_of_tracked_point(24);
   std::vector<double>&x = channel(c.recordings[1], "truth_x_m"), &y = channel(c.recordings[1], "truth_y_m");
   const std::vector<double>& heading = channel(c.recordings[1], "truth_heading_rad");
   for (std::size_t i = 0; i < x.size(); ++i)

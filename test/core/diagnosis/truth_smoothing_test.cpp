@@ -13,7 +13,7 @@
 namespace odolab::test {
 namespace {
 
-constexpr double kPeriod_s = 0.01;
+constexpr double kTruthPeriod_s = 0.01;
 constexpr const char* kPose[] = {"truth_x_m", "truth_y_m", "truth_heading_rad"};
 
 // What a tracker makes of one of its channels.
@@ -22,7 +22,7 @@ using Filter = std::function<std::vector<double>(const std::vector<double>&)>;
 // Followed by one of first order with that time constant.
 Filter of_first_order(double time_constant_s) {
   return [=](const std::vector<double>& in) {
-    const double keep = std::exp(-kPeriod_s / time_constant_s);
+    const double keep = std::exp(-kTruthPeriod_s / time_constant_s);
     std::vector<double> out = {in.front()};
     for (std::size_t i = 1; i < in.size(); ++i) out.push_back(in[i] + keep * (out.back() - in[i]));
     return out;
@@ -50,7 +50,7 @@ std::vector<Recording> smoothed_runs(const Filter& filter, const std::function<v
   GeneratorSettings g;
   g.drive = {0.0753, 0.0748, 0.343};
   g.wheel_noise = 0.0008;
-  g.truth_period_s = kPeriod_s;
+  g.truth_period_s = kTruthPeriod_s;
   g.duration_s = 45.0;
   g.inject = inject;
   std::vector<Recording> runs;
@@ -96,7 +96,8 @@ TEST(TruthSmoothing, IsNamedWithTheTimeConstantOfAFilterThatIsLateByAsMuch) {
   EXPECT_EQ(smoothing->component, "truth");
   EXPECT_EQ(smoothing->parameters[0].name, "width_s");
   EXPECT_NEAR(smoothing->parameters[0].value, 0.06, 0.05 * 0.06 + 3.0 * smoothing->parameters[0].stderr_value);
-  const double keep = std::exp(-kPeriod_s / 0.06), late_s = kPeriod_s * keep / (1.0 - keep);  // in steps of a sample
+  const double keep = std::exp(-kTruthPeriod_s / 0.06),
+               late_s = kTruthPeriod_s * keep / (1.0 - keep);  // in steps of a sample
   EXPECT_NEAR(late->parameters[0].value, late_s, 0.03 * late_s);
 }
 
@@ -149,7 +150,7 @@ TEST(TruthSmoothing, IsNotNamedWhereTheTruthIsAsItIs) {
 // Thirty counts a turn, 16 mm each: a wheel that sets off evenly is read as in a jump. Of an eighteenth program's 35
 // recordings in which nothing was missing, seven had had a smoothed truth for it.
 TEST(TruthSmoothing, IsNotNamedWhereWholeCountsDoAsMuch) {
-  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, kPeriod_s);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0008, kTruthPeriod_s);
   g.drive.encoder_counts_per_revolution = 30.0;
   g.duration_s = 45.0;
   Vehicle nominal;

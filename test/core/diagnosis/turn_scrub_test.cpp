@@ -12,7 +12,7 @@ namespace {
 // The wheelbase grows with the rate at which the vehicle turns, or with that at which its wheels would turn it, which
 // at 12 % per rad/s is an eighth more where it turns at 1 rad/s: by the other rate the scrub came out a fifth too
 // large.
-void expect_measured(double scrub, bool by_wheels) {
+void expect_scrub_measured(double scrub, bool by_wheels) {
   constexpr double kBase_m = 0.34, kRadius_m = 0.075;
   Random random(by_wheels ? 72 : 71);
   GeneratorSettings g = under_motion_capture({kRadius_m, kRadius_m, kBase_m}, 0.0005, 0.01);
@@ -43,11 +43,11 @@ void expect_measured(double scrub, bool by_wheels) {
 }
 
 TEST(TurnScrub, IsAsLargeAsItIsByWhicheverRateItGrows) {
-  for (const bool by_wheels : {false, true}) expect_measured(0.12, by_wheels);
+  for (const bool by_wheels : {false, true}) expect_scrub_measured(0.12, by_wheels);
 }
 
 // By the rate at which the vehicle turns it would be more than any there is.
-TEST(TurnScrub, IsFoundInTheFormInWhichItIsWithinItsBounds) { expect_measured(0.4, true); }
+TEST(TurnScrub, IsFoundInTheFormInWhichItIsWithinItsBounds) { expect_scrub_measured(0.4, true); }
 
 }  // namespace
 }  // namespace odolab::test

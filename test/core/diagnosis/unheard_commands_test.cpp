@@ -11,23 +11,24 @@ struct HeldCommand {
   double time_s = 0.0, speed_mps = 0.0, yaw_rate_radps = 0.0;
 };
 
-constexpr DifferentialDrive kDrive{0.075, 0.075, 0.34};
+constexpr DifferentialDrive kDeafDrive{0.075, 0.075, 0.34};
 
 // Wheels that obey, each command until the next.
 std::vector<WheelSample> obeyed(const std::vector<HeldCommand>& commands) {
   std::vector<WheelSample> wheels{{commands[0].time_s, 0.0, 0.0}};
   for (std::size_t i = 0; i + 1 < commands.size(); ++i) {
     const HeldCommand& c = commands[i];
-    const double lasts_s = commands[i + 1].time_s - c.time_s, aside_mps = 0.5 * kDrive.wheelbase_m * c.yaw_rate_radps;
+    const double lasts_s = commands[i + 1].time_s - c.time_s,
+                 aside_mps = 0.5 * kDeafDrive.wheelbase_m * c.yaw_rate_radps;
     wheels.push_back({commands[i + 1].time_s,
-                      wheels[i].left_rad + lasts_s * (c.speed_mps - aside_mps) / kDrive.wheel_radius_left_m,
-                      wheels[i].right_rad + lasts_s * (c.speed_mps + aside_mps) / kDrive.wheel_radius_right_m});
+                      wheels[i].left_rad + lasts_s * (c.speed_mps - aside_mps) / kDeafDrive.wheel_radius_left_m,
+                      wheels[i].right_rad + lasts_s * (c.speed_mps + aside_mps) / kDeafDrive.wheel_radius_right_m});
   }
   return wheels;
 }
 
 // Fifty times a second for twenty seconds: at rest for two, then ahead at 0.3 m/s to and fro by turns of 4 s.
-std::vector<HeldCommand> driven() {
+std::vector<HeldCommand> to_and_fro_commands() {
   std::vector<HeldCommand> commands;
   for (int i = 0; i < 1000; ++i) {
     const double t = 0.02 * i;
@@ -53,53 +54,53 @@ std::vector<TruthSample> followed(const std::vector<HeldCommand>& commands, doub
 }
 
 TEST(UnheardCommands, AreWhereRowsAreMissingWhileTheBaseDrives) {
-  std::vector<HeldCommand> commands = driven();
+  std::vector<HeldCommand> commands = to_and_fro_commands();
   commands.erase(commands.begin() + 450, commands.begin() + 490);  // from 9 to 9.8 s
   commands.erase(commands.begin() + 20, commands.begin() + 60);    // while it rests
-  const TimeStretches holes = holes_in_commands(obeyed(commands), kDrive, {});
+  const TimeStretches holes = holes_in_commands(obeyed(commands), kDeafDrive, {});
   ASSERT_EQ(holes.size(), 1u);
   EXPECT_NEAR(holes[0].first, 8.98, 1e-9);
   EXPECT_NEAR(holes[0].second, 9.8, 1e-9);
-  EXPECT_TRUE(holes_in_commands(obeyed(driven()), kDrive, {}).empty());
+  EXPECT_TRUE(holes_in_commands(obeyed(to_and_fro_commands()), kDeafDrive, {}).empty());
 }
 
 TEST(UnheardCommands, AreNotMissingInALogThatHasARowForEachChange) {
   std::vector<HeldCommand> commands;
   for (int i = 0; i < 60; ++i) commands.push_back({0.05 * i * i, 0.1 + 0.001 * i, 0.0});
-  EXPECT_TRUE(holes_in_commands(obeyed(commands), kDrive, {}).empty());
+  EXPECT_TRUE(holes_in_commands(obeyed(commands), kDeafDrive, {}).empty());
 }
 
 // A stick that is let go and held still by turns: few of its rows are far apart.
 TEST(UnheardCommands, AreNotMissingWhereTheBaseGoesOnAsItWasToldLast) {
-  std::vector<HeldCommand> commands = driven(), changes;
+  std::vector<HeldCommand> commands = to_and_fro_commands(), changes;
   for (HeldCommand& c : commands)
     if (c.time_s > 10.0 && c.time_s < 12.0) c.speed_mps = 0.2, c.yaw_rate_radps = 0.4;
   for (const HeldCommand& c : commands)
     if (changes.empty() || c.speed_mps != changes.back().speed_mps || c.yaw_rate_radps != changes.back().yaw_rate_radps)
       changes.push_back(c);
-  EXPECT_TRUE(holes_in_commands(obeyed(changes), kDrive, followed(commands, 100.0, 100.0)).empty());
-  const TimeStretches holes = holes_in_commands(obeyed(changes), kDrive, followed(commands, 10.5, 12.0));
+  EXPECT_TRUE(holes_in_commands(obeyed(changes), kDeafDrive, followed(commands, 100.0, 100.0)).empty());
+  const TimeStretches holes = holes_in_commands(obeyed(changes), kDeafDrive, followed(commands, 10.5, 12.0));
   ASSERT_FALSE(holes.empty());
   EXPECT_NEAR(holes.back().first, 10.0, 0.03);
   EXPECT_NEAR(holes.back().second, 12.0, 0.03);
 }
 
 TEST(UnheardCommands, AreWhereTheBaseIsBlocked) {
-  const std::vector<HeldCommand> commands = driven();
-  const TimeStretches unmoved = unmoved_base(obeyed(commands), kDrive, followed(commands, 8.0, 13.0));
+  const std::vector<HeldCommand> commands = to_and_fro_commands();
+  const TimeStretches unmoved = unmoved_base(obeyed(commands), kDeafDrive, followed(commands, 8.0, 13.0));
   ASSERT_EQ(unmoved.size(), 1u);
   EXPECT_NEAR(unmoved[0].first, 7.5, 0.5);
   EXPECT_NEAR(unmoved[0].second, 13.0, 0.5);
-  EXPECT_TRUE(unmoved_base(obeyed(commands), kDrive, followed(commands, 0.0, 0.0)).empty());
+  EXPECT_TRUE(unmoved_base(obeyed(commands), kDeafDrive, followed(commands, 0.0, 0.0)).empty());
 }
 
 // It sets off before it is told to, by its stamps, and stands while it is told to drive.
 TEST(UnheardCommands, AreNoneWhereTheTruthsClockIsOff) {
-  std::vector<HeldCommand> commands = driven();
+  std::vector<HeldCommand> commands = to_and_fro_commands();
   for (HeldCommand& c : commands)
     if (std::fmod(c.time_s, 8.0) > 4.0) c.speed_mps = c.yaw_rate_radps = 0.0;
   for (const double late_s : {0.0, 3.0, -3.0})
-    EXPECT_TRUE(unmoved_base(obeyed(commands), kDrive, followed(commands, 0.0, 0.0, late_s)).empty()) << late_s;
+    EXPECT_TRUE(unmoved_base(obeyed(commands), kDeafDrive, followed(commands, 0.0, 0.0, late_s)).empty()) << late_s;
 }
 
 // Two seconds about the moment at which it turns back begin and end at one place.
@@ -107,7 +108,7 @@ TEST(UnheardCommands, AreNoneWhereTheBaseGoesBackWhereItCameFrom) {
   std::vector<HeldCommand> commands;
   for (int i = 0; i < 1000; ++i) commands.push_back({0.02 * i, i / 250 % 2 == 0 ? 0.34 : -0.34, 0.0});
   for (const double late_s : {0.0, 0.1, 0.2, 0.25, 0.3, 0.45})
-    EXPECT_TRUE(unmoved_base(obeyed(commands), kDrive, followed(commands, 100.0, 100.0, late_s)).empty()) << late_s;
+    EXPECT_TRUE(unmoved_base(obeyed(commands), kDeafDrive, followed(commands, 100.0, 100.0, late_s)).empty()) << late_s;
 }
 
 }  // namespace

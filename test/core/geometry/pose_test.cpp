@@ -5,7 +5,7 @@
 namespace odolab {
 namespace {
 
-void expect_same(const Pose& a, const Pose& b) {
+void expect_same_pose(const Pose& a, const Pose& b) {
   EXPECT_NEAR(a.x_m, b.x_m, 1e-14);  // rounding of numbers of order one
   EXPECT_NEAR(a.y_m, b.y_m, 1e-14);
   EXPECT_NEAR(a.heading_rad, b.heading_rad, 1e-14);
@@ -20,10 +20,10 @@ TEST(Angles, WrapIntoHalfATurnEitherSide) {
 
 TEST(Pose, ComposesAsAGroup) {
   const Pose a{1.0, 2.0, 0.7}, b{-0.5, 0.3, -2.0}, c{0.2, 0.9, 4.0};
-  expect_same((a * b) * c, a * (b * c));
-  expect_same(a * inverse(a), Pose{});
-  expect_same(inverse(a) * b, between(a, b));
-  expect_same(a * between(a, b), b);
+  expect_same_pose((a * b) * c, a * (b * c));
+  expect_same_pose(a * inverse(a), Pose{});
+  expect_same_pose(inverse(a) * b, between(a, b));
+  expect_same_pose(a * between(a, b), b);
 }
 
 TEST(Pose, MapsAPointFromItsFrameToTheFloor) {

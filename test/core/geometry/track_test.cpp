@@ -5,7 +5,7 @@
 namespace odolab {
 namespace {
 
-Track straight(double speed, double turn_rate, double duration_s, double dt = 0.1) {
+Track track_at(double speed, double turn_rate, double duration_s, double dt = 0.1) {
   Track t;
   Pose p;
   for (int i = 0; i * dt <= duration_s + 1e-9; ++i) {
@@ -33,7 +33,7 @@ TEST(Track, UnwrapsAndMeasuresItself) {
 }
 
 TEST(TrackError, IsZeroOnItselfAndBlindToTheFrame) {
-  const Track t = straight(0.5, 0.2, 20.0);
+  const Track t = track_at(0.5, 0.2, 20.0);
   Track moved = t;
   for (TimedPose& p : moved) p.pose = Pose{3, -2, 1.0} * p.pose;
   const auto e = track_error(moved, t);
@@ -45,7 +45,7 @@ TEST(TrackError, IsZeroOnItselfAndBlindToTheFrame) {
 
 TEST(TrackError, GathersAScaleErrorOverOneMetre) {
   // One per cent too far: 10 mm in each metre, 100 mm after ten.
-  const auto e = track_error(straight(0.505, 0.0, 20.0), straight(0.5, 0.0, 20.0));
+  const auto e = track_error(track_at(0.505, 0.0, 20.0), track_at(0.5, 0.0, 20.0));
   ASSERT_TRUE(e);
   EXPECT_NEAR(e->position_rms_m, 0.010, 0.0006);  // a window ends within one stride of 50 mm beyond its metre
   EXPECT_NEAR(e->end_position_m, 0.1, 1e-9);
@@ -53,17 +53,17 @@ TEST(TrackError, GathersAScaleErrorOverOneMetre) {
 }
 
 TEST(TrackError, GathersATurnErrorOverOneRadian) {
-  const auto e = track_error(straight(0.0, 0.51, 40.0), straight(0.0, 0.5, 40.0));
+  const auto e = track_error(track_at(0.0, 0.51, 40.0), track_at(0.0, 0.5, 40.0));
   ASSERT_TRUE(e);
   EXPECT_NEAR(e->heading_rms_rad, 0.02, 0.0011);  // 2 % of a radian, and a stride of 0.05 rad more
   EXPECT_NEAR(e->end_heading_rad, 0.4, 1e-9);
 }
 
 TEST(TrackError, NeedsTwoSharedTimes) {
-  EXPECT_FALSE(track_error({}, straight(1, 0, 1)));
-  Track late = straight(1, 0, 1);
+  EXPECT_FALSE(track_error({}, track_at(1, 0, 1)));
+  Track late = track_at(1, 0, 1);
   for (TimedPose& p : late) p.time_s += 5.0;
-  EXPECT_FALSE(track_error(late, straight(1, 0, 1)));
+  EXPECT_FALSE(track_error(late, track_at(1, 0, 1)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "core/io/diagnosis_html.h"
 #include "core/io/verdict_sentence.h"
+#include "test/core/io/files.h"
 #include "test/support/diagnosis_by_hand.h"
 
 namespace odolab {
@@ -130,12 +131,6 @@ TEST(SummaryLines, AreReadInAMinute) {
     d.not_testable.push_back(d.not_testable[0]);
   }
   for (const std::string& line : summary_lines(test::diagnosis_by_hand())) EXPECT_LE(line.size(), 150u) << line;
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
-  return n;
 }
 
 TEST(SummaryLines, HoldEachFindingWholeAndSayHowManyMoreThereAre) {

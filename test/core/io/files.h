@@ -1,4 +1,4 @@
-// Folders and files that the tests of core/io read and write.
+// Folders, files and their text, as the tests of core/io read and write them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -62,6 +62,18 @@ std::string message_of(const Result<T>& result, const std::string& path) {
 inline std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+inline std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
 }
 
 // The folder of real recordings; empty where it is absent.

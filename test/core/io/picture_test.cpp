@@ -37,12 +37,6 @@ bool is_well_formed(const std::string& xml) {
   return tags > 0 && open.empty();
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
-  return n;
-}
-
 // The points of the first polyline in a picture.
 std::vector<Point> first_polyline(const std::string& svg) {
   const std::size_t from = svg.find("<polyline points=\"") + 18;

@@ -12,7 +12,7 @@
 namespace odolab {
 namespace {
 
-std::string complaint(const std::string& text) {
+std::string complaint_of_recording(const std::string& text) {
   ScratchFolder folder;
   const std::string path = folder.write("run.csv", text);
   return message_of(read_recording_csv(path), path);
@@ -62,42 +62,43 @@ TEST(RecordingCsv, ToleratesWhatOtherProgramsWrite) {
 }
 
 TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
-  EXPECT_EQ(complaint(""), "run.csv: found an empty file, expected a header line with a column 'time_s'");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n"),
+  EXPECT_EQ(complaint_of_recording(""), "run.csv: found an empty file, expected a header line with a column 'time_s'");
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n"),
             "run.csv:1: found a header without rows, expected one row or more");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\r0,0,0\r1,2,3\r"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\r0,0,0\r1,2,3\r"),
             "run.csv: found lines that end in a carriage return alone, expected line feeds: 'tr \"\\r\" \"\\n\"' makes "
             "them");
   EXPECT_EQ(
-      complaint("t,left_ticks\n0,1\n"),
+      complaint_of_recording("t,left_ticks\n0,1\n"),
       "run.csv:1: found the columns 't', 'left_ticks', expected a column 'time_s'; odolab import --map reads other "
       "names");
-  EXPECT_EQ(complaint("time_s,left_ticks\n0,1\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks\n0,1\n"),
             "run.csv:1: found the column 'left_ticks' alone, expected a column 'right_ticks' with it");
-  EXPECT_EQ(complaint("time_s,truth_x_m,truth_y_m,truth_x_m\n0,1,2,3\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,truth_x_m,truth_y_m,truth_x_m\n0,1,2,3\n"),
             "run.csv:1: found the column 'truth_x_m' twice, expected each column once");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,2\n1,2,three\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2,three\n"),
             "run.csv:3: right_ticks: found 'three', expected a number");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,inf\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,inf\n"),
             "run.csv:2: right_ticks: found 'inf', expected a number");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,0x1f\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,0x1f\n"),
             "run.csv:2: right_ticks: found '0x1f', expected a number");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n,1,2\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n,1,2\n"),
             "run.csv:2: time_s: found an empty cell, expected a number");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0.2,1,2\n0.1,1,2\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0.2,1,2\n0.1,1,2\n"),
             "run.csv:3: time_s: found 0.1 after 0.2, expected times that never decrease");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1\n1,1,2\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1\n1,1,2\n"),
             "run.csv:2: found 2 cells, expected 3, one for each column of the header");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,2,3\n"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2,3\n"),
             "run.csv:2: found 4 cells, expected 3, one for each column of the header");
 }
 
 TEST(RecordingCsv, NoticesAFileCutOffInTheMiddle) {
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,2\n1,2"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2"),
             "run.csv:3: found a last line cut off after 2 cells, expected 3, one for each column of the header");
-  EXPECT_EQ(complaint("time_s,left_ticks,right_ticks\n0,1,2\n1,2,-"),
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2,-"),
             "run.csv:3: right_ticks: found '-', expected a number");
-  EXPECT_EQ(complaint("time_s,left_ti"), "run.csv:1: found a header without rows, expected one row or more");
+  EXPECT_EQ(complaint_of_recording("time_s,left_ti"),
+            "run.csv:1: found a header without rows, expected one row or more");
   ScratchFolder folder;
   EXPECT_EQ(message_of(read_recording_csv(folder.path("none.csv")), folder.path("none.csv")),
             "none.csv: found no such file, expected a file that can be read");

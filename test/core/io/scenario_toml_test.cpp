@@ -52,12 +52,6 @@ struct Scene {
   std::string complaint(const std::string& text) { return message_of(read(text), folder.path("s.toml")); }
 };
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
-
 TEST(ScenarioToml, ReadsWhatStandsThereAndDefaultsForTheRest) {
   Scene scene;
   const Result<Scenario> s = scene.read(kScenario);

@@ -52,17 +52,13 @@ wheel_offset_left_m = 0.06
 wheel_offset_right_m = 0.07
 )";
 
-std::string complaint(const std::string& text) {
+std::string complaint_of_kind(const std::string& text) {
   ScratchFolder folder;
   const std::string path = folder.write("x.toml", text);
   return message_of(read_vehicle(path), path);
 }
 
 std::string text_of(const std::string& path) { return *read_whole_file(path); }
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 TEST(VehicleKindsToml, ReadTheContractsClapper) {
   ScratchFolder folder;
@@ -124,20 +120,20 @@ TEST(VehicleKindsToml, EveryKindGoesBothWaysUnchanged) {
 }
 
 TEST(VehicleKindsToml, SayInOneLineWhatIsWrong) {
-  EXPECT_EQ(complaint(replaced(kClapper, "link_length_offset_m", "link_length_ofset_m")),
+  EXPECT_EQ(complaint_of_kind(replaced(kClapper, "link_length_offset_m", "link_length_ofset_m")),
             "x.toml:8: found the key 'link_length_ofset_m', expected a known key; the nearest is "
             "'link_length_offset_m'");
-  EXPECT_EQ(complaint(replaced(kClapper, "wheelbase_m = 0.341", "wheelbase_m = 0")),
+  EXPECT_EQ(complaint_of_kind(replaced(kClapper, "wheelbase_m = 0.341", "wheelbase_m = 0")),
             "x.toml:16: clapper.truck_b.wheelbase_m: found 0, expected a length in metres above 0");
-  EXPECT_EQ(complaint(kClapper.substr(0, kClapper.find("[clapper.truck_b]"))),
+  EXPECT_EQ(complaint_of_kind(kClapper.substr(0, kClapper.find("[clapper.truck_b]"))),
             "x.toml:3: found no table [clapper.truck_b], expected it to be given");
-  EXPECT_EQ(complaint("kind = \"encoder_trailer\"\n[encoder_trailer]\n"),
+  EXPECT_EQ(complaint_of_kind("kind = \"encoder_trailer\"\n[encoder_trailer]\n"),
             "x.toml:2: found no key 'hitch_offset_m', no key 'drawbar_length_m', no table [encoder_trailer.tow], no "
             "table [encoder_trailer.trailer], expected them to be given");
-  EXPECT_EQ(complaint(replaced(kTwoCastors, "offset_m = 0.05", "offset = 0.05")).substr(0, 34),
+  EXPECT_EQ(complaint_of_kind(replaced(kTwoCastors, "offset_m = 0.05", "offset = 0.05")).substr(0, 34),
             "x.toml:8: found the key 'offset', ");
   EXPECT_EQ(
-      complaint(replaced(kTwoCastors, "pivot_angle_rad = 3.0", "pivot_angle_rad = 0.0")),
+      complaint_of_kind(replaced(kTwoCastors, "pivot_angle_rad = 3.0", "pivot_angle_rad = 0.0")),
       "x.toml:15: multi_castor.castor[2].pivot_radius_m: found the place of castor 1, expected a place of its own");
 }
 

@@ -16,12 +16,6 @@ constexpr const char* kLabMate =
     "wheelbase_m = 0.340\n"
     "encoder_counts_per_revolution = 2000\n";
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
-
 std::string complaint(const std::string& text) {
   ScratchFolder folder;
   const std::string path = folder.write("x.toml", text);

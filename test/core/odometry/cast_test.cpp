@@ -14,16 +14,17 @@ MultiCastor ideal() {
   return vehicle;
 }
 
-struct Drive {
+struct CastorDrive {
   std::vector<CastorSample> samples;
   Pose end;
 };
 
 // Twists one after the other, read every `period_s`, exactly or as the encoders round it.
-Drive drive(const MultiCastor& actual, const std::vector<BodyTwist>& twists, double period_s, bool rounding = false) {
+CastorDrive drive_castors(const MultiCastor& actual, const std::vector<BodyTwist>& twists, double period_s,
+                          bool rounding = false) {
   CastorKinematics vehicle(actual, {}, trailing_angles(actual, twists.front()));
   const auto read = [&] { return rounding ? rounded(vehicle.reading(), actual, 3) : vehicle.reading(); };
-  Drive result;
+  CastorDrive result;
   result.samples.push_back(read());
   for (BodyTwist twist : twists) {
     const int intervals = static_cast<int>(twist.duration_s / period_s + 0.5);
@@ -37,7 +38,7 @@ Drive drive(const MultiCastor& actual, const std::vector<BodyTwist>& twists, dou
   return result;
 }
 
-double position_error_m(const Drive& drive, const MultiCastor& vehicle, const CastOptions& options = {}) {
+double position_error_m(const CastorDrive& drive, const MultiCastor& vehicle, const CastOptions& options = {}) {
   return length(castor_track(drive.samples, vehicle, {}, options).back().pose.position() - drive.end.position());
 }
 
@@ -64,7 +65,7 @@ TEST(Cast, SolvesTwoCastorsByHand) {
 }
 
 TEST(Cast, CentredFormIsTheGeneralOneForCentredPivots) {
-  const Drive run = drive(ideal(), kCrabbing, 0.05);
+  const CastorDrive run = drive_castors(ideal(), kCrabbing, 0.05);
   CastOptions centred;
   centred.method = CastorMethod::cast_centred;
   const Pose a = castor_track(run.samples, ideal(), {}).back().pose;
@@ -76,20 +77,20 @@ TEST(Cast, CentredFormIsTheGeneralOneForCentredPivots) {
 }
 
 TEST(Cast, FollowsExactMotionToSecondOrder) {
-  const double coarse_m = position_error_m(drive(ideal(), kCrabbing, 0.1), ideal());
-  const double fine_m = position_error_m(drive(ideal(), kCrabbing, 0.05), ideal());
+  const double coarse_m = position_error_m(drive_castors(ideal(), kCrabbing, 0.1), ideal());
+  const double fine_m = position_error_m(drive_castors(ideal(), kCrabbing, 0.05), ideal());
   EXPECT_LT(fine_m, 0.002);
   EXPECT_NEAR(coarse_m / fine_m, 4.0, 0.8);
   CastOptions printed;
   printed.heading = HeadingRule::end_as_printed;
-  EXPECT_NEAR(position_error_m(drive(ideal(), kCrabbing, 0.1), ideal(), printed) /
-                  position_error_m(drive(ideal(), kCrabbing, 0.05), ideal(), printed),
+  EXPECT_NEAR(position_error_m(drive_castors(ideal(), kCrabbing, 0.1), ideal(), printed) /
+                  position_error_m(drive_castors(ideal(), kCrabbing, 0.05), ideal(), printed),
               2.0, 0.4);
 }
 
 // Turning on the spot about the middle of three pivots the old heading's error cancels, of two it does not.
 TEST(Cast, LinearisesAtTheMiddleHeading) {
-  const Drive spin = drive(ideal(), {{0.0, 0.0, 0.75, 20.0}}, 0.05);
+  const CastorDrive spin = drive_castors(ideal(), {{0.0, 0.0, 0.75, 20.0}}, 0.05);
   CastOptions old_heading;
   old_heading.linearisation = Linearisation::old_heading;
   EXPECT_LT(position_error_m(spin, ideal(), old_heading), 1e-6);
@@ -97,7 +98,7 @@ TEST(Cast, LinearisesAtTheMiddleHeading) {
   CastOptions middle;
   middle.left_out = 1;
   EXPECT_LT(position_error_m(spin, ideal(), middle), 1e-3);
-  const Drive arc = drive(ideal(), {{0.3, 0.0, 0.75, 4.0}}, 0.05);
+  const CastorDrive arc = drive_castors(ideal(), {{0.3, 0.0, 0.75, 4.0}}, 0.05);
   EXPECT_LT(position_error_m(arc, ideal(), middle), 0.5 * position_error_m(arc, ideal(), old_heading));
 }
 
@@ -105,7 +106,7 @@ TEST(Cast, WithTwoCastorsIsNearlyIpec) {
   MultiCastor wrong = ideal();
   wrong.castors[1].wheel_radius_left_m *= 1.01;
   wrong.castors[2].wheel_radius_right_m *= 0.99;
-  const Drive run = drive(ideal(), kCrabbing, 0.05);
+  const CastorDrive run = drive_castors(ideal(), kCrabbing, 0.05);
   CastOptions cast, ipec;
   cast.left_out = ipec.left_out = 1;
   ipec.method = CastorMethod::ipec;
@@ -125,7 +126,7 @@ TEST(Cast, TakesCastorsOfUnequalWheelsAndAnyLayout) {
   odd.castors[0] = {0.4, 0.3, 0.06, 0.051, 0.049, 0.055, 0.07, 0.2};
   odd.castors[1] = {0.1, 2.0, -0.04, 0.06, 0.05, 0.05, 0.04, -1.0};  // the axle ahead of its pivot
   EXPECT_TRUE(problems_in(odd).empty());
-  EXPECT_LT(position_error_m(drive(odd, {{0.3, 0.1, 0.0, 2.0}, {0.1, 0.2, 0.2, 1.0}}, 0.01), odd), 0.0005);
+  EXPECT_LT(position_error_m(drive_castors(odd, {{0.3, 0.1, 0.0, 2.0}, {0.1, 0.2, 0.2, 1.0}}, 0.01), odd), 0.0005);
 }
 
 TEST(Cast, SaysWhichOptionsDoNotFit) {
@@ -168,7 +169,7 @@ TEST(CastWithRejection, SuspectsNobodyWhereAllIsWell) {
   off.castors[2].wheel_radius_right_m *= 0.995;
   std::vector<BodyTwist> twists;
   for (int i = 0; i < 10; ++i) twists.insert(twists.end(), kCrabbing.begin(), kCrabbing.end());
-  const Drive run = drive(off, twists, 0.05, true);
+  const CastorDrive run = drive_castors(off, twists, 0.05, true);
   const RejectingTrack rejecting = castor_track_with_rejection(run.samples, vehicle, {});
   EXPECT_TRUE(rejecting.disregarded.empty());
   const Pose plain = castor_track(run.samples, vehicle, {}).back().pose;

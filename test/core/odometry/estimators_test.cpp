@@ -48,7 +48,7 @@ std::vector<CastorSample> castor_drive(const MultiCastor& vehicle) {
   return samples;
 }
 
-const Estimator& named(const std::vector<Estimator>& list, const std::string& name) {
+const Estimator& estimator_named(const std::vector<Estimator>& list, const std::string& name) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const Estimator& e) { return e.name == name; });
   EXPECT_NE(found, list.end()) << name;
   return *found;
@@ -67,7 +67,7 @@ Track run_along(const Estimator& estimator, const Recording& recording, const Ve
   return track;
 }
 
-void expect_same(const Track& running, const Track& whole, const std::string& name) {
+void expect_same_track(const Track& running, const Track& whole, const std::string& name) {
   ASSERT_EQ(running.size(), whole.size()) << name;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     ASSERT_EQ(running[i].pose.x_m, whole[i].pose.x_m) << name << " at " << i;
@@ -83,11 +83,11 @@ TEST(Estimators, OfLinkedTrucksEndWithTheBitsOfIpecOverTheWholeRecording) {
   const std::vector<LinkedSample> samples = linked_drive(vehicle);
   const Recording recording = recording_of(samples);
   const std::vector<Estimator> list = estimators_for(vehicle);
-  expect_same(run_along(list[0], recording, vehicle), track_of_truck_a(ipec(samples, vehicle, kStart)), "IPEC");
+  expect_same_track(run_along(list[0], recording, vehicle), track_of_truck_a(ipec(samples, vehicle, kStart)), "IPEC");
   IpecOptions without;
   without.composite = CompositeCorrection::none;
-  expect_same(run_along(named(list, "no composite"), recording, vehicle),
-              track_of_truck_a(ipec(samples, vehicle, kStart, without)), "without");
+  expect_same_track(run_along(estimator_named(list, "no composite"), recording, vehicle),
+                    track_of_truck_a(ipec(samples, vehicle, kStart, without)), "without");
 }
 
 TEST(Estimators, OfTwoTrucksAgreeWithTheirTruthWhereNothingIsRounded) {
@@ -101,7 +101,7 @@ TEST(Estimators, OfTwoTrucksAgreeWithTheirTruthWhereNothingIsRounded) {
   }
   // The chord at the middle heading is off by turn^2 / 24 of each step: 3 mrad and 3 mm give 1e-9 m, 400 times over.
   for (const char* name : {"truck A alone", "truck B, link"}) {
-    const Track track = run_along(named(estimators_for(vehicle), name), recording_of(samples), vehicle);
+    const Track track = run_along(estimator_named(estimators_for(vehicle), name), recording_of(samples), vehicle);
     EXPECT_NEAR(track.back().pose.x_m, drive.a().x_m, 1e-6) << name;
     EXPECT_NEAR(track.back().pose.y_m, drive.a().y_m, 1e-6) << name;
     EXPECT_NEAR(track.back().pose.heading_rad, drive.a().heading_rad, 1e-6) << name;
@@ -124,8 +124,8 @@ TEST(Estimators, OfASmartTrailerEndWithTheBitsOfIpec) {
   SmartEncoderTrailer vehicle;
   EncoderTrailer alike{vehicle.tow, vehicle.trailer, 0.0, vehicle.drawbar_length_m};
   const std::vector<TrailerSample> samples = trailer_drive(alike);
-  expect_same(run_along(estimators_for(vehicle)[0], recording_of(samples), vehicle),
-              track_of_truck_a(ipec(samples, vehicle, kStart)), "IPEC");
+  expect_same_track(run_along(estimators_for(vehicle)[0], recording_of(samples), vehicle),
+                    track_of_truck_a(ipec(samples, vehicle, kStart)), "IPEC");
 }
 
 TEST(Estimators, OfCastorsEndWithTheBitsOfCastLeftOutOrDisregardedOrNot) {
@@ -134,16 +134,17 @@ TEST(Estimators, OfCastorsEndWithTheBitsOfCastLeftOutOrDisregardedOrNot) {
   const Recording recording = recording_of(samples);
   const std::vector<Estimator> list = estimators_for(vehicle);
   ASSERT_EQ(list.size(), 8u);  // CAST-0, disregarding, CAST-1 to -3, IPEC-1 to -3
-  expect_same(run_along(list[0], recording, vehicle), castor_track(samples, vehicle, kStart), "CAST-0");
+  expect_same_track(run_along(list[0], recording, vehicle), castor_track(samples, vehicle, kStart), "CAST-0");
   CastOptions second;
   second.left_out = 2;
-  expect_same(run_along(named(list, "CAST-2"), recording, vehicle), castor_track(samples, vehicle, kStart, second),
-              "CAST-2");
+  expect_same_track(run_along(estimator_named(list, "CAST-2"), recording, vehicle),
+                    castor_track(samples, vehicle, kStart, second), "CAST-2");
   second.method = CastorMethod::ipec;
-  expect_same(run_along(named(list, "IPEC-2"), recording, vehicle), castor_track(samples, vehicle, kStart, second),
-              "IPEC-2");
+  expect_same_track(run_along(estimator_named(list, "IPEC-2"), recording, vehicle),
+                    castor_track(samples, vehicle, kStart, second), "IPEC-2");
   const RejectingTrack rejecting = castor_track_with_rejection(samples, vehicle, kStart);
-  expect_same(run_along(named(list, "CAST-reject"), recording, vehicle), rejecting.track, "disregarding");
+  expect_same_track(run_along(estimator_named(list, "CAST-reject"), recording, vehicle), rejecting.track,
+                    "disregarding");
   EXPECT_FALSE(rejecting.disregarded.empty());  // the wheel that turned on the spot
 }
 

@@ -26,16 +26,16 @@ IpecOptions plain(ResolutionRule rule = ResolutionRule::as_printed) {
 // What the encoders of truck A's wheels read too much in an interval.
 using Extra = std::function<WheelRotation(int interval)>;
 
-struct Drive {
+struct LinkedDrive {
   std::vector<LinkedSample> samples;
   Pose true_a;
 };
 
 // Truck A on an arc from a heading, B steering after it and keeping the link's length, sampled every 40 ms.
-Drive drive(const LinkedTrucks& actual, double heading_rad, double speed_mps, double yaw_rate_radps, double duration_s,
-            const Extra& extra = {}) {
+LinkedDrive drive_linked(const LinkedTrucks& actual, double heading_rad, double speed_mps, double yaw_rate_radps,
+                         double duration_s, const Extra& extra = {}) {
   LinkedKinematics vehicle(actual, {0.0, 0.0, heading_rad}, 0.0, 0.0, actual.link_length_m);
-  Drive result;
+  LinkedDrive result;
   result.samples.push_back(vehicle.reading());
   const int intervals = static_cast<int>(duration_s / 0.04 + 0.5);
   for (int i = 0; i < intervals; ++i) {
@@ -53,7 +53,7 @@ Drive drive(const LinkedTrucks& actual, double heading_rad, double speed_mps, do
   return result;
 }
 
-double heading_error_deg(const Drive& drive, const Pose& estimate) {
+double heading_error_deg(const LinkedDrive& drive, const Pose& estimate) {
   return degrees(wrapped(estimate.heading_rad - drive.true_a.heading_rad));
 }
 
@@ -88,7 +88,7 @@ TEST(Ipec, CorrectsAHandWorkedBump) {
 }
 
 TEST(Ipec, FollowsExactMotionToSecondOrderAtTheMiddleHeading) {
-  const Drive turn = drive(without_rounding(), 0.3, 0.45, 0.3, 10.0);
+  const LinkedDrive turn = drive_linked(without_rounding(), 0.3, 0.45, 0.3, 10.0);
   const Pose middle = ipec(turn.samples, without_rounding(), {0.0, 0.0, 0.3}, plain()).back().a;
   IpecOptions printed = plain();
   printed.heading = HeadingRule::end_as_printed;
@@ -101,7 +101,7 @@ TEST(Ipec, FollowsExactMotionToSecondOrderAtTheMiddleHeading) {
 }
 
 TEST(Ipec, TurnsThroughAllDirectionsAndThePlainArcTangentDoesNot) {
-  const Drive turn = drive(without_rounding(), 1.2, 0.45, 0.5, 12.0);  // by 6 rad, through the wrap at pi
+  const LinkedDrive turn = drive_linked(without_rounding(), 1.2, 0.45, 0.5, 12.0);  // by 6 rad, through the wrap at pi
   const Pose start{0.0, 0.0, 1.2};
   EXPECT_NEAR(heading_error_deg(turn, ipec(turn.samples, without_rounding(), start, plain()).back().a), 0.0, 0.1);
   IpecOptions printed = plain();
@@ -119,7 +119,7 @@ TEST(Ipec, TakesOffTheTurnsThatBumpsMadeUp) {
     return interval % 100 / 2 == 25 ? WheelRotation{0.0, 0.5 * 0.0035 / 0.075} : WheelRotation{};
   };
   const LinkedTrucks vehicle = without_rounding();
-  const Drive straight = drive(vehicle, 0.0, 0.45, 0.0, 40.0, bumps);
+  const LinkedDrive straight = drive_linked(vehicle, 0.0, 0.45, 0.0, 40.0, bumps);
   Pose alone;
   for (std::size_t i = 1; i < straight.samples.size(); ++i)
     alone = dead_reckoned(alone, straight.samples[i].a.left_rad - straight.samples[i - 1].a.left_rad,
@@ -138,7 +138,7 @@ TEST(Ipec, TakesOffTheTurnsThatBumpsMadeUp) {
 // Eq. 13 to the letter follows the rounding of both encoders; their difference turns the link on every metre.
 TEST(Ipec, DoesNotFollowTheRoundingOfTheEncoders) {
   LinkedTrucks vehicle = without_rounding();
-  Drive straight = drive(vehicle, 0.0, 0.5, 0.0, 20.0);
+  LinkedDrive straight = drive_linked(vehicle, 0.0, 0.5, 0.0, 20.0);
   for (LinkedSample& s : straight.samples) {  // both really 0, in steps of 0.3 degrees
     s.link_angle_a_rad = radians(0.1);
     s.link_angle_b_rad = radians(-0.1);
@@ -159,7 +159,7 @@ TEST(Ipec, DoesNotFollowTheRoundingOfTheEncoders) {
 TEST(Ipec, TurnsTooFarByTheLinkLengthsBias) {
   LinkedTrucks biased = without_rounding();
   biased.link_length_offset_m = 0.001;
-  const Drive turn = drive(biased, 0.0, 0.45, 2.0 * kPi / 60.0, 60.0);
+  const LinkedDrive turn = drive_linked(biased, 0.0, 0.45, 2.0 * kPi / 60.0, 60.0);
   const Pose blind = ipec(turn.samples, without_rounding(), {}, plain()).back().a;
   EXPECT_NEAR(std::abs(heading_error_deg(turn, blind)), 0.36, 0.02);  // 1 mm / 1 m of 360 degrees
   const Pose told = ipec(turn.samples, biased, {}, plain()).back().a;
@@ -170,7 +170,7 @@ TEST(Ipec, CorrectsWheelbaseAndUnequalWheelsAndNotTheScale) {
   LinkedTrucks actual = without_rounding();
   actual.truck_a.wheelbase_m = 0.337;
   actual.truck_a.wheel_radius_left_m = 0.075 * 0.9985;
-  const Drive turn = drive(actual, 0.0, 0.45, 0.15, 40.0);  // 18 m, 344 degrees
+  const LinkedDrive turn = drive_linked(actual, 0.0, 0.45, 0.15, 40.0);  // 18 m, 344 degrees
   const Pose corrected = ipec(turn.samples, without_rounding(), {}, plain()).back().a;
   // left alone: 0.9 % of 344 degrees and 0.0015 / 0.34 m over 18 m, 3 and 4.5 degrees
   EXPECT_LT(std::abs(heading_error_deg(turn, corrected)), 0.2);
@@ -178,7 +178,7 @@ TEST(Ipec, CorrectsWheelbaseAndUnequalWheelsAndNotTheScale) {
   actual = without_rounding();
   for (DifferentialDrive* truck : {&actual.truck_a, &actual.truck_b})
     truck->wheel_radius_left_m = truck->wheel_radius_right_m = 0.0757;  // 1 % larger
-  const Drive straight = drive(actual, 0.0, 0.5, 0.0, 20.0);
+  const LinkedDrive straight = drive_linked(actual, 0.0, 0.5, 0.0, 20.0);
   EXPECT_NEAR(ipec(straight.samples, without_rounding(), {}, plain()).back().a.x_m, 10.0 * 0.075 / 0.0757, 1e-6);
 }
 

@@ -8,13 +8,13 @@
 namespace odolab {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // The truth only at the start, (1, 2) looking along y.
 void add_truth(Recording& recording) {
   for (const auto& [name, value] :
        {std::pair<const char*, double>{"truth_x_m", 1.0}, {"truth_y_m", 2.0}, {"truth_heading_rad", 0.5 * kPi}}) {
-    std::vector<double> values(recording.time_s.size(), kNone);
+    std::vector<double> values(recording.time_s.size(), kNoNumber);
     values.front() = value;
     recording.channels.push_back({name, values});
   }

@@ -7,15 +7,15 @@
 namespace odolab {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotSampled = std::numeric_limits<double>::quiet_NaN();
 
 TEST(VehicleSamples, BringChannelsOfDifferentTimesTogether) {
   Recording r;
   r.time_s = {0.0, 1.0, 2.0, 3.0};
   for (const char* name : {"left_wheel_rad", "right_wheel_rad", "trailer_left_wheel_rad", "trailer_right_wheel_rad"})
-    r.channels.push_back({name, {0.0, kNone, 2.0, kNone}});
+    r.channels.push_back({name, {0.0, kNotSampled, 2.0, kNotSampled}});
   // read at other times than the wheels, and wrapping from +3.1 to -3.1
-  r.channels.push_back({"hitch_angle_rad", {3.0, 3.1, kNone, -3.1}});
+  r.channels.push_back({"hitch_angle_rad", {3.0, 3.1, kNotSampled, -3.1}});
   const std::vector<TrailerSample> samples = trailer_samples(r);
   ASSERT_EQ(samples.size(), 3u);  // the wheels end at 2 s
   EXPECT_DOUBLE_EQ(samples[1].tow.left_rad, 1.0);

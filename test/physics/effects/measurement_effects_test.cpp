@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "core/scenario/effect_catalogue.h"
-#include "test/physics/effects/effect_runs.h"
 #include "physics/effects/effects.h"
 #include "physics/replay.h"
+#include "test/physics/effects/effect_runs.h"
 
 namespace odolab {
 namespace {
 
-Recording recorded(const Scenario& scenario) { return finished(scenario).recording(); }
+Recording recorded_scenario(const Scenario& scenario) { return finished(scenario).recording(); }
 
 const std::vector<WheelSpeeds> kStraight = {phase(10.0, 0.2, 0.0)};
 
@@ -18,8 +18,8 @@ TEST(Effects, EveryEntryOfTheCatalogueActsInThePlanarWorld) {
 }
 
 TEST(ClockRate, StampsOfTheRobotGrowTooFastAndThoseOfTheTruthDoNot) {
-  const Recording plain = recorded(table_drive(kStraight, {}));
-  const Recording fast = recorded(table_drive(kStraight, {{"clock_rate", "vehicle", {{"rate", 0.01}}}}));
+  const Recording plain = recorded_scenario(table_drive(kStraight, {}));
+  const Recording fast = recorded_scenario(table_drive(kStraight, {{"clock_rate", "vehicle", {{"rate", 0.01}}}}));
   const auto wheels = wheel_samples(plain, {}), stretched = wheel_samples(fast, {});
   ASSERT_EQ(wheels.size(), stretched.size());
   for (std::size_t i = 0; i < wheels.size(); ++i) {
@@ -31,9 +31,10 @@ TEST(ClockRate, StampsOfTheRobotGrowTooFastAndThoseOfTheTruthDoNot) {
 }
 
 TEST(TruthTimeOffset, StampsAreLate) {
-  const auto plain = truth_samples(recorded(table_drive(kStraight, {})));
+  const auto plain = truth_samples(recorded_scenario(table_drive(kStraight, {})));
   for (const double offset_s : {0.035, -0.035}) {
-    const Recording recording = recorded(table_drive(kStraight, {{"truth_time_offset", "truth", {{"offset_s", offset_s}}}}));
+    const Recording recording =
+        recorded_scenario(table_drive(kStraight, {{"truth_time_offset", "truth", {{"offset_s", offset_s}}}}));
     const auto late = truth_samples(recording);
     ASSERT_EQ(late.size(), plain.size());
     EXPECT_NEAR(late[500].time_s - plain[500].time_s, offset_s, 1e-12);
@@ -43,7 +44,9 @@ TEST(TruthTimeOffset, StampsAreLate) {
 }
 
 TEST(TruthMountingOffset, MeasuresAnotherPointOfTheVehicle) {
-  Scenario scenario = table_drive({phase(5.0, 0.0, 0.5)}, {{"truth_mounting_offset", "truth", {{"x_m", 0.1}, {"y_m", -0.02}, {"heading_rad", 0.3}}}});
+  Scenario scenario =
+      table_drive({phase(5.0, 0.0, 0.5)},
+                  {{"truth_mounting_offset", "truth", {{"x_m", 0.1}, {"y_m", -0.02}, {"heading_rad", 0.3}}}});
   const Simulation s = finished(scenario);
   const Recording recording = s.recording();  // a temporary would not live as long as its samples are looked at
   const TruthSample last = truth_samples(recording).back();
@@ -52,10 +55,12 @@ TEST(TruthMountingOffset, MeasuresAnotherPointOfTheVehicle) {
   EXPECT_NEAR(*last.heading_rad, expected.heading_rad, 1e-12);
 }
 
-// Straight on at 0.2 m/s it is behind by as far as the vehicle goes in the filter's time constant, once that has passed.
+// Straight on at 0.2 m/s it is behind by as far as the vehicle goes in the filter's time constant, once that has
+// passed.
 TEST(TruthSmoothing, IsLateByTheTimeConstantOfItsFilter) {
-  const auto plain = truth_samples(recorded(table_drive(kStraight, {})));
-  const auto late = truth_samples(recorded(table_drive(kStraight, {{"truth_smoothing", "truth", {{"width_s", 0.1}}}})));
+  const auto plain = truth_samples(recorded_scenario(table_drive(kStraight, {})));
+  const auto late =
+      truth_samples(recorded_scenario(table_drive(kStraight, {{"truth_smoothing", "truth", {{"width_s", 0.1}}}})));
   ASSERT_EQ(late.size(), plain.size());
   EXPECT_NEAR(plain[800].position.x_m - late[800].position.x_m, 0.1 * 0.2, 1e-5);
   EXPECT_EQ(late[800].time_s, plain[800].time_s);
@@ -63,7 +68,8 @@ TEST(TruthSmoothing, IsLateByTheTimeConstantOfItsFilter) {
 }
 
 TEST(TruthFrozen, RepeatsItselfForItsStretchesWithNewStamps) {
-  const auto truth = truth_samples(recorded(table_drive(kStraight, {{"truth_frozen", "truth", {{"every_s", 3.0}, {"lasts_s", 0.5}}}})));
+  const auto truth = truth_samples(
+      recorded_scenario(table_drive(kStraight, {{"truth_frozen", "truth", {{"every_s", 3.0}, {"lasts_s", 0.5}}}})));
   int repeated = 0;
   for (std::size_t i = 1; i < truth.size(); ++i)
     if (truth[i].position.x_m == truth[i - 1].position.x_m && truth[i].time_s > 1.0 && truth[i].time_s < 10.0) {
@@ -75,9 +81,11 @@ TEST(TruthFrozen, RepeatsItselfForItsStretchesWithNewStamps) {
 }
 
 TEST(EncoderDataFault, FreezesOrStepsBackwardAndIsRightAgain) {
-  const auto plain = wheel_samples(recorded(table_drive(kStraight, {})), {});
+  const auto plain = wheel_samples(recorded_scenario(table_drive(kStraight, {})), {});
   const auto faulty = wheel_samples(
-      recorded(table_drive(kStraight, {{"encoder_data_fault", "left_wheel", {{"at_s", 4.0}, {"lasts_s", 0.2}, {"backward_rad", 0.5}}}})), {});
+      recorded_scenario(table_drive(
+          kStraight, {{"encoder_data_fault", "left_wheel", {{"at_s", 4.0}, {"lasts_s", 0.2}, {"backward_rad", 0.5}}}})),
+      {});
   ASSERT_EQ(plain.size(), faulty.size());
   for (std::size_t i = 0; i < plain.size(); ++i) {
     const bool fault = plain[i].time_s > 4.0 - 1e-6 && plain[i].time_s < 4.2 - 1e-6;
@@ -92,13 +100,15 @@ TEST(Sensors, RecordWhatTheyAreToldTo) {
   scenario.sensors.record_encoders = false;
   scenario.sensors.record_commands = true;
   scenario.sensors.truth_heading = false;
-  const Recording recording = recorded(scenario);
+  const Recording recording = recorded_scenario(scenario);
   EXPECT_EQ(recording.channel("left_wheel_rad"), nullptr);
   EXPECT_EQ(recording.channel("truth_heading_rad"), nullptr);
   const auto commands = command_samples(recording);
   double way_m = 0.0;
-  for (std::size_t i = 0; i + 1 < commands.size(); ++i) way_m += commands[i].speed_mps * (commands[i + 1].time_s - commands[i].time_s);
-  // The driver asks until the encoders say that the metre is driven; the motors lag by their integral's share of the ramps.
+  for (std::size_t i = 0; i + 1 < commands.size(); ++i)
+    way_m += commands[i].speed_mps * (commands[i + 1].time_s - commands[i].time_s);
+  // The driver asks until the encoders say that the metre is driven; the motors lag by their integral's share of the
+  // ramps.
   EXPECT_NEAR(way_m, 1.0, 0.01);
 }
 
@@ -124,8 +134,9 @@ TEST(Effects, FoundInARecordingExplainItInAReplay) {
       {{"turn_speed_loss", "vehicle", {{"per_radps", 0.03}}}},
       {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.1}}}}};
   for (const std::vector<ActiveEffect>& effects : cases) {
-    Scenario scenario = table_drive({phase(4.0, 0.4, 0.0), phase(4.0, 0.4, 0.6), phase(4.0, -0.4, 0.3), phase(4.0, 0.2, -0.9)}, effects);
-    const auto recording = std::make_shared<const Recording>(recorded(scenario));
+    Scenario scenario = table_drive(
+        {phase(4.0, 0.4, 0.0), phase(4.0, 0.4, 0.6), phase(4.0, -0.4, 0.3), phase(4.0, 0.2, -0.9)}, effects);
+    const auto recording = std::make_shared<const Recording>(recorded_scenario(scenario));
     Scenario again = replay_scenario(scenario.vehicle, *recording);
     const Result<Replay> without = replay(again, recording);
     again.effects = effects;
@@ -133,7 +144,8 @@ TEST(Effects, FoundInARecordingExplainItInAReplay) {
     ASSERT_TRUE(without && with);
     // The encoders' counts, 0.12 mm and 0.7 mrad, and what lies between two readings 20 ms apart.
     EXPECT_LT(with->simulated_error->largest_position_m, 4e-3) << effects[0].effect;
-    EXPECT_GT(without->simulated_error->largest_position_m, 1.5 * with->simulated_error->largest_position_m) << effects[0].effect;
+    EXPECT_GT(without->simulated_error->largest_position_m, 1.5 * with->simulated_error->largest_position_m)
+        << effects[0].effect;
   }
 }
 

@@ -10,7 +10,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kGrip_n = 11.0;
+constexpr double kTruckGrip_n = 11.0;
 
 // A CLAPPER whose encoders have no steps, so that closed loops do not magnify the last bit.
 Scenario clapper(Path path) {
@@ -207,7 +207,8 @@ SlidingEnd round_corners(double step_s, int corners, double start_off_m = 0.0) {
     const double v = 0.45 * std::min(1.0, t / 2.0);
     const double phase = std::max(0.0, of_side_s - kSide_s) / kCorner_s;  // of the corner, 0 to 1
     const double w = kPi / kCorner_s * std::pow(std::sin(kPi * phase), 2);
-    for (std::size_t i = 0; i < 4; ++i) world.set_tread(treads[i], {v + (i % 2 == 0 ? -0.17 : 0.17) * w, 0.0}, kGrip_n);
+    for (std::size_t i = 0; i < 4; ++i)
+      world.set_tread(treads[i], {v + (i % 2 == 0 ? -0.17 : 0.17) * w, 0.0}, kTruckGrip_n);
     world.step();
     end.slip_mps = std::max(end.slip_mps, std::abs(world.velocity_of_point_mps(a, {}).y_m));
   }

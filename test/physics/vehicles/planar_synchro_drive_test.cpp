@@ -9,7 +9,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kCircle_m = 0.25, kRadius_m = 0.127, kHeight_m = 0.010;
+constexpr double kCircle_m = 0.25, kSynchroRadius_m = 0.127, kHeight_m = 0.010;
 
 // Fine encoders: a steering count of 3.1 mrad would hide what the tests look for.
 const SynchroDrive kFine = {.drive_counts_per_revolution = 1e6, .steering_counts_per_revolution = 1e6};
@@ -88,9 +88,10 @@ TEST(SynchroDrive, ABumpUnderOneHardWheelMakesThatWheelSlipAndNotTheRobotTurn) {
   }
   // The others drag it over the bump at the speed at which it rolls, so that it lacks the integral of 1 - sqrt(R^2 -
   // u^2)/R over the way of the bump: 2.55 mm. Steps of 2 ms in half a second: a hundredth.
-  const double reach_m = std::sqrt(2.0 * kRadius_m * kHeight_m - kHeight_m * kHeight_m);
-  const double extra_m = 2.0 * reach_m - reach_m * std::sqrt(1.0 - reach_m * reach_m / (kRadius_m * kRadius_m)) -
-                         kRadius_m * std::asin(reach_m / kRadius_m);
+  const double reach_m = std::sqrt(2.0 * kSynchroRadius_m * kHeight_m - kHeight_m * kHeight_m);
+  const double extra_m = 2.0 * reach_m -
+                         reach_m * std::sqrt(1.0 - reach_m * reach_m / (kSynchroRadius_m * kSynchroRadius_m)) -
+                         kSynchroRadius_m * std::asin(reach_m / kSynchroRadius_m);
   EXPECT_NEAR(left_slip_m, -extra_m, 0.01 * extra_m);
   EXPECT_NEAR(right_slip_m, 0.0, 0.01 * extra_m);
   const SimulationState& end = simulation.state();
@@ -102,7 +103,7 @@ TEST(SynchroDrive, ABumpUnderOneRubberWheelTurnsTheBaseByTheLeastSquaresOfAllThr
   Scenario scenario = k2a(StraightPath{2.0});
   put_cable_under(scenario, Under::left_wheel);
   const Simulation simulation = finished(scenario);
-  const double expected_rad = -turn_per_metre(0.0, extra_roll_m(kRadius_m, kHeight_m), 0.0);  // 3.1 mrad
+  const double expected_rad = -turn_per_metre(0.0, extra_roll_m(kSynchroRadius_m, kHeight_m), 0.0);  // 3.1 mrad
   // The creep lags by its relaxation length, which adds nothing in the end; the slip of 8 % at the flank needs nearly
   // all of the grip, where creep is no longer small against it: a tenth.
   EXPECT_NEAR(simulation.state().true_pose.heading_rad, expected_rad, 0.1 * expected_rad);

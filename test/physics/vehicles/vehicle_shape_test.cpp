@@ -12,8 +12,8 @@
 namespace odolab {
 namespace {
 
-const char* const kVehicleFiles[] = {"andros",  "andros_with_trailer",        "clapper",  "k2a",
-                                     "labmate", "labmate_with_smart_trailer", "omnimate", "three_castors"};
+const char* const kShapedVehicles[] = {"andros",  "andros_with_trailer",        "clapper",  "k2a",
+                                       "labmate", "labmate_with_smart_trailer", "omnimate", "three_castors"};
 
 Scenario with_file(const std::string& name) {
   const Result<Vehicle> vehicle = read_vehicle(std::string(ODOLAB_SOURCE_DIR) + "/assets/vehicles/" + name + ".toml");
@@ -28,7 +28,7 @@ Vec2 place_of(const VehicleShape& shape, const VehiclePosture& posture, std::siz
 }
 
 TEST(VehicleShape, OfEveryKindHasAPartForEachPartThatMoves) {
-  for (const char* file : kVehicleFiles) {
+  for (const char* file : kShapedVehicles) {
     Simulation simulation(with_file(file), 1);
     const VehicleShape shape = simulation.shape();
     run_to_end(simulation, 0.2);

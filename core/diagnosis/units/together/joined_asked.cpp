@@ -25,15 +25,15 @@ Visible visible_of(const ScoredTogether& s, double least) {
   return v;
 }
 
-bool is_likelier(const ScoredTogether& a, const ScoredTogether& b) {
+bool is_likelier_together(const ScoredTogether& a, const ScoredTogether& b) {
   return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();
 }
 
 // Where it says most; null where nobody was asked.
-const ScoredTogether* likeliest(const std::vector<ScoredTogether>& all, const std::string& effect) {
+const ScoredTogether* likeliest_together(const std::vector<ScoredTogether>& all, const std::string& effect) {
   const ScoredTogether* best = nullptr;
   for (const ScoredTogether& s : all)
-    if (s.candidate.effect->name == effect && (!best || is_likelier(s, *best))) best = &s;
+    if (s.candidate.effect->name == effect && (!best || is_likelier_together(s, *best))) best = &s;
   return best;
 }
 
@@ -51,13 +51,13 @@ std::vector<AskedTogether> asked_together(const std::vector<ScoredTogether>& by_
       if (visible.needed > same->visible.needed) same->visible = visible;
       continue;
     }
-    const ScoredTogether& best = *likeliest(by_itself, e.name);
+    const ScoredTogether& best = *likeliest_together(by_itself, e.name);
     AskedTogether one{{}, visible};
     one.asked.effect = e.name;
     one.asked.component = best.candidate.component;
     one.asked.log_likelihood_gain = 0.5 * best.test.judged();
     one.asked.p_value = best.p_value;
-    if (const ScoredTogether* then = likeliest(beside, e.name))
+    if (const ScoredTogether* then = likeliest_together(beside, e.name))
       one.asked.gain_beside_findings = 0.5 * then->test.judged();
     all.push_back(std::move(one));
   }

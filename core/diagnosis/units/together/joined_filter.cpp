@@ -38,7 +38,7 @@ std::vector<char> say_more(const std::vector<UnitSample>& samples) {
   return more;
 }
 
-Eigen::Matrix2d turned(double heading_rad) {
+Eigen::Matrix2d rotation_by(double heading_rad) {
   const double c = std::cos(heading_rad), s = std::sin(heading_rad);
   Eigen::Matrix2d r;
   r << c, -s, s, c;
@@ -226,7 +226,7 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
         const Vec2 ahead = step.predicted[u].position() - before.position();
         off.row(k) -= ahead.y_m * off.row(k + 2);
         off.row(k + 1) += ahead.x_m * off.row(k + 2);
-        const Eigen::Matrix2d room = turned(before.heading_rad);
+        const Eigen::Matrix2d room = rotation_by(before.heading_rad);
         for (Index c = 0; c < count; ++c) {
           const JoinedColumn& column = columns[static_cast<std::size_t>(c)];
           if (column.moved.empty() || column.moved[u].cols() == 0) continue;

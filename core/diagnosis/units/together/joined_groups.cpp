@@ -13,7 +13,7 @@ namespace odolab {
 
 namespace {
 
-std::vector<Motions> motions_of(const Group& group, const DriveView& view, int channel) {
+std::vector<Motions> motions_of_group(const Group& group, const DriveView& view, int channel) {
   std::vector<std::vector<double>> values;
   group.values(view, values);
   std::vector<Motions> all(values.size(), Motions(view.steps.size()));
@@ -58,8 +58,9 @@ std::vector<JoinedGroup> joined_groups(const JoinedModel& model) {
                            (units[u].name.empty() ? "the towing vehicle" : part_words(units[u].name)) + " goes with " +
                            group.variable,
                        [=](const JoinedModel& m) {
-                         return m.columns_of([&](const DriveView& view) { return motions_of(group, view, channel); },
-                                             functions, {u});
+                         return m.columns_of(
+                             [&](const DriveView& view) { return motions_of_group(group, view, channel); }, functions,
+                             {u});
                        },
                        {}});
     }

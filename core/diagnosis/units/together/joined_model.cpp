@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr double kWheelPrior = 0.1, kClockPrior_s = 0.2, kScaleHeld = 1e-5;
 constexpr double kLeastSurviving = 0.01;
-constexpr double kWorthAsking = 10.0;  // how it scatters: less says nothing anyway
+constexpr double kWorthAskingBySpread = 10.0;  // how it scatters: less says nothing anyway
 
 // By how much a number of the joints grows where all lengths do by one: what a link is longer than it reads is taken
 // off.
@@ -431,7 +431,7 @@ JoinedTest JoinedModel::test_of(const Eigen::Ref<const MatrixXd>& columns, const
   }
   t.value = size.cwiseInverse().cwiseProduct(t.value);
   t.covariance = size.cwiseInverse().asDiagonal() * t.covariance * size.cwiseInverse().asDiagonal();
-  if (batches_believed_white >= 0.0 && t.statistic > kWorthAsking) {
+  if (batches_believed_white >= 0.0 && t.statistic > kWorthAskingBySpread) {
     const ScoreByBatches by = score_along(trace_of(columns, t.value));
     t.inflation = by.u.empty() ? 1.0 : by.inflation(batches_believed_white);
     t.cross_validated = by.cross_validated();

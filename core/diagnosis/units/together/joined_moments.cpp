@@ -9,7 +9,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kApart_s = 0.5;  // of the strongest
+constexpr double kMomentsApart_s = 0.5;  // of the strongest
 constexpr double kNearTheEnd_s = 0.3;
 
 // When a drive has left its first centimetres behind, which take up whatever play there is.
@@ -93,7 +93,7 @@ std::vector<JoinedMoments> joined_moments(const JoinedModel& model, std::size_t 
     for (const JoinedMoment& m : found[k]) {
       if (kinds[k].strongest.size() == most) break;
       if (std::none_of(kinds[k].strongest.begin(), kinds[k].strongest.end(), [&](const JoinedMoment& s) {
-            return s.run == m.run && std::abs(s.time_s - m.time_s) < kApart_s;
+            return s.run == m.run && std::abs(s.time_s - m.time_s) < kMomentsApart_s;
           }))
         kinds[k].strongest.push_back(m);
     }

@@ -86,9 +86,9 @@ bool is_simpler(const ScoredTogether& s, const ScoredTogether& than) {
          s.test.judged() > kAsMuchOfAPush * than.test.judged();
 }
 
-class Naming {
+class JoinedNaming {
  public:
-  Naming(JoinedModel& model, double family_wise_error) : model_(model), p_(family_wise_error) {}
+  JoinedNaming(JoinedModel& model, double family_wise_error) : model_(model), p_(family_wise_error) {}
 
   JoinedNames run(const Progress& progress) {
     name_all(progress);
@@ -312,7 +312,7 @@ class Naming {
 }  // namespace
 
 JoinedNames joined_names(JoinedModel& model, double family_wise_error, const Progress& progress) {
-  return Naming(model, family_wise_error).run(progress);
+  return JoinedNaming(model, family_wise_error).run(progress);
 }
 
 }  // namespace odolab

@@ -29,7 +29,7 @@ Recording ends_of(Recording r) {
 }
 
 // The same way, and back again as it came.
-Recording there_and_back(Recording r) {
+Recording with_way_back(Recording r) {
   const std::size_t there = r.time_s.size();
   for (std::size_t i = there - 1; i-- > 0;) {
     r.time_s.push_back(2.0 * r.time_s[there - 1] - r.time_s[i]);
@@ -115,9 +115,9 @@ TEST(DiagnoseUnits, MeasureByTheEndsOfTheirWaysWhereTheTrackedPointSits) {
 TEST(DiagnoseUnits, KnowRatiosAloneWhereTheWayEndsAtItsBeginning) {
   const Clapper trucks = fine_clapper();
   const LinkedRunSettings s = under_a_tape();
-  const Result<Diagnosis> d = diagnose(
-      {ends_of(there_and_back(linked_run(trucks, s, 521))), ends_of(there_and_back(linked_run(trucks, s, 522)))}, {},
-      vehicle_of(trucks));
+  const Result<Diagnosis> d =
+      diagnose({ends_of(with_way_back(linked_run(trucks, s, 521))), ends_of(with_way_back(linked_run(trucks, s, 522)))},
+               {}, vehicle_of(trucks));
   ASSERT_TRUE(d);
   EXPECT_TRUE(d->calibration.scale_is_open);
 }

@@ -27,7 +27,7 @@ std::vector<Recording> platform_runs(const MultiCastor& actual, std::uint64_t se
   return runs;
 }
 
-const Finding* found(const Diagnosis& d, const std::string& effect) {
+const Finding* finding_of_effect(const Diagnosis& d, const std::string& effect) {
   const auto f =
       std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& g) { return g.effect == effect; });
   return f == d.findings.end() ? nullptr : &*f;
@@ -39,7 +39,7 @@ TEST(JointsByAll, KnowAPivotThatIsOffByATwelfthOfADegree) {
   actual.castors[1].pivot_encoder_offset_rad = kSmall_rad;
   const Result<Diagnosis> d = diagnose(platform_runs(actual, 401), {}, vehicle_of(finely_read(three_castor_vehicle())));
   ASSERT_TRUE(d);
-  const Finding* bias = found(*d, "pivot_angle_bias");
+  const Finding* bias = finding_of_effect(*d, "pivot_angle_bias");
   ASSERT_TRUE(bias);
   EXPECT_EQ(bias->component, "castor2");
   const FoundParameter& p = bias->parameters[0];
@@ -60,7 +60,7 @@ TEST(JointsByAll, TakeAPivotsEncoderThatWobblesForNoBias) {
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
   ASSERT_FALSE(d->findings.empty());
   EXPECT_EQ(d->findings[0].component, "castor2");
-  EXPECT_FALSE(found(*d, "pivot_angle_bias"));
+  EXPECT_FALSE(finding_of_effect(*d, "pivot_angle_bias"));
   ASSERT_FALSE(d->findings[0].alternatives.empty());
   EXPECT_EQ(d->findings[0].alternatives[0].effect, "pivot_angle_bias");
 }
@@ -71,7 +71,7 @@ TEST(JointsByAll, SayOfALinkWhichEndsItMayBe) {
   actual.link_angle_a_offset_rad = 2.0 * kSmall_rad;
   const Result<Diagnosis> d = diagnose(clapper_runs(actual, {}, 421), {}, vehicle_of(fine_clapper()));
   ASSERT_TRUE(d);
-  const Finding* bias = found(*d, "link_angle_bias");
+  const Finding* bias = finding_of_effect(*d, "link_angle_bias");
   ASSERT_TRUE(bias);
   std::vector<std::string> ends = {bias->component};
   for (const Alternative& a : bias->alternatives)

@@ -21,7 +21,7 @@ LinkedRunSettings under_a_total_station() {
   return s;
 }
 
-std::vector<Recording> without_headings(std::vector<Recording> runs) {
+std::vector<Recording> positions_alone(std::vector<Recording> runs) {
   for (Recording& r : runs) std::erase_if(r.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
   return runs;
 }
@@ -184,7 +184,7 @@ TEST(DiagnoseUnits, MeasureHowLargeAllWheelsAreByPositionsAlone) {
   const Clapper actual = larger(fine_clapper(), 0.01);
   const LinkedRunSettings s = under_a_total_station();
   const Result<Diagnosis> d =
-      diagnose(without_headings({linked_run(actual, s, 411), linked_run(actual, s, 412), linked_run(actual, s, 413)}),
+      diagnose(positions_alone({linked_run(actual, s, 411), linked_run(actual, s, 412), linked_run(actual, s, 413)}),
                {}, vehicle_of(fine_clapper()));
   ASSERT_TRUE(d);
   EXPECT_EQ(d->verdict, Verdict::nothing_missing);
@@ -202,7 +202,7 @@ TEST(DiagnoseUnits, TellALinkThatReadsShortFromSmallWheelsByPositionsAlone) {
   actual.link_length_offset_m = kBias_m;
   const LinkedRunSettings s = under_a_total_station();
   const Result<Diagnosis> d =
-      diagnose(without_headings({linked_run(actual, s, 421), linked_run(actual, s, 422), linked_run(actual, s, 423)}),
+      diagnose(positions_alone({linked_run(actual, s, 421), linked_run(actual, s, 422), linked_run(actual, s, 423)}),
                {}, vehicle_of(fine_clapper()));
   ASSERT_TRUE(d);
   ASSERT_EQ(d->findings.size(), 1u);
@@ -221,9 +221,9 @@ TEST(DiagnoseUnits, MeasureATrailerByPositionsOfWhatTowsIt) {
                          &actual.trailer.wheelbase_m, &actual.drawbar_length_m})
     *length *= 1.008;
   const LinkedRunSettings s = under_a_total_station();
-  const Result<Diagnosis> d = diagnose(
-      without_headings({trailer_run(actual, s, 441), trailer_run(actual, s, 442), trailer_run(actual, s, 443)}), {},
-      vehicle_of(file));
+  const Result<Diagnosis> d =
+      diagnose(positions_alone({trailer_run(actual, s, 441), trailer_run(actual, s, 442), trailer_run(actual, s, 443)}),
+               {}, vehicle_of(file));
   ASSERT_TRUE(d);
   EXPECT_EQ(d->verdict, Verdict::nothing_missing);
   expect_known(*d, "trailer.wheel_radius_left_m", actual.trailer.wheel_radius_left_m, 0.001);
@@ -266,7 +266,7 @@ TEST(DiagnoseUnits, MeasureWhereThePivotsLineMeetsTheAxle) {
 TEST(DiagnoseUnits, MeasureWhereThePivotsLineMeetsTheAxleByPositionsAlone) {
   const MultiCastor actual = with_axles_aside();
   const LinkedRunSettings s = under_a_total_station();
-  const Result<Diagnosis> d = diagnose(without_headings({castor_run(actual, s, 433), castor_run(actual, s, 434)}), {},
+  const Result<Diagnosis> d = diagnose(positions_alone({castor_run(actual, s, 433), castor_run(actual, s, 434)}), {},
                                        vehicle_of(three_castor_vehicle()));
   ASSERT_TRUE(d);
   EXPECT_EQ(d->verdict, Verdict::nothing_missing);

@@ -21,7 +21,7 @@ Diagnosis diagnosed(const std::vector<Recording>& runs, const VehicleKind& nomin
   return d ? std::move(*d) : Diagnosis{};
 }
 
-std::string said(const Diagnosis& d) {
+std::string verdict_said(const Diagnosis& d) {
   std::string s = std::to_string(static_cast<int>(d.verdict)) + ": ";
   for (const Finding& f : d.findings) s += f.effect + ":" + f.component + " ";
   return s;
@@ -36,8 +36,8 @@ TEST(DiagnoseUnits, FindNothingWhereOnlyTheLengthsAreWrong) {
   }
   const Diagnosis of_trailer = diagnosed(towed, EncoderTrailer{}),
                   of_castors = diagnosed(castors, three_castor_vehicle());
-  EXPECT_EQ(of_trailer.verdict, Verdict::nothing_missing) << said(of_trailer);
-  EXPECT_EQ(of_castors.verdict, Verdict::nothing_missing) << said(of_castors);
+  EXPECT_EQ(of_trailer.verdict, Verdict::nothing_missing) << verdict_said(of_trailer);
+  EXPECT_EQ(of_castors.verdict, Verdict::nothing_missing) << verdict_said(of_castors);
 }
 
 TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
@@ -45,8 +45,8 @@ TEST(DiagnoseUnits, SayWhichWheelOfWhichTruckAndPredictTheBetterForIt) {
   s.b_left = [](double, double, double by_rad) { return std::abs(by_rad) > 0.03 ? -0.04 * by_rad : 0.0; };  // 3 rad/s
   const std::vector<Recording> runs = clapper_runs(crooked_clapper(), s, 51);
   const Diagnosis d = diagnosed(runs, Clapper{});
-  ASSERT_FALSE(d.findings.empty()) << said(d);
-  EXPECT_EQ(d.findings.front().effect, "encoder_missed_counts") << said(d);
+  ASSERT_FALSE(d.findings.empty()) << verdict_said(d);
+  EXPECT_EQ(d.findings.front().effect, "encoder_missed_counts") << verdict_said(d);
   EXPECT_EQ(d.findings.front().component, "truck_b.left_wheel");
   EXPECT_NEAR(d.findings.front().parameters[0].value, 0.04, 0.006);
   const FittedModel model = model_of(d);
@@ -87,7 +87,7 @@ TEST(DiagnoseUnits, TellABiasedLinkEncoderFromTheTrucks) {
   Clapper actual = crooked_clapper();
   actual.link_angle_a_offset_rad = 0.012;
   const Diagnosis d = diagnosed(clapper_runs(actual, {}, 71), Clapper{});
-  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  ASSERT_EQ(d.findings.size(), 1u) << verdict_said(d);
   EXPECT_EQ(d.findings[0].effect, "link_angle_bias");
   EXPECT_EQ(d.findings[0].component, "truck_a");
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.012, 4.0 * d.findings[0].parameters[0].stderr_value);
@@ -102,7 +102,7 @@ TEST(DiagnoseUnits, NameABiasThatACoarseTruthCannotShowByWhatTheTrucksSayOfEachO
   settings.truth_m = 0.008;
   settings.truth_rad = 0.02;
   const Diagnosis d = diagnosed(clapper_runs(actual, settings, 75), Clapper{});
-  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  ASSERT_EQ(d.findings.size(), 1u) << verdict_said(d);
   EXPECT_EQ(d.findings[0].effect, "link_angle_bias");
   EXPECT_EQ(d.findings[0].component, "truck_a");
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.005, 4.0 * d.findings[0].parameters[0].stderr_value);
@@ -120,7 +120,7 @@ TEST(DiagnoseUnits, TakeWheelsThatAreAllTooSmallFromTheInsideForNoBiasOfTheLink)
   std::vector<Recording> runs = clapper_runs(actual, {}, 211);
   for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
   const Diagnosis d = diagnosed(runs, file);
-  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << verdict_said(d);
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [](const std::string& w) {
     return w.find("a straight measured with a tape") != std::string::npos;
   }));
@@ -135,7 +135,7 @@ TEST(DiagnoseUnits, NameABiasOfTheLinkFromTheInsideOnlyBesideTheScaleOfTheWheels
   const Diagnosis d = diagnosed(runs, file);
   const auto bias = std::find_if(d.findings.begin(), d.findings.end(),
                                  [](const Finding& f) { return f.effect == "link_length_bias"; });
-  ASSERT_NE(bias, d.findings.end()) << said(d);
+  ASSERT_NE(bias, d.findings.end()) << verdict_said(d);
   EXPECT_NEAR(bias->parameters[0].value, actual.link_length_offset_m, 6.0 * bias->parameters[0].stderr_value);
   EXPECT_EQ(d.verdict, Verdict::ambiguous);
   ASSERT_EQ(bias->alternatives.size(), 1u);
@@ -147,7 +147,7 @@ TEST(DiagnoseUnits, FindALinkThatIsFourMillimetresLongerThanItReadsWithAnOutside
   Clapper actual = crooked(file);
   actual.link_length_offset_m = -0.004;
   const Diagnosis d = diagnosed(clapper_runs(actual, {}, 231), file);
-  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  ASSERT_EQ(d.findings.size(), 1u) << verdict_said(d);
   EXPECT_EQ(d.findings[0].effect, "link_length_bias");
   EXPECT_NEAR(d.findings[0].parameters[0].value, -0.004, 4.0 * d.findings[0].parameters[0].stderr_value);
 }
@@ -158,7 +158,7 @@ TEST(DiagnoseUnits, FindABiasedPivotAndSayThatToeWouldLookTheSame) {
   std::vector<Recording> runs;
   for (std::uint64_t k = 0; k < 3; ++k) runs.push_back(castor_run(actual, {}, 81 + k));
   const Diagnosis d = diagnosed(runs, three_castor_vehicle());
-  ASSERT_EQ(d.findings.size(), 1u) << said(d);
+  ASSERT_EQ(d.findings.size(), 1u) << verdict_said(d);
   EXPECT_EQ(d.findings[0].effect, "pivot_angle_bias");
   EXPECT_EQ(d.findings[0].component, "castor2");
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.015, 4.0 * d.findings[0].parameters[0].stderr_value);
@@ -180,7 +180,7 @@ TEST(DiagnoseUnits, TakeWheelsOfCastorsThatAreTwoPercentOffFromTheInsideForNoBia
   std::vector<Recording> runs = {castor_run(actual, settings, 321), castor_run(actual, settings, 322)};
   for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
   const Diagnosis d = diagnosed(runs, three_castor_vehicle());
-  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << said(d);
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing) << verdict_said(d);
   EXPECT_TRUE(d.calibration.scale_is_open);  // lengths that are all a percent too small turn the same way
 }
 
@@ -196,7 +196,7 @@ TEST(DiagnoseUnits, MeasureClocksThatRunApartThoughNoCastorCarriesTheTruth) {
   ASSERT_FALSE(d.findings.empty());
   const auto clock =
       std::find_if(d.findings.begin(), d.findings.end(), [](const Finding& f) { return f.effect == "clock_rate"; });
-  ASSERT_NE(clock, d.findings.end()) << said(d);
+  ASSERT_NE(clock, d.findings.end()) << verdict_said(d);
   EXPECT_EQ(clock->component, "vehicle");
   EXPECT_NEAR(clock->parameters[0].value, kRate, 3.0 * clock->parameters[0].stderr_value);
   EXPECT_LT(clock->parameters[0].stderr_value, 0.1 * kRate);
@@ -209,8 +209,8 @@ TEST(DiagnoseUnits, TellFromTheInsideWhichTruckErrs) {
   for (Recording& r : runs) r.channels.resize(r.channels.size() - 3);
   ASSERT_TRUE(truth_samples(runs[0]).empty());
   const Diagnosis d = diagnosed(runs, Clapper{});
-  ASSERT_FALSE(d.findings.empty()) << said(d);
-  EXPECT_EQ(d.findings[0].effect, "encoder_missed_counts") << said(d);
+  ASSERT_FALSE(d.findings.empty()) << verdict_said(d);
+  EXPECT_EQ(d.findings[0].effect, "encoder_missed_counts") << verdict_said(d);
   EXPECT_EQ(d.findings[0].component, "truck_b.left_wheel");
   EXPECT_NEAR(d.findings[0].parameters[0].value, 0.04, 0.006);
   const auto slope = std::find_if(d.not_testable.begin(), d.not_testable.end(),
@@ -222,7 +222,7 @@ TEST(DiagnoseUnits, SayThatSomethingIsMissingWhereALinksEncoderWobbles) {
   std::vector<Recording> runs = clapper_runs(fine_clapper(), {}, 261);
   for (Recording& r : runs) wobble(r, 0.008);
   const Diagnosis d = diagnosed(runs, fine_clapper());
-  EXPECT_EQ(d.verdict, Verdict::unknown_effect) << said(d);
+  EXPECT_EQ(d.verdict, Verdict::unknown_effect) << verdict_said(d);
   ASSERT_FALSE(d.findings.empty());
   EXPECT_EQ(d.findings[0].effect, "unknown");
   EXPECT_EQ(d.findings[0].component, "truck_a");
@@ -234,7 +234,7 @@ TEST(DiagnoseUnits, FindNothingWherePivotsStandAFewMillimetresElsewhere) {
   std::vector<Recording> runs;
   for (std::uint64_t k = 0; k < 3; ++k) runs.push_back(castor_run(castors_with_pivots_elsewhere(), {}, 281 + k));
   const Diagnosis d = diagnosed(runs, three_castor_vehicle());
-  for (const Finding& f : d.findings) EXPECT_EQ(f.component, "truth") << said(d);
+  for (const Finding& f : d.findings) EXPECT_EQ(f.component, "truth") << verdict_said(d);
 }
 
 TEST(DiagnoseUnits, RefuseRecordingsWithoutTheJointsAndVehiclesWithoutUnits) {

@@ -11,7 +11,7 @@ namespace {
 
 double angle_rad(double t) { return 0.1 + 0.3 * t + 0.8 * t * t; }
 
-std::vector<UnitSample> read_every(double period_s) {
+std::vector<UnitSample> samples_every(double period_s) {
   std::vector<UnitSample> samples;
   for (int i = 0; i <= 20; ++i)
     samples.push_back(
@@ -21,11 +21,11 @@ std::vector<UnitSample> read_every(double period_s) {
 
 TEST(JointsAt, LieOnTheParabolaOfAnAngleThatIsReadSlowly) {
   for (const double at_s : {0.13, 0.75, 1.42})  // half way a straight line is off by 2 mrad
-    EXPECT_NEAR(joints_at(read_every(0.1), at_s)[0], angle_rad(at_s), 1e-12) << at_s;
+    EXPECT_NEAR(joints_at(samples_every(0.1), at_s)[0], angle_rad(at_s), 1e-12) << at_s;
 }
 
 TEST(JointsAt, AreReadAsTheyAreAtTheEndsAndBeyond) {
-  const std::vector<UnitSample> samples = read_every(0.1);
+  const std::vector<UnitSample> samples = samples_every(0.1);
   EXPECT_EQ(joints_at(samples, -1.0)[0], angle_rad(0.0));
   EXPECT_EQ(joints_at(samples, 9.0)[0], samples.back().joints[0]);
 }
@@ -34,7 +34,7 @@ TEST(JointsAt, AreReadAsTheyAreAtTheEndsAndBeyond) {
 // read: both are the same function of time.
 TEST(WayOf, IsTheArcOfWheelsThatSpeedUpTogether) {
   const DifferentialDrive drive;
-  const std::vector<UnitSample> samples = read_every(0.1);
+  const std::vector<UnitSample> samples = samples_every(0.1);
   const Pose end = way_of(samples, 0, drive).back().pose;
   const double rad = angle_rad(2.0) - angle_rad(0.0), left_m = drive.wheel_radius_left_m * 2.0 * rad,
                right_m = drive.wheel_radius_right_m * 3.0 * rad, turn_rad = (right_m - left_m) / drive.wheelbase_m,

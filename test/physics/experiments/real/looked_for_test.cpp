@@ -9,7 +9,7 @@
 namespace odolab {
 namespace {
 
-constexpr double kRadius_m = 0.042, kBase_m = 0.2;
+constexpr double kLookedForRadius_m = 0.042, kLookedForBase_m = 0.2;
 
 // A winding drive of 100 s whose left wheel is out of round by `amplitude`, by its own formulas: per interval of 50 ms
 // each wheel rolls r dphi (1 + amplitude sin(phi + 1)). The truth scatters by 1 mm and 2 mrad.
@@ -28,11 +28,13 @@ Recording winding_drive(double amplitude, std::uint64_t seed) {
     const double row[] = {left, right, x, y, heading};
     for (std::size_t c = 0; c < 5; ++c) r.channels[c].values.push_back(row[c]);
     const double w = 0.6 * std::sin(0.1 * i * 0.05 * (1.0 + 0.3 * static_cast<double>(seed)));
-    const double dl = (0.15 - 0.5 * kBase_m * w) * 0.05 / kRadius_m, dr = (0.15 + 0.5 * kBase_m * w) * 0.05 / kRadius_m;
-    const double l_m = kRadius_m * dl * (1.0 + amplitude * std::sin(left + 0.5 * dl + 1.0)), r_m = kRadius_m * dr;
+    const double dl = (0.15 - 0.5 * kLookedForBase_m * w) * 0.05 / kLookedForRadius_m,
+                 dr = (0.15 + 0.5 * kLookedForBase_m * w) * 0.05 / kLookedForRadius_m;
+    const double l_m = kLookedForRadius_m * dl * (1.0 + amplitude * std::sin(left + 0.5 * dl + 1.0)),
+                 r_m = kLookedForRadius_m * dr;
     left += dl;
     right += dr;
-    const double turn = (r_m - l_m) / kBase_m, middle = pose.heading_rad + 0.5 * turn;
+    const double turn = (r_m - l_m) / kLookedForBase_m, middle = pose.heading_rad + 0.5 * turn;
     pose = {pose.x_m + 0.5 * (l_m + r_m) * std::cos(middle), pose.y_m + 0.5 * (l_m + r_m) * std::sin(middle),
             pose.heading_rad + turn};
   }
@@ -41,8 +43,8 @@ Recording winding_drive(double amplitude, std::uint64_t seed) {
 
 FittedModel model() {
   DifferentialDrive drive;
-  drive.wheel_radius_left_m = drive.wheel_radius_right_m = kRadius_m;
-  drive.wheelbase_m = kBase_m;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = kLookedForRadius_m;
+  drive.wheelbase_m = kLookedForBase_m;
   FittedModel fitted;
   fitted.vehicle.kind = drive;
   return fitted;
