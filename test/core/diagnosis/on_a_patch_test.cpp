@@ -39,12 +39,12 @@ std::vector<Recording> eights_past(const std::function<void(InjectedStep&)>& at_
   return recordings;
 }
 
-Diagnosis diagnosed(const std::function<void(InjectedStep&)>& at_the_place) {
+Diagnosis diagnosed_past(const std::function<void(InjectedStep&)>& at_the_place) {
   return diagnose(eights_past(at_the_place), {}, Vehicle{}).value();
 }
 
 TEST(OnAPatch, IsNoSlipWhereAScannerSlowsWhatHeadsForTheWall) {
-  const Diagnosis d = diagnosed([](InjectedStep& s) {
+  const Diagnosis d = diagnosed_past([](InjectedStep& s) {
     const double by = 0.02 * std::max(0.0, std::sin(s.pose.heading_rad));
     s.left_m *= 1.0 - by;
     s.right_m *= 1.0 - by;
@@ -57,7 +57,7 @@ TEST(OnAPatch, IsNoSlipWhereAScannerSlowsWhatHeadsForTheWall) {
 }
 
 TEST(OnAPatch, IsSlipWhereAllThatDrivesThereLosesAlike) {
-  const Diagnosis d = diagnosed([](InjectedStep& s) {
+  const Diagnosis d = diagnosed_past([](InjectedStep& s) {
     s.left_m *= 0.98;
     s.right_m *= 0.98;
   });
