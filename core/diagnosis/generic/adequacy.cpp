@@ -30,7 +30,10 @@ constexpr double kEvenly = 0.05;  // turns of a wheel: as often a turn
 
 // Lets a group of generic terms in; twice what the log-likelihood gains by it.
 double let_in(JointModel& joint, const GenericTest& group) {
-  joint.accepted.push_back({group.as_effect.get(), {}, std::vector<double>(group.test.value.size(), 0.0)});
+  joint.accepted.push_back({.effect = group.as_effect.get(),
+                            .shape = {},
+                            .value = std::vector<double>(group.test.value.size(), 0.0),
+                            .is_damped = true});
   return joint.fit(2);
 }
 

@@ -46,6 +46,7 @@ int JointModel::columns_fitted() const {
 double JointModel::fit(int iterations) {
   constexpr double kNothing = 1e-4;  // a hundredth of a standard deviation
   constexpr double kStraight = 0.1;  // a third: over so little the model is linear
+  constexpr double kDamping = 1e-4;  // a direction of which a group is asked keeps sixteen times as much, or more
   const bool shapes_follow = std::any_of(accepted.begin(), accepted.end(), [](const AcceptedEffect& a) {
     return a.effect->shape_follows_amplitude && !a.is_held;
   });
@@ -60,6 +61,12 @@ double JointModel::fit(int iterations) {
       gram.col(c).setZero();
       gram(c, c) = 1.0;
       moved_by(c) = 0.0;
+    }
+    int damped = first_amplitude();
+    for (const AcceptedEffect& a : accepted) {
+      const auto numbers = static_cast<int>(a.value.size());
+      if (a.is_damped) gram.diagonal().segment(damped, numbers) *= 1.0 + kDamping;
+      damped += numbers;
     }
     const VectorXd step = gram.ldlt().solve(moved_by), score = zr_;
     if (!step.allFinite()) break;

@@ -23,12 +23,13 @@ struct TruthError;  // core/diagnosis/generic/truth_errors.h
 struct AcceptedEffect {
   const Effect* effect = nullptr;
   std::vector<double> shape, value;
-  bool is_held = false;  // found by the likelihood itself: fits leave it where it is
+  bool is_held = false;    // found by the likelihood itself: fits leave it where it is
+  bool is_damped = false;  // so many numbers that some direction of them is calibration's: fits do not drift along it
   bool acts_on_motion() const { return effect->acts_on_motion(); }
 };
 
-// By how much a score scatters more than the model says by what readings err by alone, and from how many squares that is
-// known (driven_again.h).
+// By how much a score scatters more than the model says by what readings err by alone, and from how many squares that
+// is known (driven_again.h).
 struct Feigned {
   double more = 0.0, squares = 1e9;
 };
@@ -214,7 +215,7 @@ class JointModel {
   InnovationRun recorded(int run) const;
   FittedNoise noise_as_recorded() const;
   JointModel as_recorded() const;  // all that was recorded, with what the model leaves of it; without columns
-  JointModel under(const FittedNoise& noise) const;             // to be linearised
+  JointModel under(const FittedNoise& noise) const;  // to be linearised
   // Of drives of which all that was assumed is true: priors say what the model does. To be linearised.
   JointModel with_runs(std::vector<InnovationRun> runs) const;
 

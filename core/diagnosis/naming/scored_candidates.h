@@ -24,7 +24,7 @@ std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int with
 struct Sought {
   int without = -1;                            // an accepted effect that is taken out for the question
   int tests = 1;                               // that it is one of
-  std::vector<std::vector<double>> also_from;  // see best_shape
+  std::vector<std::vector<double>> also_from = {};  // see best_shape
   double worth_refining = 0.0;
 };
 
