@@ -1,8 +1,6 @@
 #include "core/diagnosis/generic/on_a_patch.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 
 namespace odolab {
 
@@ -11,12 +9,16 @@ namespace {
 constexpr int kChannels = 3;
 
 // What is met in few places scatters like the names of such places: too few batches of it are there to tell otherwise.
-constexpr AskedHow kAskedOfPatch{.least_surviving = 0.04, .scatters_as_its_like = true, .is_drawn = true};
+constexpr AskedHow kAskedOfPatch = [] {
+  AskedHow how = kAskedOfGeneric;
+  how.scatters_as_its_like = true;
+  return how;
+}();
 
 bool is_patch(const AcceptedEffect& a) { return a.effect->name == "slip_zone"; }
 
 // One way ahead is slip itself, in one form of it.
-std::vector<Motions> motions_of(const DriveView& view, const WhereFound::Zone& patch, int channel) {
+std::vector<Motions> motions_on_patch(const DriveView& view, const WhereFound::Zone& patch, int channel) {
   const std::size_t even = channel == 0 ? 0 : 1;
   std::vector<Motions> out(even + 2, Motions(view.steps.size()));
   view.steps_near({patch.x_m, patch.y_m}, patch.radius_m, [&](std::size_t i) {
@@ -44,7 +46,7 @@ std::vector<GenericTest> on_a_patch_tests(const AskedModel& asked, double looked
     for (int channel = 0; channel < kChannels; ++channel) {
       tests.push_back(asked_of(
           asked, "heading on the slip zone [rad]", name_of_channel(channel), channel == 0 ? 2 : 3,
-          [=](const DriveView& view, const std::vector<double>&) { return motions_of(view, patch, channel); },
+          [=](const DriveView& view, const std::vector<double>&) { return motions_on_patch(view, patch, channel); },
           looked_at, kAskedOfPatch));
       tests.back().component = "floor";
       tests.back().zone = patch;

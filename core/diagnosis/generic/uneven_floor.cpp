@@ -26,7 +26,7 @@ std::vector<Motions> motions_of_floor(const DriveView& view, const FloorSquare& 
 }
 
 // Along one axis, through the middle of the floor.
-GenericCurve height_along(bool x, const FloorSquare& floor) {
+GenericCurve creep_along(bool x, const FloorSquare& floor) {
   GenericCurve curve;
   curve.variable = x ? "x, across the middle of the floor [m]" : "y, across the middle of the floor [m]";
   curve.channel = x ? "creep along x [m/s]" : "creep along y [m/s]";
@@ -52,7 +52,7 @@ std::vector<GenericTest> uneven_floor_tests(const AskedModel& asked, double look
       [floor](const DriveView& view, const std::vector<double>&) { return motions_of_floor(view, floor); }, looked_at);
   t.component = "floor";
   t.of_when_or_where = true;
-  t.curves = {height_along(true, floor), height_along(false, floor)};
+  t.curves = {creep_along(true, floor), creep_along(false, floor)};
   return {t};
 }
 
