@@ -24,7 +24,7 @@ inline WheelPair between(const WheelPair& before, const WheelPair& next, double 
 }
 
 // How a body moves over the floor.
-struct BodyMotion {
+struct BodyVelocity {
   Vec2 velocity_mps;  // in the floor's frame
   double yaw_rate_radps = 0.0;
 
@@ -33,19 +33,19 @@ struct BodyMotion {
 };
 
 // Of a body about its axle's centre whose wheels turn so and do not slip.
-inline BodyMotion rolling_motion(const Pose& body, const DifferentialDrive& wheels, WheelPair speed_radps) {
+inline BodyVelocity rolling_motion(const Pose& body, const DifferentialDrive& wheels, WheelPair speed_radps) {
   const double left_mps = wheels.wheel_radius_left_m * speed_radps.left,
                right_mps = wheels.wheel_radius_right_m * speed_radps.right;
   return {rotated({0.5 * (left_mps + right_mps), 0.0}, body.heading_rad), (right_mps - left_mps) / wheels.wheelbase_m};
 }
 
 // Of a trailer about its axle's centre whose drawbar ends where something moves so.
-inline BodyMotion towed_motion(const Pose& trailer, double drawbar_length_m, Vec2 hitch_velocity_mps) {
+inline BodyVelocity towed_motion(const Pose& trailer, double drawbar_length_m, Vec2 hitch_velocity_mps) {
   const Vec2 ahead = rotated({1.0, 0.0}, trailer.heading_rad);
   return {dot(hitch_velocity_mps, ahead) * ahead, cross(ahead, hitch_velocity_mps) / drawbar_length_m};
 }
 
-inline void set_in_motion(PlanarWorld& world, int body, const BodyMotion& motion) {
+inline void set_in_motion(PlanarWorld& world, int body, const BodyVelocity& motion) {
   world.set_velocity(body, motion.velocity_mps, motion.yaw_rate_radps);
 }
 

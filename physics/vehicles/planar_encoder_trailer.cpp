@@ -68,7 +68,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   // Tracks skid in turns: the turn is the one that the nominal vehicle takes it for.
   void begin_in_motion(const std::vector<double>& speeds) override {
     const Pose middle = pose();
-    const BodyMotion tow = rolling_motion(middle, nominal_.tow, {speeds[0], speeds[1]});
+    const BodyVelocity tow = rolling_motion(middle, nominal_.tow, {speeds[0], speeds[1]});
     const Vec2 hitch = rotated({-actual_.hitch_offset_m, 0.0}, middle.heading_rad);
     set_in_motion(world_, body_, {tow.at(world_.pose(body_).position() - middle.position()), tow.yaw_rate_radps});
     set_in_motion(world_, towed_, towed_motion(world_.pose(towed_), actual_.drawbar_length_m, tow.at(hitch)));

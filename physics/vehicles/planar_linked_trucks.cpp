@@ -86,15 +86,15 @@ void PlanarLinkedTrucks::turn(const Ground& ground, const Floor& floor, const st
 }
 
 void PlanarLinkedTrucks::begin_in_motion(const std::vector<double>& speeds) {
-  const BodyMotion a = rolling_motion(a_.pose(), lengths_.truck_a, {speeds[0], speeds[1]});
-  const BodyMotion b = rolling_motion(b_.pose(), lengths_.truck_b, {speeds[2], speeds[3]});
+  const BodyVelocity a = rolling_motion(a_.pose(), lengths_.truck_a, {speeds[0], speeds[1]});
+  const BodyVelocity b = rolling_motion(b_.pose(), lengths_.truck_b, {speeds[2], speeds[3]});
   set_in_motion(world_, a_.body(), a);
   set_in_motion(world_, b_.body(), b);
   if (!platform_) return;
   const Vec2 link = a_.pose().position() - b_.pose().position();
   const double turn_radps = cross(link, a.velocity_mps - b.velocity_mps) / dot(link, link);
   const Vec2 arm = world_.pose(*platform_).position() - a_.pose().position();
-  set_in_motion(world_, *platform_, {BodyMotion{a.velocity_mps, turn_radps}.at(arm), turn_radps});
+  set_in_motion(world_, *platform_, {BodyVelocity{a.velocity_mps, turn_radps}.at(arm), turn_radps});
 }
 
 void PlanarLinkedTrucks::step(const Ground& ground, const Floor& floor) {

@@ -99,7 +99,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
       const double turn_radps = (right_mps - left_mps) / c.track_m();
       const double travel_mps = (left_mps * c.wheel_offset_right_m + right_mps * c.wheel_offset_left_m) / c.track_m();
       const double heading_rad = world_.pose(castors_[i].body).heading_rad;
-      const BodyMotion castor{rotated({travel_mps, 0.0}, heading_rad), turn_radps};
+      const BodyVelocity castor{rotated({travel_mps, 0.0}, heading_rad), turn_radps};
       set_in_motion(world_, castors_[i].body, castor);
       pivots.push_back(castor.at(rotated({c.offset_m, 0.0}, heading_rad)));
     }
@@ -117,7 +117,7 @@ class PlanarMultiCastor final : public PlanarVehicle {
       square += dot(places[i] - middle, places[i] - middle);
     }
     const double turn_radps = square > 0.0 ? turned / square : 0.0;
-    set_in_motion(world_, platform_, {BodyMotion{mean, turn_radps}.at(Vec2{} - middle), turn_radps});
+    set_in_motion(world_, platform_, {BodyVelocity{mean, turn_radps}.at(Vec2{} - middle), turn_radps});
   }
   void step(const Ground& ground, const Floor& floor) {
     for (std::size_t i = 0; i < castors_.size(); ++i) {

@@ -50,7 +50,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
     step(ground, floor);
   }
   void begin_in_motion(const std::vector<double>& speeds) override {
-    const BodyMotion tow = rolling_motion(tow_.pose(), lengths_.tow, {speeds[0], speeds[1]});
+    const BodyVelocity tow = rolling_motion(tow_.pose(), lengths_.tow, {speeds[0], speeds[1]});
     set_in_motion(world_, tow_.body(), tow);
     set_in_motion(world_, towed_, towed_motion(world_.pose(towed_), lengths_.drawbar_length_m, tow.velocity_mps));
   }

@@ -44,7 +44,7 @@ class PlanarTracked final : public PlanarVehicle {
   }
   // Tracks skid in turns: the turn is the one that the nominal vehicle takes it for.
   void begin_in_motion(const std::vector<double>& speeds) override {
-    const BodyMotion motion = rolling_motion(pose(), nominal_, {speeds[0], speeds[1]});
+    const BodyVelocity motion = rolling_motion(pose(), nominal_, {speeds[0], speeds[1]});
     set_in_motion(world_, body_, {motion.at(world_.pose(body_).position() - pose().position()), motion.yaw_rate_radps});
   }
   void step(const Ground& ground, const Floor& floor) {

@@ -9,14 +9,14 @@
 
 namespace odolab {
 
-struct Floor {
+struct FloorSeen {
   Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
   double width_m() const { return high.x_m - low.x_m; }
   double height_m() const { return high.y_m - low.y_m; }
 };
 
-inline Floor floor_of(const std::vector<DriveView>& views) {
-  Floor f;
+inline FloorSeen floor_of(const std::vector<DriveView>& views) {
+  FloorSeen f;
   for (const DriveView& view : views)
     for (const EffectStep& s : view.steps) {
       f.low = {std::min(f.low.x_m, s.position.x_m), std::min(f.low.y_m, s.position.y_m)};
@@ -44,7 +44,7 @@ struct FloorSquare {
   Vec2 at(const Vec2& place) const { return (1.0 / half_m) * (place - middle); }
 };
 
-inline FloorSquare square_around(const Floor& floor) {
+inline FloorSquare square_around(const FloorSeen& floor) {
   return {0.5 * (floor.low + floor.high), 0.5 * std::max(floor.width_m(), floor.height_m())};
 }
 

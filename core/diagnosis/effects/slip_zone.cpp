@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeastWay_m = 0.15;
 
 // The points of a grid over the floor about which a patch of that radius would be met.
-std::vector<Vec2> points_met(const std::vector<DriveView>& views, const Floor& floor, double stride_m,
+std::vector<Vec2> points_met(const std::vector<DriveView>& views, const FloorSeen& floor, double stride_m,
                              double radius_m) {
   const auto steps = [&](double m) { return static_cast<int>(m / stride_m + 0.5); };
   const int last_x = steps(floor.width_m()), last_y = steps(floor.height_m());
@@ -38,7 +38,7 @@ std::vector<Vec2> points_met(const std::vector<DriveView>& views, const Floor& f
 
 // So many of each size at most, wherever the vehicle went: one run across a hall leaves the grid of the others as fine.
 std::vector<std::vector<double>> patches_met(const std::vector<DriveView>& views) {
-  const Floor floor = floor_of(views);
+  const FloorSeen floor = floor_of(views);
   std::vector<std::vector<double>> patches;
   if (floor.width_m() < 0.0) return patches;
   for (const auto& [radius_m, most] : {std::pair{0.25, 600.0}, {0.5, 200.0}, {0.9, 70.0}}) {

@@ -55,7 +55,7 @@ Group by_heading() {
 
 // Place: low polynomials of where it is, and of where it is against where it looks.
 Group by_place(const std::vector<DriveView>& views) {
-  const Floor floor = floor_of(views);
+  const FloorSeen floor = floor_of(views);
   const auto unit = [](double v, double low, double high) {
     return high > low ? 2.0 * (v - low) / (high - low) - 1.0 : 0.0;
   };

@@ -86,7 +86,7 @@ GenericTest late_in_each(const AskedModel& asked, double looked_at) {
 
 std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked_at) {
   const std::vector<DriveView>& views = asked.joint.views();
-  const Floor floor = floor_of(views);
+  const FloorSeen floor = floor_of(views);
   const double half_m = 0.5 * std::max(floor.width_m(), floor.height_m());
   double end_s = 0.0;
   for (const DriveView& v : views)

@@ -53,7 +53,7 @@ std::string name_of_wave(const Wave& wave) {
   if (wave.on_the_floor())
     return formatted("place, in waves of %.2g m towards %.0f degrees", 1.0 / length(wave.per_m),
                      std::atan2(wave.per_m.y_m, wave.per_m.x_m) * 180.0 / kPi);
-  for (const Axis& axis : kAxes)
+  for (const WaveAxis& axis : kAxes)
     if (is_of_a_wheel(wave.along))
       return formatted("its angle, %.3g times a turn", wave.per_unit);
     else if (axis.along == wave.along)

@@ -37,7 +37,7 @@ int next_smooth(double least) {
 }  // namespace
 
 // Scores are put into cells of the axis, and the transform of these has those of all waves.
-std::vector<Heard> heard_along(const Axis& axis, const std::vector<DriveView>& views,
+std::vector<Heard> heard_along(const WaveAxis& axis, const std::vector<DriveView>& views,
                                const std::vector<std::vector<BodyMotion>>& scores) {
   std::vector<double> low(views.size(), 1e300);
   double span = 0.0;

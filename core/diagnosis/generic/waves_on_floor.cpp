@@ -69,7 +69,7 @@ struct Grid {
   Eigen::Index nx = 0, ny = 0;
 };
 
-Grid grid_of(const Floor& floor) {
+Grid grid_of(const FloorSeen& floor) {
   Grid g;
   g.dx = kTurnsApart / std::max(floor.width_m(), 0.5), g.dy = kTurnsApart / std::max(floor.height_m(), 0.5);
   g.most = std::min(1.0 / kShortestLength_m,  // half a disc of so many at most
@@ -94,7 +94,7 @@ struct Turned {
   Eigen::MatrixXd of_x, of_y;
 };
 
-Turned turned_on(const Grid& grid, const Floor& floor, const std::vector<std::vector<Bin>>& bins) {
+Turned turned_on(const Grid& grid, const FloorSeen& floor, const std::vector<std::vector<Bin>>& bins) {
   Turned t;
   for (const std::vector<Bin>& of_run : bins) t.bins.insert(t.bins.end(), of_run.begin(), of_run.end());
   const auto n = static_cast<Eigen::Index>(t.bins.size());
@@ -126,7 +126,7 @@ std::vector<Heard> heard_on_floor(const std::vector<DriveView>& views,
     of_wheels[2 * r] = bins_of_wheel(views[r], scores[r], Wheel::left);
     of_wheels[2 * r + 1] = bins_of_wheel(views[r], scores[r], Wheel::right);
   });
-  const Floor floor = floor_of(views);
+  const FloorSeen floor = floor_of(views);
   const Grid grid = grid_of(floor);
   const Turned vehicle = turned_on(grid, floor, of_vehicle), wheels = turned_on(grid, floor, of_wheels);
   constexpr std::size_t kMany = std::size(kOnTheFloor);
