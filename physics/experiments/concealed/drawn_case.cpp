@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
 #include "physics/experiments/concealed/oracle.h"
 #include "physics/experiments/concealed/own_effects.h"
 
@@ -128,16 +129,16 @@ void know(const DrawnCase& c, Run& run) {
 }
 
 std::vector<Run> runs_of(const DrawnCase& c, const std::vector<DrawnDrive>& drives, int first, bool noise) {
-  std::vector<Run> runs;
-  for (std::size_t r = 0; r < drives.size(); ++r) {
-    Run run;
-    run.plan = plan_of(c, drives[r], first + static_cast<int>(r));
+  std::vector<Run> runs(drives.size());
+  parallel_for(static_cast<int>(runs.size()), [&](int r) {
+    Run& run = runs[static_cast<std::size_t>(r)];
+    const DrawnDrive& drive = drives[static_cast<std::size_t>(r)];
+    run.plan = plan_of(c, drive, first + r);
     run.plan.noise = noise;
     run.driven = driven(run.plan);
-    run.driven.recording.name = drives[r].name + ".csv";
+    run.driven.recording.name = drive.name + ".csv";
     know(c, run);
-    runs.push_back(std::move(run));
-  }
+  });
   return runs;
 }
 
