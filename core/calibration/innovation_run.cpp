@@ -56,6 +56,23 @@ int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSam
   truth = std::move(kept);
   return left_out;
 }
+// How fast a wheel goes at most from the first reading on, over a quarter of a second; a wheel that stands may be read
+// on either side of a count. Zero where a reading comes again.
+template <typename Readings>
+double speed_at(const Readings& first, const Readings& end, const DifferentialDrive& drive) {
+  constexpr double kOver_s = 0.25;
+  const double count = 2.0 * kPi / drive.counts_per_wheel_turn();
+  auto last = std::next(first);
+  if (last->left_rad == first->left_rad && last->right_rad == first->right_rad) return 0.0;
+  while (std::next(last) != end && std::abs(last->time_s - first->time_s) < kOver_s) ++last;
+  const auto way_m = [&](double radius_m, double turned_rad) {
+    return radius_m * std::max(0.0, std::abs(turned_rad) - 1.01 * count);
+  };
+  return std::max(way_m(drive.wheel_radius_left_m, last->left_rad - first->left_rad),
+                  way_m(drive.wheel_radius_right_m, last->right_rad - first->right_rad)) /
+         std::abs(last->time_s - first->time_s);
+}
+
 }  // namespace
 
 Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& vehicle,
@@ -94,15 +111,15 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   const double span_s = run.wheels.back().time_s - run.wheels.front().time_s;
   const double beyond_s = span_s / static_cast<double>(run.wheels.size() - 1) + 1e-9;
   const std::vector<TruthSample> all_truth = truth_samples(recording);
-  // Of poses at both ends alone each counts, and wheels that stand there stood a little before and behind as well.
+  // Of poses at both ends alone each counts: one a little before or behind is kept if the wheels hardly moved until
+  // then.
   constexpr std::size_t kFew = 5;
-  constexpr double kStanding_s = 0.5;
-  const auto longer_s = [&](const WheelSample& a, const WheelSample& b) {
-    const bool stands = a.left_rad == b.left_rad && a.right_rad == b.right_rad;
-    return all_truth.size() < kFew && stands ? std::max(beyond_s, kStanding_s) : beyond_s;
+  constexpr double kHardly_m = 0.001, kLittle_s = 0.5;
+  const auto reach_s = [&](double speed_mps) {
+    return all_truth.size() < kFew ? std::max(beyond_s, std::min(kLittle_s, kHardly_m / speed_mps)) : beyond_s;
   };
-  const double first_s = run.wheels.front().time_s - longer_s(run.wheels[0], run.wheels[1]),
-               last_s = run.wheels.back().time_s + longer_s(run.wheels.end()[-2], run.wheels.end()[-1]);
+  const double first_s = run.wheels.front().time_s - reach_s(speed_at(run.wheels.begin(), run.wheels.end(), drive)),
+               last_s = run.wheels.back().time_s + reach_s(speed_at(run.wheels.rbegin(), run.wheels.rend(), drive));
   std::vector<TruthSample> truth;
   for (const TruthSample& t : all_truth) {
     const double time_s = t.time_s - vehicle.truth.time_offset_s;

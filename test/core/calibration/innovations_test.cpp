@@ -244,6 +244,31 @@ TEST(Innovations, KeepAPoseAtTheEndThatIsStampedALittleLaterThanTheWheelsThatSta
   }
 }
 
+TEST(Innovations, KeepSuchAPoseWhereWheelsHardlyMovedUntilThen) {
+  const double nan = std::nan("");
+  const Vehicle vehicle;
+  const auto drive = std::get<DifferentialDrive>(vehicle.kind);
+  const double count_rad = 2.0 * kPi / drive.counts_per_wheel_turn();
+  // It comes 0.32 s behind the last reading, as which one of a count less is taken.
+  for (const double speed_mps : {0.0, 0.002, 0.02}) {
+    Recording r;
+    Channel left{"left_wheel_rad", {}}, x{"truth_x_m", {}}, y{"truth_y_m", {}};
+    for (int i = 0; i < 100; ++i) {
+      const double creeps_rad = 0.02 * std::max(0, i - 70) * speed_mps / drive.wheel_radius_left_m;
+      r.time_s.push_back(0.02 * i);
+      left.values.push_back(0.1 * std::min(i, 70) - creeps_rad - (i == 99 ? count_rad : 0.0));
+      x.values.push_back(i == 0 ? 0.0 : nan);
+      y.values.push_back(i == 0 ? 0.0 : nan);
+    }
+    r.time_s.push_back(2.3);
+    left.values.push_back(nan);
+    x.values.push_back(7.0);
+    y.values.push_back(0.0);
+    r.channels = {left, {"right_wheel_rad", left.values}, x, y};
+    EXPECT_EQ(innovation_run(r, vehicle).ok(), speed_mps * 0.32 < 0.001) << speed_mps << " m/s";
+  }
+}
+
 std::vector<char> aside_by_gate(const InnovationRun& run) {
   FilterOptions options;
   options.derivatives = false;
