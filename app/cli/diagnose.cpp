@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdio>
+#include <functional>
 
 #include "app/cli/command.h"
 #include "app/cli/file_examples.h"
@@ -34,14 +36,16 @@ struct Loaded {
 };
 
 // The recordings that can be used. An error where one cannot and none may be skipped.
-Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicle, bool skip_broken) {
+Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicle, bool skip_broken,
+                    std::vector<std::string>& skipped) {
   Loaded loaded;
   for (const std::string& path : paths) {
     Result<ImportedRecording> one = load_recording(path);
     std::optional<Error> problem = one ? unusable(one->recording, vehicle, path) : one.error();
     if (problem && !skip_broken) return *problem;
     if (problem) {
-      print_message("skipped: " + problem->message());
+      skipped.push_back("skipped: " + problem->message());
+      print_message(skipped.back());
       continue;
     }
     for (const std::string& warning : one->warnings) print_message("warning: " + path + ": " + warning);
@@ -53,7 +57,8 @@ Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicl
 
 // Leaves out the recordings whose columns are not what their names say. An error where one is and none may be left out,
 // or where none would be left.
-Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Error>>& faults, bool skip_broken) {
+Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Error>>& faults, bool skip_broken,
+                              std::vector<std::string>& skipped) {
   Loaded sound;
   for (std::size_t i = 0; i < loaded.recordings.size(); ++i) {
     if (!faults[i]) {
@@ -65,20 +70,25 @@ Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Er
     if (const std::string& name = loaded.recordings[i].name; !name.empty() && fault.where.rfind(name, 0) == 0)
       fault.where.replace(0, name.size(), loaded.paths[i]);
     if (!skip_broken || fault.where == kEveryRecording) return fault;
-    print_message("skipped: " + fault.message());
+    skipped.push_back("skipped: " + fault.message());
+    print_message(skipped.back());
   }
   loaded = std::move(sound);
   return Done{};
 }
 
+// Says of each file that it is written as soon as it is.
 Result<Done> write_diagnosis(const DiagnoseOptions& options, const Diagnosis& diagnosis, const FittedModel& model) {
-  if (!options.json.empty())
-    if (Result<Done> done = write_json(options.json, diagnosis_json(diagnosis)); !done) return done;
-  if (!options.model.empty())
-    if (Result<Done> done = write_model(options.model, model); !done) return done;
-  if (!options.html.empty())
-    if (Result<Done> done = write_report(options.html, diagnosis_report(diagnosis)); !done) return done;
-  return Done{};
+  const auto write = [](const std::string& path, const std::function<Result<Done>()>& how) -> Result<Done> {
+    if (path.empty()) return Done{};
+    Result<Done> done = how();
+    if (done) print_message("written: " + path);
+    return done;
+  };
+  if (auto done = write(options.json, [&] { return write_json(options.json, diagnosis_json(diagnosis)); }); !done)
+    return done;
+  if (auto done = write(options.model, [&] { return write_model(options.model, model); }); !done) return done;
+  return write(options.html, [&] { return write_report(options.html, diagnosis_report(diagnosis)); });
 }
 
 int execute_diagnose(const DiagnoseOptions& options) {
@@ -95,17 +105,20 @@ int execute_diagnose(const DiagnoseOptions& options) {
       if (is_same_file(seen, unseen))
         return bad_input(
             {unseen, "a recording to hold out that is also to be fitted", "runs that the fit does not see"});
-  Result<Loaded> train = load(options.recordings, *nominal, options.skip_broken);
+  std::vector<std::string> skipped;
+  Result<Loaded> train = load(options.recordings, *nominal, options.skip_broken, skipped);
   if (!train) return bad_input(train.error());
-  Result<Loaded> held_out = load(options.hold_out, *nominal, options.skip_broken);
+  Result<Loaded> held_out = load(options.hold_out, *nominal, options.skip_broken, skipped);
   if (!held_out) return bad_input(held_out.error());
   std::vector<Recording> given = train->recordings;
   given.insert(given.end(), held_out->recordings.begin(), held_out->recordings.end());
   const std::vector<std::optional<Error>> faults = faults_in(given, *nominal);
   const auto first_of_held_out = faults.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
-  if (const auto done = leave_out_faulty(*train, {faults.begin(), first_of_held_out}, options.skip_broken); !done)
+  if (const auto done = leave_out_faulty(*train, {faults.begin(), first_of_held_out}, options.skip_broken, skipped);
+      !done)
     return bad_input(done.error());
-  if (const auto done = leave_out_faulty(*held_out, {first_of_held_out, faults.end()}, options.skip_broken); !done)
+  if (const auto done = leave_out_faulty(*held_out, {first_of_held_out, faults.end()}, options.skip_broken, skipped);
+      !done)
     return bad_input(done.error());
   if (train->recordings.empty())
     return bad_input({options.recordings.front(), "no recording that can be used", "one or more"});
@@ -118,16 +131,16 @@ int execute_diagnose(const DiagnoseOptions& options) {
   make_names_differ(all, paths);
   const auto first_held_out = all.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
 
-  const Result<Diagnosis> diagnosis = confirmed_diagnosis({all.begin(), first_held_out}, {first_held_out, all.end()},
-                                                          *nominal, terminal_progress("diagnosing"));
+  Result<Diagnosis> diagnosis = confirmed_diagnosis({all.begin(), first_held_out}, {first_held_out, all.end()},
+                                                    *nominal, terminal_progress("diagnosing"));
   if (!diagnosis) return bad_input(diagnosis.error());
 
+  for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
+  std::fflush(stdout);
+  for (const std::string& warning : merged_warnings(diagnosis->warnings)) print_message("warning: " + warning);
+  diagnosis->warnings.insert(diagnosis->warnings.end(), skipped.begin(), skipped.end());
   if (Result<Done> written = write_diagnosis(options, *diagnosis, model_of(*diagnosis)); !written)
     return bad_input(written.error());
-  for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
-  for (const std::string& warning : merged_warnings(diagnosis->warnings)) print_message("warning: " + warning);
-  for (const std::string* path : {&options.json, &options.model, &options.html})
-    if (!path->empty()) print_message("written: " + *path);
   return kDone;
 }
 

@@ -74,7 +74,7 @@ int execute_export(const ExportOptions& options) {
   const Result<Done> done = write_export(options);
   if (!done && interrupted()) {
     print_error("stopped; nothing was written");
-    return kCheckFailed;
+    return kBadInput;
   }
   if (!done) return bad_input(done.error());
   std::printf("%s\n", options.out.c_str());

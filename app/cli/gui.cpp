@@ -30,6 +30,10 @@ Command gui_command() {
   };
   command.execute = [options] {
     if (options->mystery < -1) return bad_input({"--mystery", std::to_string(options->mystery), "a number from 0"});
+    for (const auto& [name, pixels] : {std::pair{"--width", options->width}, {"--height", options->height}})
+      if (pixels < 1) return bad_input({name, std::to_string(pixels), "1 pixel or more"});
+    if (options->frames < 0) return bad_input({"--frames", std::to_string(options->frames), "0 or more"});
+    if (!(options->scale >= 0.0)) return bad_input({"--scale", std::to_string(options->scale), "0 or more"});
     return run_gui(*options);
   };
   return command;

@@ -97,7 +97,7 @@ int execute_import(ImportOptions& options) {
       import_into_csv(options.sources, options.wishes, options.out, terminal_progress("import"));
   if (interrupted() && !imported) {
     print_error("stopped; nothing was written");
-    return kCheckFailed;
+    return kBadInput;
   }
   if (!imported) return bad_input(imported.error());
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);

@@ -133,7 +133,7 @@ int execute_reproduce(const ReproduceOptions& options) {
     if (!report) return bad_input(report.error());
     if (interrupted()) {
       print_error("stopped during " + experiment->name);
-      return kCheckFailed;
+      return kBadInput;
     }
     print_report(*experiment, *report);
     std::fflush(stdout);

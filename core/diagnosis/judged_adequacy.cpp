@@ -44,6 +44,12 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
 Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
                          const FittedNoise& of_calibration, double error) {
   Adequacy adequacy = judged_by_both(named, calibrated, predictor, error);
+  if (named.joint.scalars_on_the_way() == 0) {  // who never drives tells nothing of how
+    adequacy.unnamed.reset();
+    adequacy.as_likely.reset();
+    adequacy.sway.reset();
+    return adequacy;
+  }
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   double explained = 0.0;

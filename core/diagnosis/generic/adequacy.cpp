@@ -255,7 +255,12 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
   // Near where it stands a lag looks like a clock, and its test says little of what goes with it.
   if (names_held_against(joint, base) > names_held_against(joint, Base::stays)) fair = std::max(fair, by_names);
   std::vector<GenericTest> generic = generic_tests(bare);
-  std::erase_if(generic, std::mem_fn(&GenericTest::carries_nowhere));
+  // Several pushes may be one thing that lies across the floor.
+  const bool are_moments = evidence.size() > 1 && std::all_of(evidence.begin(), evidence.end(), [](const auto& e) {
+                             return e.effect->local && e.effect->of_one_recording;
+                           });
+  std::erase_if(generic,
+                [&](const GenericTest& g) { return g.carries_nowhere || (g.is_no_rival_of_names && !are_moments); });
   const auto by_form = [&](const GenericTest& g) { return g.of_when_or_where ? 0.0 : by_form_of_base; };
   const auto beyond = [&](const GenericTest& g, double gain, double margin) {
     return gain - by_form(g) - (1.0 + margin) * by_names;

@@ -14,6 +14,7 @@
 #include "core/diagnosis/generic/groups.h"
 #include "core/diagnosis/generic/lagging.h"
 #include "core/diagnosis/generic/late_truth.h"
+#include "core/diagnosis/generic/lines_on_floor.h"
 #include "core/diagnosis/generic/moving_frame.h"
 #include "core/diagnosis/generic/on_a_patch.h"
 #include "core/diagnosis/generic/on_the_spot.h"
@@ -188,8 +189,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
         step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
         late_truth_tests(asked_model, n), tracked_point_tests(asked_model, n), moving_frame_tests(asked_model, n),
         uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), at_rest_tests(asked_model, n),
-        on_a_patch_tests(asked_model, n), band_tests(asked_model, shaken, n), swinging_tests(asked_model, n),
-        truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
+        on_a_patch_tests(asked_model, n), band_tests(asked_model, shaken, n), line_tests(asked_model, n),
+        swinging_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
     tests.insert(tests.end(), more.begin(), more.end());
   hold_tests_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {

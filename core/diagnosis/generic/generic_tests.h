@@ -50,8 +50,9 @@ struct GenericTest {
   std::optional<Sway> sway;
   double most_left = kMostLeft;   // more where a name is but its simplest form
   bool of_when_or_where = false;  // of the recording, the time or the place: no form of how a base follows its commands
-  bool carries_nowhere = false;   // comes and goes so soon: no name is doubted for it
-  double times_a_turn = 0.0;      // of a wheel, where it goes with its angle: a cosine and a sine for each recording
+  bool is_no_rival_of_names = false;  // but of pushes: what a name says at a place, it says as well
+  bool carries_nowhere = false;       // comes and goes so soon: no name is doubted for it
+  double times_a_turn = 0.0;  // of a wheel, where it goes with its angle: a cosine and a sine for each recording
 };
 
 // Of four channels: forward, sideways and turn, each for each metre of way, and the turn for each radian that is

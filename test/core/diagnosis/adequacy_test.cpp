@@ -344,6 +344,28 @@ TEST(Adequacy, CallsUnknownWhatOnlyRunsShowThatWereNotFitted) {
   EXPECT_EQ(d->verdict, Verdict::unknown_effect);
 }
 
+// It moves no error over a metre by much: each sample denies a little.
+TEST(Refuted, NameIsWithdrawnWhereThousandsOfSamplesThatWereNotFittedDenyItTogether) {
+  test::GeneratorSettings g = test::under_motion_capture({}, 0.0003, 0.02);
+  g.duration_s = 60.0;
+  Random random(31);
+  const auto driving = [&](int) { return test::varied_driving(random, g.duration_s); };
+  const auto oval = [](int) { return [](test::InjectedStep& s) { s.left_m *= 1.0 + 0.01 * std::sin(s.left_rad); }; };
+  const auto round = [](int) { return [](test::InjectedStep&) {}; };
+  const std::vector<Recording> given = test::three_runs(g, random, driving, oval);
+  std::vector<Recording> unseen = test::three_runs(g, random, driving, round);
+  for (Recording& r : unseen) r.name = "unseen_" + r.name;
+  const Result<Diagnosis> named = diagnose(given, {}, Vehicle{});
+  ASSERT_TRUE(named);
+  ASSERT_EQ(named->findings.front().effect, "wheel_eccentricity");
+  const Result<Diagnosis> denied = diagnose(given, unseen, Vehicle{});
+  ASSERT_TRUE(denied);
+  for (const Finding& f : denied->findings) EXPECT_NE(f.effect, "wheel_eccentricity");
+  EXPECT_TRUE(std::any_of(denied->warnings.begin(), denied->warnings.end(), [](const std::string& w) {
+    return w.find("what was not fitted is predicted worse with it") != std::string::npos;
+  }));
+}
+
 TEST(Refuted, NameIsWithdrawnAndSaidWhereARunThatWasNotFittedContradictsIt) {
   test::Case slippery = case_of("slip_zone", 3.0, 4, 7), sound = case_of("", 1.0, 4, 7);
   const std::vector<Recording> fitted(slippery.recordings.begin(), slippery.recordings.begin() + 3);

@@ -123,5 +123,19 @@ TEST(DiagnoseEndsAlone, NamesNothingThatAHeldOutRunBearsOutByChance) {
   EXPECT_EQ(named, "");
 }
 
+TEST(ToldByLittle, IsNothingByAVehicleThatNeverDrives) {
+  for (std::uint64_t seed : {1, 2, 3}) {
+    Random random(seed);
+    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.04);
+    g.duration_s = 60.0;
+    const Result<Diagnosis> d = diagnose({generated(
+                                             g, [](double) { return WheelSpeedsAt{}; }, random)},
+                                         {}, Vehicle{});
+    ASSERT_TRUE(d);
+    EXPECT_EQ(d->verdict, Verdict::cannot_say);
+    EXPECT_TRUE(d->findings.empty());
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test
