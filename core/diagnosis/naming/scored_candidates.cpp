@@ -117,13 +117,14 @@ bool rests_at(const JointModel& joint, const std::vector<double>& moment) {
 
 // Whether a candidate that is another one and more says too little beside that.
 bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
+  // Of both by one scale: the scatter elsewhere of one and of the other has nothing to do with which is right.
+  const double scale = std::max(c.test.inflation, simpler.test.inflation);
   // Phases or rates of their own need to gain what so many more parameters gain by chance one time in a thousand.
   const int more = c.test.freedom - simpler.test.freedom;
   if (is_finer(*c.effect, *simpler.effect))
-    return more > 0 && chi_square_tail(c.test.judged() - simpler.test.judged(), more) > 1e-3;
+    return more > 0 && chi_square_tail((c.test.statistic - simpler.test.statistic) / scale, more) > 1e-3;
   // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
   // time more than that it happened once, by more than another form does.
-  // Of both by one scale: the scatter elsewhere of one and of the other has nothing to do with which is right.
   constexpr double kMore = 4.0, kMoreThanAForm = 1.25;
   const double by_more = simpler.test.statistic + kMore * c.test.inflation;
   if (is_met_by_one_of(*simpler.effect, *c.effect)) return c.test.statistic < by_more;
