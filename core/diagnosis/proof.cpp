@@ -205,7 +205,7 @@ double likelier_where_unseen(const Predicted& one, const Predicted& other) {
 }
 
 // What comes and goes within centimetres moves no window of a metre, but thousands of samples deny it together. A right
-// name whose form is not quite the world's made unseen runs less likely by 23 at most (of 330 sets of three programs).
+// name whose form is not quite the world's made unseen runs less likely by 23 at most (of 222 sets of two programs).
 constexpr double kNeverByItsForm = 100.0;  // twice the log-likelihood
 
 double worse_where_unseen(const Predicted& one, const Predicted& other, bool is_white) {

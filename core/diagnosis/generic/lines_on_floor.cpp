@@ -148,8 +148,9 @@ std::vector<Motions> motions_on(const Line& line, OnLine channel, const DriveVie
 std::string name_of(const Line& line) {
   const double middle_m = 0.5 * (line.from_m + line.to_m);
   const Vec2 foot = middle_m * line.normal();
-  return formatted("a line across the floor through x %.2f, y %.2f m, %.2g m wide, at %.0f degrees", foot.x_m, foot.y_m,
-                   line.to_m - line.from_m, line.towards_rad * 180.0 / kPi - 90.0);
+  const auto shown = [](double m) { return std::abs(m) < 0.005 ? 0.0 : m; };  // no "-0.00"
+  return formatted("a line across the floor through x %.2f, y %.2f m, %.2g m wide, at %.0f degrees", shown(foot.x_m),
+                   shown(foot.y_m), line.to_m - line.from_m, line.towards_rad * 180.0 / kPi - 90.0);
 }
 
 }  // namespace
