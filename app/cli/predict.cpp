@@ -36,6 +36,9 @@ int execute_predict(const PredictOptions& options) {
   const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
+  if (const std::vector<TruthSample> truth = truth_samples(loaded->recording);
+      !truth.empty() && !truth.front().heading_rad)
+    print_message("warning: " + options.recording + ": its truth begins without a heading; the track begins with 0");
   std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(),
               track->back().time_s - track->front().time_s);
   if (const auto error = track_error(*track, truth_track(loaded->recording)))
