@@ -35,6 +35,12 @@ struct Loaded {
   std::vector<std::string> paths;
 };
 
+// Said at once, and again in what is written.
+void skip(const Error& fault, std::vector<std::string>& skipped) {
+  skipped.push_back("skipped: " + fault.message());
+  print_message(skipped.back());
+}
+
 // The recordings that can be used. An error where one cannot and none may be skipped.
 Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicle, bool skip_broken,
                     std::vector<std::string>& skipped) {
@@ -44,8 +50,7 @@ Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicl
     std::optional<Error> problem = one ? unusable(one->recording, vehicle, path) : one.error();
     if (problem && !skip_broken) return *problem;
     if (problem) {
-      skipped.push_back("skipped: " + problem->message());
-      print_message(skipped.back());
+      skip(*problem, skipped);
       continue;
     }
     for (const std::string& warning : one->warnings) print_message("warning: " + path + ": " + warning);
@@ -70,8 +75,7 @@ Result<Done> leave_out_faulty(Loaded& loaded, const std::vector<std::optional<Er
     if (const std::string& name = loaded.recordings[i].name; !name.empty() && fault.where.rfind(name, 0) == 0)
       fault.where.replace(0, name.size(), loaded.paths[i]);
     if (!skip_broken || fault.where == kEveryRecording) return fault;
-    skipped.push_back("skipped: " + fault.message());
-    print_message(skipped.back());
+    skip(fault, skipped);
   }
   loaded = std::move(sound);
   return Done{};

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <numeric>
 
-#include "core/base/formatted.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/place_response.h"
 #include "core/geometry/angles.h"
@@ -309,14 +308,14 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
       "square. Held-out recordings gave no name and no number; all they may do is take a name away that they "
       "contradict.");
   if (d.unseen_gain)
-    report.paragraph(
-        formatted(*d.unseen_gain < 0.0
-                      ? "Unseen, the recordings are less likely by %.1f in log-likelihood with what was found than "
-                        "with the calibration alone."
-                      : "Unseen, the recordings are likelier by %.1f in log-likelihood with what was found than with "
-                        "the calibration alone. Where each sample of the truth errs by more than the way over a metre, "
-                        "this shows what the errors below cannot.",
-                  std::abs(*d.unseen_gain)));
+    report.paragraph(number_text(
+        *d.unseen_gain < 0.0
+            ? "Unseen, the recordings are less likely by %.1f in log-likelihood with what was found than "
+              "with the calibration alone."
+            : "Unseen, the recordings are likelier by %.1f in log-likelihood with what was found than with "
+              "the calibration alone. Where each sample of the truth errs by more than the way over a metre, "
+              "this shows what the errors below cannot.",
+        std::abs(*d.unseen_gain)));
   bars.title = "Position error over each metre or radian";
   bars.x_label = "position error [mm]";
   if (!bars.groups.empty()) report.picture(bar_picture(bars));

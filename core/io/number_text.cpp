@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <system_error>
+
+#include "core/base/formatted.h"
 
 namespace odolab {
 
@@ -55,10 +56,6 @@ std::string in_quotes(std::string_view text) {
   return result + "'";
 }
 
-std::string number_text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string number_text(const char* format, double value) { return formatted(format, value); }
 
 }  // namespace odolab

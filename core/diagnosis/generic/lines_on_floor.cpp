@@ -152,7 +152,7 @@ std::array<StrongestLine, kManyOnLine> strongest_lines(const AskedModel& asked, 
       const std::ptrdiff_t at = bin_at(s.position);
       cross(bins.crossings_of_vehicle, was, at);
       const auto k = static_cast<std::size_t>(at);
-      const Crossing by = crossing(s, b, normal);
+      const Crossing by = crossing(s, b, normal);  // the products of `units_of` with the score, in one walk
       bins[OnLine::steered][k].add(0, by.way_m * by.cos_twice, score.turn_rad);
       bins[OnLine::steered][k].add(1, by.way_m * by.sin_twice, score.turn_rad);
       bins[OnLine::carried][k].add(0, by.over_m, s.cos_heading * score.forward_m - s.sin_heading * score.sideways_m);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/calibration/left_out.h"
 #include "test/support/drive_generator.h"
@@ -224,47 +225,41 @@ TEST(Innovations, LeaveTruthOutsideTheWheelsTimeOut) {
   EXPECT_FALSE(run->truth_has_heading);
 }
 
-TEST(Innovations, KeepAPoseAtTheEndThatIsStampedALittleLaterThanTheWheelsThatStandThere) {
+// A hundred readings at 50 Hz of wheels that turn alike, with a pose as they begin and one 0.32 s behind the last.
+Recording with_a_late_end(const std::function<double(int reading)>& turned_rad) {
   const double nan = std::nan("");
+  Recording r;
+  Channel left{"left_wheel_rad", {}}, x{"truth_x_m", {}}, y{"truth_y_m", {}};
+  for (int i = 0; i < 100; ++i) {
+    r.time_s.push_back(0.02 * i);
+    left.values.push_back(turned_rad(i));
+    x.values.push_back(i == 0 ? 0.0 : nan);
+    y.values.push_back(i == 0 ? 0.0 : nan);
+  }
+  r.time_s.push_back(2.3);
+  left.values.push_back(nan);
+  x.values.push_back(7.0);
+  y.values.push_back(0.0);
+  r.channels = {left, {"right_wheel_rad", left.values}, x, y};
+  return r;
+}
+
+TEST(Innovations, KeepAPoseAtTheEndThatIsStampedALittleLaterThanTheWheelsThatStandThere) {
   for (const bool stands : {true, false}) {
-    Recording r;
-    Channel left{"left_wheel_rad", {}}, x{"truth_x_m", {}}, y{"truth_y_m", {}};
-    for (int i = 0; i < 100; ++i) {
-      r.time_s.push_back(0.02 * i);
-      left.values.push_back(stands ? std::min(i, 98) : i);
-      x.values.push_back(i == 0 ? 0.0 : nan);
-      y.values.push_back(i == 0 ? 0.0 : nan);
-    }
-    r.time_s.push_back(2.3);
-    left.values.push_back(nan);
-    x.values.push_back(7.0);
-    y.values.push_back(0.0);
-    r.channels = {left, {"right_wheel_rad", left.values}, x, y};
+    const Recording r = with_a_late_end([&](int i) { return stands ? std::min(i, 98) : i; });
     EXPECT_EQ(innovation_run(r, Vehicle{}).ok(), stands) << "where it drives on nobody knows how far";
   }
 }
 
 TEST(Innovations, KeepSuchAPoseWhereWheelsHardlyMovedUntilThen) {
-  const double nan = std::nan("");
   const Vehicle vehicle;
   const auto drive = std::get<DifferentialDrive>(vehicle.kind);
   const double count_rad = 2.0 * kPi / drive.counts_per_wheel_turn();
-  // It comes 0.32 s behind the last reading, as which one of a count less is taken.
   for (const double speed_mps : {0.0, 0.002, 0.02}) {
-    Recording r;
-    Channel left{"left_wheel_rad", {}}, x{"truth_x_m", {}}, y{"truth_y_m", {}};
-    for (int i = 0; i < 100; ++i) {
+    const Recording r = with_a_late_end([&](int i) {
       const double creeps_rad = 0.02 * std::max(0, i - 70) * speed_mps / drive.wheel_radius_left_m;
-      r.time_s.push_back(0.02 * i);
-      left.values.push_back(0.1 * std::min(i, 70) - creeps_rad - (i == 99 ? count_rad : 0.0));
-      x.values.push_back(i == 0 ? 0.0 : nan);
-      y.values.push_back(i == 0 ? 0.0 : nan);
-    }
-    r.time_s.push_back(2.3);
-    left.values.push_back(nan);
-    x.values.push_back(7.0);
-    y.values.push_back(0.0);
-    r.channels = {left, {"right_wheel_rad", left.values}, x, y};
+      return 0.1 * std::min(i, 70) - creeps_rad - (i == 99 ? count_rad : 0.0);  // read a count less at last
+    });
     EXPECT_EQ(innovation_run(r, vehicle).ok(), speed_mps * 0.32 < 0.001) << speed_mps << " m/s";
   }
 }

@@ -215,6 +215,15 @@ TEST(DiagnosisReport, DrawsNoErrorsWhereNoneCouldBeGathered) {
   EXPECT_EQ(html.find("position error [mm]"), std::string::npos);
 }
 
+TEST(DiagnosisReport, SaysToItsEndHowLikelyUnseenRecordingsAre) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.unseen_gain = -12587.5;
+  EXPECT_NE(
+      diagnosis_report(d).text().find("less likely by 12587.5 in log-likelihood with what was found than with the "
+                                      "calibration alone."),
+      std::string::npos);
+}
+
 TEST(DiagnosisReport, AnEmptyDiagnosisHasAPageToo) {
   const std::string html = diagnosis_report({}).text();
   EXPECT_NE(html.find("cannot say"), std::string::npos);
