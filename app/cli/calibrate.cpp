@@ -10,6 +10,7 @@
 #include "core/calibration/internal.h"
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/given_recordings.h"
+#include "core/diagnosis/quality/bridged_recording.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "core/odometry/prediction.h"
@@ -46,12 +47,17 @@ struct PerMetre {
 };
 
 // Calibrates without each recording in turn and predicts the one left out.
-std::string held_out_text(const std::vector<Recording>& recordings, const Vehicle& nominal) {
+std::string held_out_text(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                          const LeastSquaresOptions& how) {
   PerMetre held_out;
   for (std::size_t left_out = 0; left_out < recordings.size() && !interrupted(); ++left_out) {
-    std::vector<Recording> others = recordings;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-    const Result<ExternalCalibration> fitted = calibrate_externally(others, nominal);
+    const auto without = [left_out](auto all) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(left_out));
+      return all;
+    };
+    LeastSquaresOptions of_others = how;
+    of_others.left_out = without(how.left_out);
+    const Result<ExternalCalibration> fitted = calibrate_externally(without(recordings), nominal, {}, of_others);
     if (fitted) held_out.add(recordings[left_out], fitted->vehicle);
   }
   return interrupted() ? "stopped" : held_out.text();
@@ -91,6 +97,8 @@ int execute_calibrate(const CalibrateOptions& options) {
     Result<ImportedRecording> loaded = load_recording(path);
     if (!loaded) return bad_input(loaded.error());
     for (const std::string& warning : loaded->warnings) print_message("warning: " + path + ": " + warning);
+    if (const std::optional<Error> unknown = ticks_of_unknown_size(loaded->recording, *nominal, path))
+      return bad_input(*unknown);
     recordings.push_back(std::move(loaded->recording));
   }
   if (const auto* drive = std::get_if<DifferentialDrive>(&nominal->kind))
@@ -102,11 +110,19 @@ int execute_calibrate(const CalibrateOptions& options) {
   // What both ways can calibrate is calibrated by the truth, where there is one.
   const bool by_truth = from_outside && (!from_inside || std::all_of(recordings.begin(), recordings.end(), has_truth));
   if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);
+  LeastSquaresOptions how;
+  for (Recording& recording : recordings) {
+    BridgedRecording sound = bridged_recording(recording, *nominal, Looks::at_truth_too);
+    for (const std::string& fault : sound.said) print_message("warning: " + fault);
+    how.left_out.emplace_back();
+    if (!sound.said.empty()) how.left_out.back() = std::move(sound.left_out_s);
+    recording = std::move(sound.recording);
+  }
   PutRight put_right = mountings_put_right(recordings, *nominal, [](double) { return !interrupted(); });
   for (const MovedMounting& m : put_right.moved) print_message("warning: " + m.recording + ": " + m.sentence());
   recordings = std::move(put_right.recordings);
   const Result<ExternalCalibration> calibration =
-      calibrate_externally(recordings, *nominal, terminal_progress("calibrating"));
+      calibrate_externally(recordings, *nominal, terminal_progress("calibrating"), how);
   if (!calibration) return bad_input(calibration.error());
   bool anything = false;
   for (const CalibratedPart& part : calibration->parts)
@@ -131,7 +147,7 @@ int execute_calibrate(const CalibrateOptions& options) {
   std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
   if (recordings.size() > 1)
-    rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal)});
+    rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal, how)});
   print_table(rows);
   for (const CalibratedPart& part : calibration->parts)
     for (const std::string& warning : part.calibration.warnings)

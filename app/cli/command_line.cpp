@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 
 #include "app/cli/command.h"
 #include "app/cli/terminal.h"
@@ -12,6 +13,18 @@ namespace {
 std::vector<Command> commands() {
   return {gui_command(),     run_command(),    calibrate_command(), diagnose_command(),
           predict_command(), import_command(), export_command(),    reproduce_command()};
+}
+
+// Whether a word is a number of that kind, in the words of all other bad input.
+template <typename Number>
+CLI::Validator number_as(const char* expected) {
+  const auto problem = [expected](const std::string& word) -> std::string {
+    Number number{};
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (fault == std::errc() && end == word.data() + word.size()) return "";
+    return "found '" + word + "', expected " + expected;
+  };
+  return {problem, ""};
 }
 
 class CliArguments : public Arguments {
@@ -29,10 +42,10 @@ class CliArguments : public Arguments {
     app_.add_option(name, value, about)->required(required);
   }
   void option(const std::string& name, int& value, const std::string& about) override {
-    app_.add_option(name, value, about);
+    app_.add_option(name, value, about)->check(number_as<int>("a whole number"));
   }
   void option(const std::string& name, double& value, const std::string& about) override {
-    app_.add_option(name, value, about);
+    app_.add_option(name, value, about)->check(number_as<double>("a number"));
   }
   void flag(const std::string& name, bool& value, const std::string& about) override {
     app_.add_flag(name, value, about);

@@ -3,7 +3,9 @@
 #include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/obeyed_commands.h"
+#include "core/diagnosis/quality/bridged_recording.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/model_toml.h"
 #include "core/io/track_csv.h"
@@ -24,6 +26,8 @@ int execute_predict(const PredictOptions& options) {
   if (!vehicle) return bad_input(vehicle.error());
   const Result<ImportedRecording> loaded = load_recording(options.recording);
   if (!loaded) return bad_input(loaded.error());
+  if (const std::optional<Error> unknown = ticks_of_unknown_size(loaded->recording, *vehicle, options.recording))
+    return bad_input(*unknown);
   FittedModel model{*vehicle, {}, {}};
   if (!options.model.empty()) {
     Result<FittedModel> read = read_model(options.model);
@@ -32,7 +36,9 @@ int execute_predict(const PredictOptions& options) {
       return bad_input({options.model + ": " + same.error().where, same.error().found, same.error().expected});
     model = std::move(*read);
   }
-  const Recording recording = with_obeyed_commands(loaded->recording, *vehicle, model.vehicle);
+  const BridgedRecording sound = bridged_recording(loaded->recording, *vehicle, Looks::at_wheels_alone);
+  for (const std::string& fault : sound.said) print_message("warning: " + fault);
+  const Recording recording = with_obeyed_commands(sound.recording, *vehicle, model.vehicle);
   const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());

@@ -14,10 +14,19 @@ namespace odolab {
 
 namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
+int letters_of_progress = 0;  // on the terminal's last line
+
+void wipe_progress() {
+  if (letters_of_progress > 0) std::fprintf(stderr, "\r%*s\r", letters_of_progress, "");
+  letters_of_progress = 0;
+}
 }  // namespace
 
-void print_error(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
-void print_message(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+void print_error(const std::string& line) {
+  wipe_progress();
+  std::fprintf(stderr, "%s\n", line.c_str());
+}
+void print_message(const std::string& line) { print_error(line); }
 
 int bad_input(const Error& error) {
   print_error(error.message());
@@ -53,10 +62,12 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
 
 Progress terminal_progress(const std::string& label) {
   const bool shown = isatty(STDERR_FILENO) != 0;
-  return [label, shown](double share) {
+  return [label, shown, most = 0.0](double share) mutable {
     if (shown) {
-      std::fprintf(stderr, "\r%s %3.0f %%", label.c_str(), 100.0 * share);
-      if (share >= 1.0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(label.size()) + 6, "");
+      most = std::max(most, share);  // what is looked at twice is no step back
+      std::fprintf(stderr, "\r%s %3.0f %%", label.c_str(), 100.0 * most);
+      letters_of_progress = letters_of(label) + 6;
+      if (share >= 1.0) wipe_progress();
       std::fflush(stderr);
     }
     return !interrupted();

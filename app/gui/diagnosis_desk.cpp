@@ -35,17 +35,6 @@ std::string truth_words(const Recording& recording) {
   return words;
 }
 
-bool is_same_run(const Recording& a, const Recording& b) {
-  if (a.time_s != b.time_s || a.channels.size() != b.channels.size()) return false;
-  for (std::size_t c = 0; c < a.channels.size(); ++c) {
-    const std::vector<double>&u = a.channels[c].values, &v = b.channels[c].values;
-    if (a.channels[c].name != b.channels[c].name || u.size() != v.size()) return false;
-    for (std::size_t i = 0; i < u.size(); ++i)
-      if (!(u[i] == v[i] || (std::isnan(u[i]) && std::isnan(v[i])))) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void DiagnosisDesk::remember() {
@@ -130,13 +119,19 @@ void DiagnosisDesk::set_vehicle(const Vehicle& vehicle) {
 }
 
 Result<Done> DiagnosisDesk::add(const std::string& path, ImportedRecording imported) {
-  Recording& recording = imported.recording;
   for (const Run& run : given_.runs)
-    if (is_same_run(*run.recording, recording)) {
+    if (same_samples(*run.recording, imported.recording)) {
       if (run.path != path) return Done{};  // the other file of a pair that is dropped with it
       return Error{path, "the same run as " + run.name, "one that is not in the list"};
     }
   remember();
+  append(path, std::move(imported));
+  changed();
+  return Done{};
+}
+
+void DiagnosisDesk::append(const std::string& path, ImportedRecording imported) {
+  Recording& recording = imported.recording;
   Run run;
   run.path = path;
   run.notes = std::move(imported.warnings);
@@ -152,8 +147,6 @@ Result<Done> DiagnosisDesk::add(const std::string& path, ImportedRecording impor
   run.truth = std::make_shared<const Track>(std::move(truth));
   run.recording = std::make_shared<const Recording>(std::move(recording));
   given_.runs.push_back(std::move(run));
-  changed();
-  return Done{};
 }
 
 void DiagnosisDesk::carry_out(const ui::DiagnosisAction& action, Jobs& jobs) {
@@ -198,13 +191,12 @@ void DiagnosisDesk::draw_mystery(std::uint64_t seed, Jobs& jobs) {
       [this, drawn](bool cancelled) {
         if (cancelled || !*drawn) return;
         remember();
-        const std::size_t kept = undo_.size();
         given_ = Given{};
         answer_.reset();
         given_.vehicle = (*drawn)->nominal;
-        for (const Recording& recording : (*drawn)->recordings) (void)add("", {recording, {}});
-        undo_.resize(kept);  // one step
+        for (const Recording& recording : (*drawn)->recordings) append("", {recording, {}});
         given_.mystery = *drawn;
+        changed();
       });
   if (!started) complain("Busy " + jobs.name() + ": draw a robot when it is done.");
 }

@@ -92,6 +92,7 @@ class DiagnosisDesk {
   };
   using Choice = std::vector<bool>;
 
+  void append(const std::string& path, ImportedRecording imported);
   void remember();
   void changed();
   void judge_runs();

@@ -12,6 +12,7 @@
 #include "app/gui/session.h"
 #include "app/gui/settings.h"
 #include "app/gui/window.h"
+#include "core/io/file_kind.h"
 
 namespace odolab {
 
@@ -102,7 +103,7 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
   if (session.mode() == ui::Mode::calibrate &&
       !session.guide().shown()) {  // the picture shows what a click on both buttons leads to
     const std::optional<Benchmark>& asked = session.run().scenario().benchmark;
-    session.execute(ui::StartBenchmark{asked ? asked->runs_each_way : 5, asked && !asked->extended});
+    session.execute(ui::StartBenchmark{asked ? asked->runs_each_way : 5, asked.has_value()});
     session.execute(ui::ApplyCalibration{});
   }
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
@@ -195,8 +196,12 @@ int run_gui(const GuiOptions& options) {
   Session session(!for_picture, data.empty() ? "" : data + "/guides",
                   data.empty() ? "" : data + "/edited_scenario.toml");
   if (options.files.empty()) session.take_up_edits();
-  if (options.mystery >= 0) mode = ui::Mode::diagnose;
-  if (mode == ui::Mode::diagnose) session.execute(ui::SetMode{*mode});  // what is opened belongs to it
+  const auto recordings = std::count_if(options.files.begin(), options.files.end(), [](const std::string& file) {
+    const FileKind kind = file_kind(file);
+    return kind == FileKind::recording || kind == FileKind::foreign_recording;
+  });
+  if (options.mystery >= 0 || (!mode && recordings > 1)) mode = ui::Mode::diagnose;  // which has a list of them
+  if (mode == ui::Mode::diagnose) session.execute(ui::SetMode{*mode});               // what is opened belongs to it
   for (const std::string& file : options.files)
     if (!session.open(file) && for_picture) {  // a person reads it in the window, a script on the terminal
       std::fprintf(

@@ -12,8 +12,9 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoNavFocus;
 
 // Of the width, for both panes beside the middle, a floor or a guide's page.
-constexpr float kMostAside = 0.68f, kMostBesidePage = 0.58f;
-constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;  // heights at scale 1
+constexpr float kMostAside = 0.68f, kMostBesidePage = 0.58f, kLeastLeft = 0.27f;
+constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;      // heights at scale 1
+constexpr float kLeastMiddleWidth = 380.0f, kLeastRight = 240.0f;  // widths at scale 1
 
 }  // namespace
 
@@ -27,12 +28,12 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on
                            : 0.0f;
   float left = state.choices.hide_interface ? 0.0f : theme.px(float(state.left_width));
   float right = state.choices.hide_interface ? 0.0f : theme.px(float(state.right_width));
-  const float too_wide =
-      (left + right) / ((on_page ? kMostBesidePage : kMostAside) * screen.x);  // the middle is what people look at
-  if (too_wide > 1.0f) {
-    left = std::round(left / too_wide);
-    right = std::round(right / too_wide);
-  }
+  // The middle is what people look at: what stands to the right of it, numbers, gives way first.
+  const float most = std::min((on_page ? kMostBesidePage : kMostAside) * screen.x,
+                              std::max(0.5f * screen.x, screen.x - theme.px(kLeastMiddleWidth)));
+  right = std::round(std::min(right, std::max(most - left, std::min(right, theme.px(kLeastRight)))));
+  left = std::round(std::min(left, std::max(most - right, kLeastLeft * screen.x)));
+  right = std::round(std::min(right, std::max(0.0f, most - left)));
   const float begin = top, height = std::max(40.0f, screen.y - begin - bottom);
   l.top_size = {screen.x, top};
   l.left_low = {0, begin};

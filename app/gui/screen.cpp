@@ -193,7 +193,7 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
       state.drive_transport.show_heading = session.lesson().step().plot_heading;
     if (const std::optional<Benchmark>& asked = session.run().scenario().benchmark) {
       state.calibrate.runs_each_way = asked->runs_each_way;
-      state.calibrate.keep_things = !asked->extended;  // what lies on its floor belongs to its experiment
+      state.calibrate.keep_things = true;  // what lies on its floor belongs to its experiment
     }
   }
   if (state.choices.fit_view) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "app/gui/first_scenario.h"
+#include "core/diagnosis/given_recordings.h"
+#include "core/diagnosis/quality/bridged_recording.h"
 #include "core/io/file_kind.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/recording_csv.h"
@@ -180,7 +182,7 @@ bool Session::open(const std::string& path) {
       opened = open_lesson(path);
       break;
     case FileKind::guide:
-      opened = done_or_said(guide_.resume(path, jobs_));
+      opened = !refuse_while_busy("the session") && done_or_said(guide_.resume(path, jobs_));
       if (opened) mode_ = ui::Mode::calibrate;
       break;
     default:
@@ -245,12 +247,20 @@ bool Session::open_recording(const std::string& path) {
   }
   for (const std::string& warning : imported->warnings) say(imported->recording.name + ": " + warning, false);
   if (guide_in_hand()) return done_or_said(guide_.take(path, imported->recording, jobs_));
-  const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
+  const Recording& read = imported->recording;
   // With the vehicle that was opened, or else with the one that drives, if only that has such encoders.
   const Vehicle& driving = run_->scenario().vehicle;
-  const bool fits = opened_vehicle_ && (missing_columns(*recording, *opened_vehicle_).empty() ||
-                                        !missing_columns(*recording, driving).empty());
-  compare(recording, replay_scenario(fits ? *opened_vehicle_ : driving, *recording));
+  const bool fits =
+      opened_vehicle_ && (missing_columns(read, *opened_vehicle_).empty() || !missing_columns(read, driving).empty());
+  const Vehicle& vehicle = fits ? *opened_vehicle_ : driving;
+  if (!opened_vehicle_)
+    say_for_a_while("Taken for a recording of " + vehicle.name +
+                    ", the vehicle in Drive; open its own file if it is of another.");
+  if (const std::optional<Error> unknown = ticks_of_unknown_size(read, vehicle, path)) return refused(*unknown);
+  BridgedRecording sound = bridged_recording(read, vehicle, Looks::at_truth_too);
+  for (const std::string& fault : sound.said) say(fault, false);
+  const auto recording = std::make_shared<const Recording>(std::move(sound.recording));
+  compare(recording, replay_scenario(vehicle, *recording));
   return true;
 }
 

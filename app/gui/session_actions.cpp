@@ -193,8 +193,12 @@ struct Session::Executor {
   }
   void operator()(const ui::CancelJob&) const { s.jobs_.cancel(); }
   void operator()(const ui::ShowGuides& a) const { s.guide_.show(a.on); }
-  void operator()(const ui::BeginGuide& a) const { s.guide_.begin(a.kind, a.real_robot, s.run_->scenario()); }
-  void operator()(const ui::ResumeGuide& a) const { s.done_or_said(s.guide_.resume(a.path, s.jobs_)); }
+  void operator()(const ui::BeginGuide& a) const {
+    if (!s.refuse_while_busy("the session")) s.guide_.begin(a.kind, a.real_robot, s.run_->scenario());
+  }
+  void operator()(const ui::ResumeGuide& a) const {
+    if (!s.refuse_while_busy("the session")) s.done_or_said(s.guide_.resume(a.path, s.jobs_));
+  }
   void operator()(const ui::LeaveGuide&) const {
     if (!s.refuse_while_busy("something else")) s.guide_.leave();
   }

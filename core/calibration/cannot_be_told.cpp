@@ -19,6 +19,9 @@ namespace {
 struct Driven {
   double travel_m = 0.0;  // of the centre, forwards and backwards alike
   double turn_rad = 0.0;  // left and right alike
+  double left_m = 0.0, right_m = 0.0;
+
+  bool by_one_wheel() const { return std::min(left_m, right_m) < 0.01 * std::max(left_m, right_m); }
 };
 
 Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
@@ -27,6 +30,8 @@ Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive
   for (const InnovationRun& run : runs) {
     double since_rad = 0.0;
     for (const DriveStep& step : drive_steps(run, drive)) {
+      driven.left_m += std::abs(step.left_m);
+      driven.right_m += std::abs(step.right_m);
       driven.travel_m += 0.5 * std::abs(step.left_m + step.right_m);
       since_rad += step.turn_rad;
       if (std::abs(since_rad) > kTrembles_rad) driven.turn_rad += std::abs(std::exchange(since_rad, 0.0));
@@ -58,9 +63,13 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
                                                   : "wheel_radius_right_m") +
                         ": too little travel against the truth's noise" + so_far +
                         "; drive a straight of a few metres");
+  constexpr double kTurned_rad = 1.0;
   if (base)
-    sentences.push_back("wheelbase_m: the robot hardly turned" + so_far +
-                        "; drive a full turn on the spot each way, or arcs");
+    sentences.push_back(std::string("wheelbase_m: ") +
+                        (driven.turn_rad < kTurned_rad ? "the robot hardly turned"
+                         : driven.by_one_wheel()       ? "one wheel alone rolled, which shows its radius by the wheelbase"
+                                                       : "what it does to these turns the wheel radii do as well") +
+                        so_far + "; drive a full turn on the spot each way, or arcs");
   if (open(column::mounting_x) || open(column::mounting_y))
     sentences.push_back(std::string("truth_mounting.") +
                         (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m"

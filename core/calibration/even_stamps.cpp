@@ -71,26 +71,57 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   return ends;
 }
 
-// The rows' numbers, missing ones counted, where all stamps tremble by so little that each gap tells how many it holds;
-// else nothing. `period_s`, that of many rows and so without packets, is made that of these.
-std::vector<int> numbers_told_by_gaps(const Series& time_s, double& period_s) {
-  constexpr double kTrembles = 0.35, kAlike = 0.3;  // periods
+// The period of stamps with these numbers, by a straight line through each stretch without a pause.
+double period_by_lines(const Series& time_s, const std::vector<int>& numbers, double otherwise_s) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t from = 0, end = 1; from < numbers.size(); from = end++) {
+    while (end < numbers.size() && numbers[end] - numbers[end - 1] < kPause) ++end;
+    double mean_s = 0.0, mean = 0.0;
+    for (std::size_t i = from; i < end; ++i) mean_s += time_s[i] - time_s[from], mean += numbers[i] - numbers[from];
+    mean_s /= static_cast<double>(end - from), mean /= static_cast<double>(end - from);
+    for (std::size_t i = from; i < end; ++i) {
+      const double by = numbers[i] - numbers[from] - mean;
+      product += by * (time_s[i] - time_s[from] - mean_s);
+      square += by * by;
+    }
+  }
+  return square > 0.0 ? product / square : otherwise_s;
+}
+
+// The rows' numbers, missing ones counted, where stamps tremble by so little about an even beat that nearly each tells
+// its own; else nothing. `period_s`, that of many rows and so without packets, is made that of these.
+std::vector<int> numbers_told_by_beat(const Series& time_s, double& period_s) {
+  constexpr double kUnclear = 0.45, kAlike = 0.3, kOfOne = 0.6;  // periods
+  constexpr double kFollows = 0.1;                               // of what a stamp is off the beat: slow clocks drift
+  constexpr double kMostUnclear = 0.01;                          // of the stamps
   Series gaps;
   for (std::size_t i = 1; i < time_s.size(); ++i) gaps.push_back(time_s[i] - time_s[i - 1]);
-  const double usual_s = quantile(gaps, 0.5);
-  if (std::abs(usual_s - period_s) > kAlike * period_s) return {};
+  const double middle_s = quantile(gaps, 0.5);
+  if (std::abs(middle_s - period_s) > kAlike * period_s) return {};
+  double near_s = 0.0, near = 0.0;
+  for (const double gap_s : gaps)
+    if (std::abs(gap_s - middle_s) < kOfOne * middle_s) near_s += gap_s, near += 1.0;
+  const double usual_s = near_s / std::max(1.0, near);
   std::vector<int> numbers{0};
-  double taken_s = 0.0, taken = 0.0;
-  for (const double gap_s : gaps) {
-    const double periods = std::clamp(std::round(gap_s / usual_s), 1.0, static_cast<double>(kPause));
-    if (periods < kPause) {
-      if (std::abs(gap_s - periods * usual_s) > kTrembles * usual_s) return {};
-      taken_s += gap_s;
-      taken += periods;
+  double begin_s = time_s[0], unclear = 0.0;  // when number 0 was by the beat as it is now
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    const int before = numbers.back();
+    if (gaps[i - 1] > kPause * usual_s) {
+      numbers.push_back(before + kPause);
+      begin_s = time_s[i] - usual_s * numbers.back();
+      continue;
     }
-    numbers.push_back(numbers.back() + static_cast<int>(periods));
+    int number = static_cast<int>(std::lround((time_s[i] - begin_s) / usual_s));
+    // Of two that seem to have one number the first was late, if it left one out.
+    if (number <= before && i > 1 && numbers[i - 2] < before - 1) numbers.back() = before - 1;
+    number = std::max(number, numbers.back() + 1);
+    const double off = (time_s[i] - begin_s) / usual_s - number;
+    unclear += std::abs(off) > kUnclear ? 1.0 : 0.0;
+    begin_s += kFollows * std::clamp(off, -0.5, 0.5) * usual_s;
+    numbers.push_back(number);
   }
-  if (taken > 0.0) period_s = taken_s / taken;
+  if (unclear > kMostUnclear * static_cast<double>(time_s.size())) return {};
+  period_s = period_by_lines(time_s, numbers, period_s);
   return numbers;
 }
 
@@ -232,7 +263,8 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   if (!(even.period_s > 0.0)) return std::nullopt;
   even.time_s = time_s;
   const double grain_s = grain_of(time_s);
-  std::vector<int> numbers = numbers_told_by_gaps(time_s, even.period_s);
+  const double round_s = even.period_s;  // of twenty rows, where what stamps are rounded by cancels
+  std::vector<int> numbers = numbers_told_by_beat(time_s, even.period_s);
   const bool told = !numbers.empty();
   const std::vector<int> ends = told ? ends_of_told(numbers) : ends_of_stretches(time_s, even.period_s, look);
   if (!told) {
@@ -243,7 +275,8 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   int from = 0, laid = 0, blocks = 0, wandering = 0;
   for (const int end : ends) {
     if (end - from >= kLeastStretch) {
-      if (!lay_straight(time_s, numbers, from, end, even.period_s, grain_s, even.time_s))
+      if (!lay_straight(time_s, numbers, from, end, round_s, grain_s, even.time_s) &&
+          !lay_straight(time_s, numbers, from, end, even.period_s, grain_s, even.time_s))
         lay_line(time_s, numbers, from, end, even.period_s, even.time_s);
       for (int i = from; i < end; ++i) stretch[i] = i > from && numbers[i] - numbers[i - 1] == 1 ? stretch[i - 1] : i;
       laid += end - from;

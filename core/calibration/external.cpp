@@ -199,11 +199,11 @@ Result<ExternalCalibration> calibrate_train(const std::vector<Recording>& record
 }
 
 Result<ExternalCalibration> calibrate_tracks(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                                             const Progress& progress) {
+                                             const LeastSquaresOptions& options, const Progress& progress) {
   const Tracked& before = std::get<Tracked>(nominal.kind);
   Vehicle drive = nominal;
   drive.kind = as_differential_drive(before);
-  Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, drive, {}, progress);
+  Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, drive, options, progress);
   if (!found) return found.error();
   const DifferentialDrive& seems = std::get<DifferentialDrive>(found->vehicle.kind);
   Tracked after = before;
@@ -237,11 +237,11 @@ bool can_calibrate_externally(const Vehicle& vehicle) {
 }
 
 Result<ExternalCalibration> calibrate_externally(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                                                 const Progress& progress) {
-  if (std::holds_alternative<Tracked>(nominal.kind)) return calibrate_tracks(recordings, nominal, progress);
+                                                 const Progress& progress, const LeastSquaresOptions& options) {
+  if (std::holds_alternative<Tracked>(nominal.kind)) return calibrate_tracks(recordings, nominal, options, progress);
   if (std::holds_alternative<EncoderTrailer>(nominal.kind) || std::holds_alternative<SmartEncoderTrailer>(nominal.kind))
     return calibrate_train(recordings, nominal, progress);
-  Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, nominal, {}, progress);
+  Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, nominal, options, progress);
   if (!found) return found.error();
   ExternalCalibration result;
   result.vehicle = found->vehicle;

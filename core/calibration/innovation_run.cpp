@@ -5,6 +5,7 @@
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
+#include "core/calibration/repeated_stamps.h"
 #include "core/calibration/rests.h"
 #include "core/calibration/slow_counts.h"
 #include "core/calibration/smoothed_readings.h"
@@ -87,10 +88,8 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
   if (even) run.warnings = even->said;
   const Recording& recording = even ? even->recording : as_logged;
   run.name = where;
-  const std::vector<WheelSample> read = wheel_samples(recording, drive);
-  for (const WheelSample& w : read)
-    if (run.wheels.empty() || w.time_s > run.wheels.back().time_s) run.wheels.push_back(w);
-  if (read.empty())
+  run.wheels = without_repeated(wheel_samples(recording, drive));
+  if (run.wheels.empty())
     return Error{where, "no wheel rotation", "left_wheel_rad and right_wheel_rad, or left_ticks and right_ticks"};
   if (run.wheels.size() < 2)
     return Error{where, "wheel rotation at one time alone", "two readings or more, at times that go on"};

@@ -120,7 +120,7 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
     }
   }
   // A truth without noise has none that lasts.
-  Result<LeastSquaresCalibration> result = all_are_computed
+  Result<LeastSquaresCalibration> result = all_are_computed || options.truth_is_white
                                                ? calibrated_by_all(measured, nominal, options, progress)
                                                : calibrated_by_white_truth(measured, nominal, options, progress);
   if (result) result->warnings.insert(result->warnings.begin(), said.begin(), said.end());

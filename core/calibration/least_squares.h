@@ -27,9 +27,10 @@ struct LeastSquaresOptions {
   int most_iterations = 30;
   // Of each recording, on the wheels' clock, from one reading to another: no motion across these is used. Without it
   // the gaps between readings. Whoever gives it has put stamps of arrival right.
-  std::vector<std::vector<std::pair<double, double>>> left_out;
+  std::vector<std::optional<std::vector<std::pair<double, double>>>> left_out;
   // Of each recording, where they are known: held as they are, and stamps put right by the rates.
   std::vector<AlignedClock> clocks;
+  bool truth_is_white = false;  // all its samples are used, though its noise seems to last
   bool by_commands = false;  // the wheels are those that would have obeyed commands; a base follows them in its own way
 
   std::optional<std::vector<std::pair<double, double>>> left_out_of(std::size_t recording) const {

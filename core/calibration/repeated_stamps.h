@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/recording/recording.h"
+
 namespace odolab {
 
 struct SpreadStamps {
@@ -14,5 +16,8 @@ struct SpreadStamps {
 // Readings that share a stamp, put apart evenly: over the gap behind it, or that before it, where this is longer than
 // the usual gap by as many periods as there are readings too many. Nothing where none is. `time_s` never decreases.
 std::optional<SpreadStamps> spread_repeated(const std::vector<double>& time_s);
+
+// Those whose stamp is later than that of the one before.
+std::vector<WheelSample> without_repeated(const std::vector<WheelSample>& readings);
 
 }  // namespace odolab

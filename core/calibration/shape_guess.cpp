@@ -20,10 +20,10 @@ struct Sample {
   double left_rad = 0.0, right_rad = 0.0;  // by how much the wheels turned since the one before
   Vec2 truth;
 };
-using Stretch = std::vector<Sample>;
+using ShapeStretch = std::vector<Sample>;
 
-Stretch stretch_between(const InnovationRun& run, double from_s, double to_s, double late_s) {
-  Stretch stretch;
+ShapeStretch stretch_between(const InnovationRun& run, double from_s, double to_s, double late_s) {
+  ShapeStretch stretch;
   double next_s = from_s;
   WheelSample before;
   const auto first = std::lower_bound(run.truth.begin(), run.truth.end(), from_s,
@@ -43,7 +43,7 @@ Stretch stretch_between(const InnovationRun& run, double from_s, double to_s, do
   return stretch;
 }
 
-double size2(const Stretch& stretch) {
+double size2(const ShapeStretch& stretch) {
   Vec2 mean{};
   for (const Sample& s : stretch) mean = mean + s.truth;
   mean = (1.0 / static_cast<double>(stretch.size())) * mean;
@@ -58,7 +58,7 @@ struct Drive {
 };
 
 // Mean square distance of the dead-reckoned stretch from the truth, laid onto it as well as turning and shifting can.
-double misfit_of_stretch(const Stretch& stretch, const Drive& drive) {
+double misfit_of_stretch(const ShapeStretch& stretch, const Drive& drive) {
   Pose pose;
   Vec2 mean_guess{}, mean_truth{};
   std::vector<Vec2> guess;
@@ -89,23 +89,23 @@ double misfit_of_stretch(const Stretch& stretch, const Drive& drive) {
 
 std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal,
                                       const TruthMounting& mounting) {
-  std::vector<Stretch> stretches;
+  std::vector<ShapeStretch> stretches;
   double sizes = 0.0;
   for (const InnovationRun& run : runs) {
     if (run.truth_has_heading || run.truth.size() < kFewestShapeSamples || run.wheels.size() < 2) return std::nullopt;
     for (double from_s = run.truth.front().time_s; from_s < run.truth.back().time_s; from_s += kStretch_s) {
-      Stretch stretch = stretch_between(run, from_s, from_s + kStretch_s, mounting.time_offset_s);
+      ShapeStretch stretch = stretch_between(run, from_s, from_s + kStretch_s, mounting.time_offset_s);
       if (stretch.size() < kFewestShapeSamples || size2(stretch) < kShortestAcross_m * kShortestAcross_m) continue;
       stretches.push_back(std::move(stretch));
     }
   }
   if (stretches.empty()) return std::nullopt;
   if (stretches.size() > kMostStretches) {  // evenly over all
-    std::vector<Stretch> fewer;
+    std::vector<ShapeStretch> fewer;
     for (std::size_t k = 0; k < kMostStretches; ++k) fewer.push_back(stretches[k * stretches.size() / kMostStretches]);
     stretches = std::move(fewer);
   }
-  for (const Stretch& s : stretches) sizes += size2(s);
+  for (const ShapeStretch& s : stretches) sizes += size2(s);
   const std::size_t kept = std::max<std::size_t>(1, static_cast<std::size_t>((1.0 - kWorstOfShape) * stretches.size()));
 
   // By the logarithm of each size, and the tracked point in parts of the wheelbase.
@@ -119,7 +119,7 @@ std::optional<ShapeGuess> shape_guess(const std::vector<InnovationRun>& runs, co
   const auto worst_left_out = [&](const std::vector<double>& v) {
     const Drive drive = drive_of(v);
     std::vector<double> each;
-    for (const Stretch& s : stretches) each.push_back(misfit_of_stretch(s, drive));
+    for (const ShapeStretch& s : stretches) each.push_back(misfit_of_stretch(s, drive));
     std::nth_element(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(kept - 1), each.end());
     double sum = 0.0;
     for (std::size_t k = 0; k < kept; ++k) sum += each[k];

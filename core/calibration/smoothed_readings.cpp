@@ -12,7 +12,10 @@ namespace {
 constexpr double kHalfWindow_s = 0.25;
 constexpr int kFewestForACurve = 2;  // to either side; a parabola through three readings smooths nothing
 
-void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel, std::vector<WheelSample>& out) {
+}  // namespace
+
+std::vector<WheelSample> smoothed(const std::vector<WheelSample>& readings) {
+  std::vector<WheelSample> out = readings;
   const int n = static_cast<int>(readings.size());
   int half = 0;
   for (int i = 0; i < n; ++i) {
@@ -26,19 +29,13 @@ void smooth(const std::vector<WheelSample>& readings, double WheelSample::*wheel
     if (half < kFewestForACurve) continue;
     Parabola p;
     for (int k = i - half; k <= i + half; ++k)
-      p.add(readings[k].time_s - middle.time_s, readings[k].*wheel - middle.*wheel);
-    const double by = p.middle();
-    if (std::isfinite(by)) out[i].*wheel += by;  // stamps may all be the same
+      p.add(readings[k].time_s - middle.time_s,
+            {readings[k].left_rad - middle.left_rad, readings[k].right_rad - middle.right_rad});
+    const BothWheels by = p.middle();
+    if (!std::isfinite(by.left)) continue;  // stamps are all the same
+    out[i].left_rad += by.left;
+    out[i].right_rad += by.right;
   }
-}
-
-}  // namespace
-
-std::vector<WheelSample> smoothed(const std::vector<WheelSample>& readings) {
-  std::vector<WheelSample> out = readings;
-  if (readings.empty()) return out;
-  smooth(readings, &WheelSample::left_rad, out);
-  smooth(readings, &WheelSample::right_rad, out);
   return out;
 }
 

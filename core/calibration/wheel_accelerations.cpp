@@ -15,10 +15,9 @@ constexpr double kOfCurve = 1903.0;         // n T^4 times the second derivative
 constexpr double kShareOfTremble = 0.001;   // of the accelerations' variance
 constexpr std::size_t kFewestReadings = 4;  // readings, two to either side of an interval
 
-std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, double WheelSample::*wheel,
-                                     double over_s) {
+std::vector<BothWheels> accelerations_of(const std::vector<WheelSample>& readings, double over_s) {
   const std::size_t n = readings.size();
-  std::vector<double> of(n - 1);
+  std::vector<BothWheels> of(n - 1);
   for (std::size_t i = 0, lo = 0, hi = 1; i + 1 < n; ++i) {
     const double middle_s = 0.5 * (readings[i].time_s + readings[i + 1].time_s);
     while (middle_s - readings[lo].time_s > 0.5 * over_s) ++lo;
@@ -29,12 +28,14 @@ std::vector<double> accelerations_of(const std::vector<WheelSample>& readings, d
     Parabola p;
     const double reach_s =
         1.05 * std::max({0.5 * over_s, middle_s - readings[from].time_s, readings[to].time_s - middle_s});
+    const double a_reach = 1.0 / reach_s;
     for (std::size_t k = from; k <= to; ++k) {
-      const double away_s = readings[k].time_s - middle_s, u = away_s / reach_s;
-      p.add(away_s, readings[k].*wheel - readings[i].*wheel, (1.0 - u * u) * (1.0 - u * u));
+      const double away_s = readings[k].time_s - middle_s, u = away_s * a_reach, w = 1.0 - u * u;
+      p.add(away_s, {readings[k].left_rad - readings[i].left_rad, readings[k].right_rad - readings[i].right_rad},
+            w * w);
     }
-    const double by = p.second_derivative();
-    if (std::isfinite(by)) of[i] = by;  // stamps may all be the same
+    const BothWheels by = p.second_derivative();
+    if (std::isfinite(by.left)) of[i] = by;  // stamps may all be the same
   }
   return of;
 }
@@ -54,24 +55,17 @@ double tremble_of(const std::vector<WheelSample>& readings, double WheelSample::
   return median(std::move(squares)) / kMiddle / kOfOne;
 }
 
-struct Accelerations {
-  std::vector<double> quick, steady;
-};
-
-Accelerations steady_and_quick(const std::vector<WheelSample>& readings, double WheelSample::*wheel) {
+// Over how long readings are to be looked at, both wheels together; `steady`: accelerations over the longest.
+double window_s(const std::vector<WheelSample>& readings, const std::vector<BothWheels>& steady) {
   const double whole_s = readings.back().time_s - readings.front().time_s;
   const double rate_hz = static_cast<double>(readings.size() - 1) / std::max(whole_s, 1e-9);
-  Accelerations of;
-  of.steady = accelerations_of(readings, wheel, kLongestWindow_s);
   double square = 0.0;
-  for (double a : of.steady) square += a * a;
-  square /= static_cast<double>(of.steady.size());
-  const double needed_s =
-      square > 0.0 ? std::pow(kOfCurve * tremble_of(readings, wheel) / (rate_hz * kShareOfTremble * square), 0.2)
-                   : kLongestWindow_s;
-  of.quick = needed_s < kLongestWindow_s ? accelerations_of(readings, wheel, std::max(needed_s, kShortestWindow_s))
-                                         : of.steady;
-  return of;
+  for (const BothWheels& a : steady) square += a.left * a.left + a.right * a.right;
+  square /= static_cast<double>(steady.size());
+  if (square == 0.0) return kLongestWindow_s;
+  const double tremble = tremble_of(readings, &WheelSample::left_rad) + tremble_of(readings, &WheelSample::right_rad);
+  const double needed_s = std::pow(kOfCurve * tremble / (rate_hz * kShareOfTremble * square), 0.2);
+  return std::clamp(needed_s, kShortestWindow_s, kLongestWindow_s);
 }
 
 }  // namespace
@@ -79,10 +73,11 @@ Accelerations steady_and_quick(const std::vector<WheelSample>& readings, double 
 std::vector<WheelAcceleration> wheel_accelerations(const std::vector<WheelSample>& readings) {
   if (readings.size() < kFewestReadings)
     return std::vector<WheelAcceleration>(readings.empty() ? 0 : readings.size() - 1);
-  const Accelerations left = steady_and_quick(readings, &WheelSample::left_rad),
-                      right = steady_and_quick(readings, &WheelSample::right_rad);
-  std::vector<WheelAcceleration> of(left.quick.size());
-  for (std::size_t i = 0; i < of.size(); ++i) of[i] = {left.quick[i], right.quick[i], left.steady[i], right.steady[i]};
+  const std::vector<BothWheels> steady = accelerations_of(readings, kLongestWindow_s);
+  const double over_s = window_s(readings, steady);
+  const std::vector<BothWheels> quick = over_s < kLongestWindow_s ? accelerations_of(readings, over_s) : steady;
+  std::vector<WheelAcceleration> of(quick.size());
+  for (std::size_t i = 0; i < of.size(); ++i) of[i] = {quick[i].left, quick[i].right, steady[i].left, steady[i].right};
   return of;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/diagnosis/naming/own_noise.h"
+#include "core/diagnosis/naming/select.h"
 
 namespace odolab {
 
@@ -12,9 +13,8 @@ namespace {
 // left without it, unless it is beyond doubt: without what is large no fit is linear.
 CandidateTest tested_in_place(const JointModel& of_all, std::size_t k, const Effect& effect,
                               const std::vector<double>& shape) {
-  constexpr double kBeyondDoubt = 200.0;
   CandidateTest test = of_all.test(of_all.columns_of(effect, shape), static_cast<int>(k));
-  if (of_all.scalars() > kFewestToTellNoise || test.statistic > kBeyondDoubt) return test;
+  if (of_all.scalars() > kFewestToTellNoise || test.statistic > kDecisive) return test;
   JointModel without = of_all;
   of_all.lost_without(static_cast<int>(k), &without);
   without.fit_noise_and_all();

@@ -32,14 +32,14 @@ void choose_form(const Predictor& predictor, JointModel& joint, std::size_t name
     if (other.test.shape == shape) continue;
     const CandidateTest test = tested_in_form(joint, name, form);
     const bool is_tested = test.value.size() == joint.accepted[name].value.size();  // else calibration leaves nothing
-    if (!is_tested || test.statistic < own - 2.0 * kClearlyBeaten ||
+    if (!is_tested || test.statistic < own - kClearlyBeaten ||
         !is_physical(joint, effect, test.value, other.test.shape))
       continue;
     other.test.value = test.value;
     JointModel model = with_instead(fitted, name, other);
     if (!best) best = predictor.of(fitted, fitted.model.noise);
     Predicted by_other = predictor.of(model, fitted.model.noise);
-    if (!by_other.unseen || !best->unseen || likelier_where_unseen(by_other, *best) < 2.0 * kClearlyBeaten) continue;
+    if (!by_other.unseen || !best->unseen || likelier_where_unseen(by_other, *best) < kClearlyBeaten) continue;
     joint = std::move(model);
     best = std::move(by_other);
   }

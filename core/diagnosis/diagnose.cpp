@@ -16,7 +16,6 @@
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/place_response.h"
 #include "core/diagnosis/ready_recordings.h"
-#include "core/diagnosis/sentences.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
 #include "core/diagnosis/warnings.h"
@@ -36,7 +35,7 @@ std::string undone_in_words(const Undone& u, const std::string& recording) {
 }
 
 // Names sought beside a calibration, and what of the recordings was left out on the way.
-struct Sought {
+struct SoughtNames {
   JointModel calibrated;
   Named names;
   std::vector<std::string> of_undone;
@@ -44,8 +43,9 @@ struct Sought {
 
 // Unset where `progress` stops it. A truth that is somewhere else for a while shows nothing of the vehicle; what does
 // so time and again is no mishap.
-std::optional<Sought> sought_beside(JointModel calibrated, const ReadyRecordings& ready, const Predictor& predictor,
-                                    const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+std::optional<SoughtNames> sought_beside(JointModel calibrated, const ReadyRecordings& ready,
+                                         const Predictor& predictor, const Vehicle& nominal,
+                                         const DiagnosisOptions& options, const Progress& progress) {
   constexpr int kMostUndone = 3;
   const double wheelbase_m = std::get<DifferentialDrive>(nominal.kind).wheelbase_m;
   calibrated.truth_errors = options.truth_errors;
@@ -56,7 +56,7 @@ std::optional<Sought> sought_beside(JointModel calibrated, const ReadyRecordings
     std::optional<Named> names =
         named(calibrated, predictor, options.family_wise_error, progress, left_out < kMostUndone);
     if (!names) return std::nullopt;
-    if (!names->selected.undone) return Sought{std::move(calibrated), std::move(*names), std::move(of_undone)};
+    if (!names->selected.undone) return SoughtNames{std::move(calibrated), std::move(*names), std::move(of_undone)};
     const Undone& u = *names->selected.undone;
     of_undone.push_back(undone_in_words(u, ready.train[static_cast<std::size_t>(u.run)].recording.name));
     calibrated.leave_out(u.run, u.from_s, u.to_s);
@@ -159,20 +159,39 @@ void draw(Diagnosis& d, const JointModel& calibrated, const JointModel& said) {
   if (!about.at.empty()) d.responses.insert(d.responses.begin(), std::move(about));
 }
 
-// `shows_beside_held_out`: whether what has no name shows only together with what was held out.
-Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                            bool* shows_beside_held_out = nullptr) {
+// Of the recordings that `d` was fitted to, and of those it was not.
+void name_recordings(Diagnosis& d, const std::vector<Recording>& train, const std::vector<Recording>& held_out) {
+  for (const Recording& r : train) d.fitted_on.push_back(r.name);
+  for (const Recording& r : held_out) d.held_out_runs.push_back(r.name);
+}
+
+// Recordings made ready and calibrated, and the names that were sought beside.
+struct Looked {
+  ReadyRecordings ready;
+  Predictor predictor;
+  SoughtNames sought;
+
+  bool names_explain_all() const {
+    const JointModel& joint = sought.names.joint;
+    return std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                       [](const AcceptedEffect& a) { return a.acts_on_motion(); }) &&
+           joint.distrust() == 0.0;
+  }
+};
+
+Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                         const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
+                         bool truth_is_white) {
   const Error stopped{"diagnosis", "stopped before its end", ""};
-  const Result<ReadyRecordings> ready =
-      ready_recordings(train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); });
+  Result<ReadyRecordings> ready = ready_recordings(
+      train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); }, truth_is_white);
   if (!ready) return ready.error();
   Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
   if (!calibrated_only) return calibrated_only.error();
   if (!goes_on(progress, 0.3)) return stopped;
 
-  const Predictor predictor(ready->held_out, ready->calibration, nominal);
-  std::optional<Sought> sought = sought_beside(*calibrated_only, *ready, predictor, nominal, options, progress);
+  Predictor predictor(ready->held_out, ready->calibration, nominal);
+  std::optional<SoughtNames> sought = sought_beside(*calibrated_only, *ready, predictor, nominal, options, progress);
   if (!sought) return stopped;
   // What seemed a truth that comes back has names now: they are sought as if it never did.
   if (sought->calibrated.model.noise.wander_lasts_s > 0.0 && sought->names.joint.model.noise.wander_lasts_s == 0.0) {
@@ -181,6 +200,25 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
     sought = sought_beside(*calibrated_only, *ready, predictor, nominal, options, progress);
     if (!sought) return stopped;
   }
+  return Looked{*std::move(ready), std::move(predictor), *std::move(sought)};
+}
+
+// `shows_beside_held_out`: whether what has no name shows only together with what was held out.
+Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
+                            bool* shows_beside_held_out = nullptr) {
+  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false);
+  if (!looked) return looked.error();
+  // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
+  // samples, and with names all of them are white, it was that.
+  if (looked->ready.calibration.truth_apart_s > 0.0 && looked->names_explain_all()) {
+    Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true);
+    if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
+    if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
+  }
+  const ReadyRecordings* const ready = &looked->ready;
+  const Predictor& predictor = looked->predictor;
+  const SoughtNames* const sought = &looked->sought;
   const JointModel& calibrated = sought->calibrated;
   const Named& names = sought->names;
   const JointModel& joint = names.joint;
@@ -231,7 +269,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
         adequacy.generic.front().as_effect, train);
   if (found.empty() || !known) stand_by_calibration(d);
   draw(d, calibrated, said);
-  d.sentences = sentences_of(d);
+  name_recordings(d, train, held_out);
   return d;
 }
 
@@ -243,7 +281,7 @@ std::optional<Diagnosis> named_beside_held_out(const Diagnosis& given, const std
   std::vector<Recording> all = train;
   all.insert(all.end(), held_out.begin(), held_out.end());
   Result<Diagnosis> d =
-      diagnosed(all, {}, nominal, options, [&](double share) { return goes_on(progress, 0.5 + 0.5 * share); });
+      diagnosed(all, {}, nominal, options, [&](double share) { return goes_on(progress, 0.75 + 0.25 * share); });
   if (!d || (d->verdict != Verdict::found && d->verdict != Verdict::ambiguous)) return std::nullopt;
   constexpr double kTakenUp = 0.1;  // of what an effect does, that calibration leaves of it
   bool has_a_name = false;
@@ -276,7 +314,11 @@ ActiveEffect Finding::as_active() const {
 
 Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                            const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
-  if (has_units(nominal)) return diagnose_units(train, held_out, nominal, options, progress);
+  if (has_units(nominal)) {
+    Result<Diagnosis> d = diagnose_units(train, held_out, nominal, options, progress);
+    if (d) name_recordings(*d, train, held_out);
+    return d;
+  }
   if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
   if (const std::vector<std::string> problems = problems_in(std::get<DifferentialDrive>(nominal.kind));
       !problems.empty())

@@ -68,11 +68,12 @@ struct Finding {
   double log_likelihood_gain = 0.0;
   double p_value = 1.0;  // family-wise over all candidates and scans
   std::vector<Alternative> alternatives;
-  double share_of_mismatch = 0.0;   // of the chi-square above noise that calibration leaves
-  std::optional<MovedTrack> moves;  // unset where it is none of the vehicle's motion
-  GatheredEvidence gathered;        // empty where it is none of the motion
-  std::string sentence;             // the finding in plain words
-  int form = 0;                     // which of the ways in which the effect shows, and in words where there are several
+  double share_of_mismatch = 0.0;  // of the chi-square above noise that calibration leaves
+  // Unset where it is none of the vehicle's motion; of what has no name, by the curves that were fitted to it.
+  std::optional<MovedTrack> moves;
+  GatheredEvidence gathered;  // empty where it is none of the motion
+  std::string sentence;       // the finding in plain words
+  int form = 0;               // which of the ways in which the effect shows, and in words where there are several
   std::string form_in_words;
 
   ActiveEffect as_active() const;
@@ -128,9 +129,10 @@ struct Residuals {
 
 struct Diagnosis {
   Verdict verdict = Verdict::cannot_say;
-  LeastSquaresCalibration calibration;        // together with the findings: what predicts with them
-  LeastSquaresCalibration calibration_alone;  // as if nothing were missing: what the findings are held against
-  std::optional<Vehicle> fitted_vehicle;      // of `calibration`, unset where no model could be fitted
+  std::vector<std::string> fitted_on, held_out_runs;  // names of recordings
+  LeastSquaresCalibration calibration;                // together with the findings: what predicts with them
+  LeastSquaresCalibration calibration_alone;          // as if nothing were missing: what the findings are held against
+  std::optional<Vehicle> fitted_vehicle;              // of `calibration`, unset where no model could be fitted
   std::vector<std::pair<std::string, double>>
       truth_clock_s;  // the offset of the truth's clock in each recording fitted on
   // Strongest first; data faults among them: truth_frozen, encoder_data_fault, and truth_mounting_offset where
@@ -147,8 +149,7 @@ struct Diagnosis {
   std::vector<AskedEffect> asked;  // every effect once, the likeliest first
   std::vector<NotTestable> not_testable;
   std::string next_drive;
-  std::vector<DriveLeg> next_legs;     // the same to be driven; empty where words are all there is
-  std::vector<std::string> sentences;  // the summary that a person reads in a minute
+  std::vector<DriveLeg> next_legs;  // the same to be driven; empty where words are all there is
   std::vector<std::string> warnings;
   std::vector<Response> responses;                           // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings

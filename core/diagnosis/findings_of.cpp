@@ -65,6 +65,7 @@ Finding unknown_of(const Unnamed& more, const Named& names) {
   unknown.component = more.component;
   unknown.where = more.where;
   unknown.gathered = more.gathered;
+  unknown.moves = more.moves;
   unknown.log_likelihood_gain = 0.5 * more.gain;
   unknown.p_value = more.p_value;
   unknown.sentence = "something that no entry of the catalogue describes: " + unknown.where.regime;

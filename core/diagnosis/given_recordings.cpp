@@ -22,9 +22,22 @@ std::string in_columns(const Recording& recording) {
 
 }  // namespace
 
+std::optional<Error> ticks_of_unknown_size(const Recording& recording, const Vehicle& vehicle,
+                                           const std::string& path) {
+  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
+  const auto* tracked = std::get_if<Tracked>(&vehicle.kind);
+  const bool is_assumed = (drive && drive->counts_are_assumed) || (tracked && tracked->counts_are_assumed);
+  const bool has_rotations = recording.channel("left_wheel_rad") && recording.channel("right_wheel_rad");
+  if (!is_assumed || has_rotations || !recording.channel("left_ticks") || !recording.channel("right_ticks"))
+    return std::nullopt;
+  return Error{path, "ticks, and nothing in the vehicle's file that says how many make a turn",
+               "encoder_counts_per_revolution under [" + kind_name(vehicle) + "]"};
+}
+
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path) {
   if (const std::vector<std::string> problems = problems_in(recording); !problems.empty())
     return Error{path + ": " + problems.front(), "", ""};
+  if (std::optional<Error> unknown = ticks_of_unknown_size(recording, vehicle, path)) return unknown;
   if (const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind)) {
     const std::size_t inputs = std::max(wheel_samples(recording, *drive).size(), command_samples(recording).size());
     if (inputs < 2)

@@ -14,6 +14,9 @@ namespace odolab {
 // What keeps a recording from being judged at all; `path` stands for it in the error.
 std::optional<Error> unusable(const Recording& recording, const Vehicle& vehicle, const std::string& path);
 
+// Ticks of a vehicle whose file does not say how many make a turn; `path` stands for the recording in the error.
+std::optional<Error> ticks_of_unknown_size(const Recording& recording, const Vehicle& vehicle, const std::string& path);
+
 // The first recording that is another one once more; `paths` stand for them in the error. Twice as sure of a run's
 // noise a fit takes it for physics.
 std::optional<Error> given_twice(const std::vector<Recording>& recordings, const std::vector<std::string>& paths);

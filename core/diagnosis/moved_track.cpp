@@ -7,10 +7,7 @@
 
 namespace odolab {
 
-std::optional<MovedTrack> moved_by(const JointModel& joint, std::size_t accepted_effect) {
-  if (!joint.accepted[accepted_effect].acts_on_motion()) return std::nullopt;
-  JointModel without = joint;
-  joint.lost_without(static_cast<int>(accepted_effect), &without);
+std::optional<MovedTrack> moved_between(const JointModel& without, const JointModel& joint) {
   std::vector<Pose> moved;  // of each stretch
   for (int r = 0; r < static_cast<int>(joint.runs().size()); ++r)
     if (const std::optional<TrackError> e = track_error(without.dead_reckoned(r), joint.dead_reckoned(r)))
@@ -30,6 +27,13 @@ std::optional<MovedTrack> moved_by(const JointModel& joint, std::size_t accepted
   }
   if (stretches == 0) return std::nullopt;
   return MovedTrack{std::sqrt(sum_m2 / stretches), std::sqrt(sum_rad2 / stretches)};
+}
+
+std::optional<MovedTrack> moved_by(const JointModel& joint, std::size_t accepted_effect) {
+  if (!joint.accepted[accepted_effect].acts_on_motion()) return std::nullopt;
+  JointModel without = joint;
+  joint.lost_without(static_cast<int>(accepted_effect), &without);
+  return moved_between(without, joint);
 }
 
 }  // namespace odolab

@@ -9,6 +9,9 @@
 
 namespace odolab {
 
+// How far apart two models of the same recordings dead-reckon. Unset where no recording is a stretch long.
+std::optional<MovedTrack> moved_between(const JointModel& without, const JointModel& joint);
+
 // Unset where the effect does not act on the motion, or no recording is a stretch long.
 std::optional<MovedTrack> moved_by(const JointModel& joint, std::size_t accepted_effect);
 

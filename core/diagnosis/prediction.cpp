@@ -2,6 +2,7 @@
 #include "core/odometry/prediction.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/diagnosis.h"
@@ -87,7 +88,7 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     for (TimedPose& p : track) p.pose = start * between(there, p.pose);
   }
   for (TimedPose& p : track) p = {p.time_s + with.truth.time_offset_s, p.pose * mounting};
-  return from_commands ? at_commands(track, ready.recording) : track;
+  return within_bounds(from_commands ? at_commands(track, ready.recording) : std::move(track), recording);
 }
 
 }  // namespace odolab

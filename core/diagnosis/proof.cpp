@@ -208,32 +208,32 @@ double likelier_where_unseen(const Predicted& one, const Predicted& other) {
 // name whose form is not quite the world's made unseen runs less likely by 23 at most (of 222 sets of two programs).
 constexpr double kNeverByItsForm = 100.0;  // twice the log-likelihood
 
-double worse_where_unseen(const Predicted& one, const Predicted& other, bool is_white) {
+Denied denied_where_unseen(const Predicted& one, const Predicted& other, bool is_white) {
   const double likelier = likelier_where_unseen(one, other);
-  if (is_white && likelier > 2.0 * kClearlyBeaten) return 0.0;
-  if (likelier < -kNeverByItsForm) return -likelier;
+  if (is_white && likelier > kClearlyBeaten) return {};
+  if (likelier < -kNeverByItsForm) return {.by_likelihood = -likelier};
   JointModel::GatheredError was, is;
   for (std::size_t m = 0; m < one.unseen->of_model.size(); ++m) {
     if (!one.tells(m, other)) continue;
     was.add(other.unseen->of_model[m]);
     is.add(one.unseen->of_model[m]);
   }
-  return worse_than_chance(was, is);
+  return {.by_dead_reckoning = worse_than_chance(was, is)};
 }
 
 std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel& joint, const Predicted& by_joint,
                                    const Predicted& by_calibrated) {
   if (joint.accepted.empty() || !by_joint.unseen) return std::nullopt;
   const bool is_white = joint.distrust() == 0.0;
-  if (worse_where_unseen(by_joint, by_calibrated, is_white) <= 0.0) return std::nullopt;
+  if (denied_where_unseen(by_joint, by_calibrated, is_white) <= Denied{}) return std::nullopt;
   std::optional<std::size_t> worst;
-  double most = 0.0;
+  Denied most;
   for (std::size_t k = 0; k < joint.accepted.size(); ++k) {
     JointModel without = joint;
     without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
     without.fit(3);
-    const double worse = worse_where_unseen(by_joint, predictor.of(without, joint.model.noise), is_white);
-    if (worse > most) most = worse, worst = k;
+    const Denied denied = denied_where_unseen(by_joint, predictor.of(without, joint.model.noise), is_white);
+    if (denied > most) most = denied, worst = k;
   }
   return worst;
 }

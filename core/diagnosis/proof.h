@@ -2,6 +2,7 @@
 // and with a term of equal freedom that means nothing.
 #pragma once
 
+#include <compare>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -63,10 +64,16 @@ struct Compared {
 void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
            const std::shared_ptr<const Effect>& spline, const std::vector<Recording>& train);
 
-// By what share of its squared error dead reckoning of what was not fitted is worse by one model than by another,
-// beyond chance. Zero where innovations are white and make the one likelier: windows of a metre hold few of the moments
-// at which a clock or a short event shows, and all of the wheels' noise.
-double worse_where_unseen(const Predicted& one, const Predicted& other, bool is_white);
+// How much what was not fitted speaks against one model beside another. The worse of two, in this order.
+struct Denied {
+  double by_likelihood = 0.0;  // twice that by which it is less likely, where that is more than a form's error makes
+  double by_dead_reckoning = 0.0;  // the share by which its squared error grows beyond chance
+  auto operator<=>(const Denied&) const = default;
+};
+
+// Nothing where innovations are white and make the one likelier: windows of a metre hold few of the moments at which a
+// clock or a short event shows, and all of the wheels' noise.
+Denied denied_where_unseen(const Predicted& one, const Predicted& other, bool is_white);
 
 // By how much twice the log-likelihood of what was not fitted is larger by one model than by another.
 double likelier_where_unseen(const Predicted& one, const Predicted& other);

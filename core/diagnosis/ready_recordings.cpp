@@ -163,7 +163,7 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
 }  // namespace
 
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                         const Vehicle& nominal, const Progress& progress) {
+                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white) {
   if (train.empty()) return Error{"recordings", "none", "one or more"};
   ReadyRecordings ready;
   std::uint64_t first_seed = 1;
@@ -201,6 +201,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   const auto calibrate = [&]() -> Result<Done> {
     LeastSquaresOptions with_faults_left_out;
     with_faults_left_out.by_commands = ready.from_commands;
+    with_faults_left_out.truth_is_white = truth_is_white;
     std::vector<Recording> fitted;
     for (const CheckedRecording& c : ready.train) {
       fitted.push_back(c.recording);

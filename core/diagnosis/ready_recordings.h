@@ -22,9 +22,9 @@ struct ReadyRecordings {
 };
 
 // Of a differential drive's recordings. An error where one is no recording, cannot be calibrated on, or `progress`
-// stops it.
+// stops it. `truth_is_white`: as of LeastSquaresOptions.
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                         const Vehicle& nominal, const Progress& progress);
+                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white = false);
 
 // All that were fitted under their calibration, with their noise, and no effect yet. `truth_may_come_back`: whether it
 // is asked after how long the truth's frame does (JointModel::truth_may_come_back).

@@ -28,8 +28,13 @@ bool simulator_follows(const Diagnosis& d) {
          simulated->heading_rms_rad < kAsFar * model->heading_rms_rad;
 }
 
+bool simulator_lacks_the_form(const Diagnosis& d) {
+  return std::any_of(d.findings.begin(), d.findings.end(),
+                     [](const Finding& f) { return f.effect == "slip_zone" && f.form > 0; });
+}
+
 bool is_refuted_by_simulator(const Diagnosis& d) {
-  if (!simulator_follows(d)) return false;
+  if (!simulator_follows(d) || simulator_lacks_the_form(d)) return false;
   // A base that is late and a clock that is are one and the same, with the finding and without.
   const bool any_physics = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
     return can_be_switched_on(f) && f.effect != "actuator_delay" && f.effect != "clock_rate";

@@ -16,4 +16,8 @@ bool is_refuted_by_simulator(const Diagnosis& diagnosis);
 // alone, of which its error is a whole run's, make it err by more: then it neither confirms nor refutes.
 bool simulator_follows(const Diagnosis& diagnosis);
 
+// Whether something was found in a form that the simulator does not have: on its floor a wheel slips where that wheel
+// is, and not where the axle's middle is. Then it does not refute either.
+bool simulator_lacks_the_form(const Diagnosis& diagnosis);
+
 }  // namespace odolab

@@ -17,7 +17,7 @@ bool sits_as_given(const JointModel& joint, const Vehicle& nominal) {
   const auto is_there = [&](int column, double by_m) {
     return std::abs(by_m) < std::max(least_m, kSigmasOfBias * joint.stderr_of_nuisance(column));
   };
-  return is_there(3, now.x_m - given.x_m) && is_there(4, now.y_m - given.y_m);
+  return is_there(column::mounting_x, now.x_m - given.x_m) && is_there(column::mounting_y, now.y_m - given.y_m);
 }
 
 JointModel in_form(JointModel joint, std::size_t name, std::size_t form, const CandidateTest& test) {

@@ -12,14 +12,14 @@ namespace odolab {
 
 namespace {
 
-// Cells of one line, commas inside double quotes kept, the quotes themselves taken off.
-void split(std::string_view line, std::vector<std::string_view>& cells) {
+// Cells of one line, those inside double quotes kept whole, the quotes themselves taken off.
+void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   std::size_t from = 0;
   bool inside_quotes = false;
   for (std::size_t i = 0; i <= line.size(); ++i) {
     if (i < line.size() && line[i] == '"') inside_quotes = !inside_quotes;
-    if (i < line.size() && (line[i] != ',' || inside_quotes)) continue;
+    if (i < line.size() && (line[i] != delimiter || inside_quotes)) continue;
     std::string_view cell = trimmed(line.substr(from, i - from));
     if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
     cells.push_back(cell);
@@ -27,8 +27,20 @@ void split(std::string_view line, std::vector<std::string_view>& cells) {
   }
 }
 
-bool says_nan(std::string_view cell) {
-  return cell.size() == 3 && (cell[0] | 32) == 'n' && (cell[1] | 32) == 'a' && (cell[2] | 32) == 'n';
+// What divides the names of a header: a comma, or what spreadsheets write where that is the decimal point.
+char divider_of(std::string_view header) {
+  for (const char c : {',', ';', '\t'})
+    if (header.find(c) != std::string_view::npos) return c;
+  return ',';
+}
+
+// Of what no comma divides, a decimal comma is a point.
+std::optional<double> number_in(std::string_view cell, char delimiter) {
+  const std::size_t comma = delimiter == ',' ? std::string_view::npos : cell.find(',');
+  if (comma == std::string_view::npos) return number_from(cell);
+  std::string pointed(cell);
+  pointed[comma] = '.';
+  return number_from(pointed);
 }
 
 std::string listed_columns(const std::vector<std::string>& names) {
@@ -55,6 +67,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   if (!file) return file.error();
   std::string_view rest = *file;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
+  if (is_utf16(rest)) return utf16_error(path);
 
   const std::size_t carriage_return = rest.find('\r');
   if (carriage_return != std::string_view::npos && carriage_return + 1 < rest.size() &&
@@ -65,31 +78,36 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   std::vector<std::string_view> cells;
   std::vector<CsvCells> kinds;
   std::size_t time_column = 0;
+  char delimiter = ',';
   std::size_t line_number = 0;
   while (!rest.empty()) {
     const void* newline = std::memchr(rest.data(), '\n', rest.size());
     const bool ended = newline != nullptr;
     const std::size_t size =
         ended ? static_cast<std::size_t>(static_cast<const char*>(newline) - rest.data()) : rest.size();
-    const std::string_view line = trimmed(rest.substr(0, size));
+    const std::string_view line = rest.substr(0, size);
     rest.remove_prefix(ended ? size + 1 : size);
     ++line_number;
-    if (line.empty()) continue;
-    split(line, cells);
+    if (trimmed(line).empty()) continue;
+    if (table.names.empty() && line.front() == '#') continue;  // a comment above the header
+    if (table.names.empty()) delimiter = divider_of(line);
+    split(line, delimiter, cells);
     const std::string place = path + ":" + std::to_string(line_number);
 
     if (table.names.empty()) {
+      const auto is_number = [&](std::string_view cell) { return number_in(cell, delimiter).has_value(); };
+      if (std::any_of(cells.begin(), cells.end(), is_number) &&
+          std::all_of(cells.begin(), cells.end(), [&](auto cell) { return is_number(cell) || says_nothing(cell); }))
+        return Error{place, "numbers", "a header line that names the columns, 'time_s' among them"};
       for (std::string_view name : cells) table.names.emplace_back(name);
       for (std::size_t i = 0; i < cells.size(); ++i)
         if (!cells[i].empty() && std::find(cells.begin(), cells.begin() + i, cells[i]) != cells.begin() + i)
           return Error{place, "the column " + in_quotes(cells[i]) + " twice", "each column once"};
       for (const std::string& required : required_columns)
         if (std::find(table.names.begin(), table.names.end(), required) == table.names.end())
-          return table.names.size() == 1 && table.names[0].find_first_of(";\t") != std::string::npos
-                     ? Error{place, "columns that no comma divides", "commas; odolab import --map reads other text"}
-                     : Error{place, "the columns " + listed_columns(table.names),
-                             "a column " + in_quotes(required) +
-                                 (required == "time_s" ? "; odolab import --map reads other names" : "")};
+          return Error{place, "the columns " + listed_columns(table.names),
+                       "a column " + in_quotes(required) +
+                           (required == "time_s" ? "; odolab import --map reads other names" : "")};
       time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
       for (const std::string& name : table.names) kinds.push_back(cells_of(name));
       table.columns.resize(table.names.size());
@@ -104,9 +122,9 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
                    std::to_string(table.names.size()) + ", one for each column of the header"};
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      std::optional<double> value = number_from(cells[i]);
+      std::optional<double> value = number_in(cells[i], delimiter);
       if (!value) {
-        const bool empty = cells[i].empty() || says_nan(cells[i]);
+        const bool empty = says_nothing(cells[i]);
         if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))
           return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]),
                        "a number"};

@@ -21,11 +21,12 @@ struct CsvTable {
 // How strictly a column is read. Each needs `time_s`, without gaps and never decreasing.
 enum class CsvCells {
   numbers,           // every cell is a number
-  numbers_or_empty,  // a cell may be empty (or say nan)
+  numbers_or_empty,  // a cell may be empty, or say so (`says_nothing`)
   anything,          // what is no number is taken as empty
 };
 
-// Reads a whole table. CRLF, a byte-order mark, blanks around cells, quotes and empty lines are tolerated. Errors name
+// Reads a whole table. CRLF, a byte-order mark, blanks around cells, quotes, empty lines, comments above the header and
+// semicolons or tabs in the place of commas (decimal commas, then) are tolerated. Errors name
 // file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
 // many cells, a last line that is cut off, time that goes back, no row at all.
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,

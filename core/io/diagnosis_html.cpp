@@ -180,10 +180,10 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
     if (!(f.log_likelihood_gain > 0.0)) continue;
     BarGroup group;
     group.bars.push_back({effect_text(f.effect, f.component), f.log_likelihood_gain,
-                          number_text("%.4g", f.log_likelihood_gain), ink::kBlue});
+                          number_text("%.1f", f.log_likelihood_gain), ink::kBlue});
     for (const Alternative& a : f.alternatives)
       group.bars.push_back({"or " + effect_text(a.effect, a.component), std::max(0.0, a.log_likelihood_gain),
-                            number_text("%.4g", a.log_likelihood_gain), ink::kSky});
+                            number_text("%.1f", a.log_likelihood_gain), ink::kSky});
     for (const DrawnBar& bar : group.bars) {
       largest = std::max(largest, bar.value);
       if (bar.value > 0.0) least = std::min(least, bar.value);
@@ -204,11 +204,11 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
 
 // Why an effect that was asked for stands in no finding.
 std::string why_not_named(const AskedEffect& a, double named_gain) {
-  constexpr double kChance = 0.02, kDecisive = 10.0, kTrace = 0.15;
+  constexpr double kChance = 0.02, kTold = 10.0, kTrace = 0.15;
   if (a.named) return "";
   if (a.p_value > kChance) return "no more than chance";
   if (!a.gain_beside_findings || named_gain <= 0.0) return "";
-  if (*a.gain_beside_findings < kDecisive) return "what was found says it, too";
+  if (*a.gain_beside_findings < kTold) return "what was found says it, too";
   if (*a.gain_beside_findings < kTrace * named_gain)
     return "a trace beside it: " + number_text("%.2g %%", 100.0 * *a.gain_beside_findings / named_gain);
   return "not borne out";
@@ -216,7 +216,7 @@ std::string why_not_named(const AskedEffect& a, double named_gain) {
 
 void add_asked(HtmlReport& report, const Diagnosis& d) {
   if (d.asked.empty()) return;
-  constexpr double kCertain = 1e-12;
+  constexpr double kCertain = 1e-15;
   report.heading("Every effect that was asked for");
   report.paragraph(
       "Gain: in log-likelihood, beside the calibration and beside what was found. Chance: of such a gain where nothing "
@@ -238,7 +238,7 @@ void add_asked(HtmlReport& report, const Diagnosis& d) {
     std::vector<std::string> row{effect_text(a.effect, a.component), number_text("%.1f", a.log_likelihood_gain)};
     if (any_named)
       row.push_back(a.named ? "named" : a.gain_beside_findings ? number_text("%.1f", *a.gain_beside_findings) : "");
-    row.push_back(a.p_value < kCertain ? "under 1e-12" : number_text("%.2g", a.p_value));
+    row.push_back(a.p_value < kCertain ? "under 1e-15" : number_text("%.2g", a.p_value));
     row.push_back(why_not_named(a, named_gain));
     row.push_back(a.survives ? number_text(*a.survives < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * *a.survives) : "");
     row.push_back(a.bends ? parameter_words(a.bends->name) : "");
@@ -307,6 +307,9 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
       "root mean "
       "square. Held-out recordings gave no name and no number; all they may do is take a name away that they "
       "contradict.");
+  if (!d.fitted_on.empty())
+    report.paragraph("Fitted on " + list_of(d.fitted_on, "and") +
+                     (d.held_out_runs.empty() ? "" : "; held out: " + list_of(d.held_out_runs, "and")) + ".");
   if (d.unseen_gain)
     report.paragraph(number_text(
         *d.unseen_gain < 0.0

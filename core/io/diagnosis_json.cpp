@@ -140,6 +140,8 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   json["calibration"] = calibration_json(diagnosis.calibration);
   Json& findings = json["findings"] = Json::array();
   for (const Finding& finding : diagnosis.findings) findings.push_back(finding_json(finding));
+  json["recordings"]["fitted_on"] = diagnosis.fitted_on;
+  json["recordings"]["held_out"] = diagnosis.held_out_runs;
   Json& fit = json["fit"] = Json::object();
   fit["train"] = fit_json(diagnosis.train);
   fit["held_out"] = fit_json(diagnosis.held_out);

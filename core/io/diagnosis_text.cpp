@@ -11,6 +11,7 @@
 #include "core/diagnosis/refuted.h"
 #include "core/geometry/angles.h"
 #include "core/io/number_text.h"
+#include "core/io/regime_words.h"
 #include "core/io/verdict_sentence.h"
 #include "core/vehicle/key_words.h"
 
@@ -110,19 +111,6 @@ std::string finding_line(const Finding& f) {
   return line;
 }
 
-// "turn per metre [rad/m] that depends on speed [m/s]" as people say it.
-std::string without_units(std::string text) {
-  constexpr std::string_view kDependsOn = " that depends on ";
-  if (const std::size_t at = text.find(kDependsOn); at != std::string::npos)
-    text.replace(at, kDependsOn.size(), ", depending on ");
-  for (std::size_t from = text.find(" ["); from != std::string::npos; from = text.find(" [", from)) {
-    const std::size_t to = text.find(']', from);
-    if (to == std::string::npos) break;
-    text.erase(from, to + 1 - from);
-  }
-  return text;
-}
-
 std::string fit_line(const char* name, const FitTable& table) {
   std::string line;
   const auto add = [&](const char* what, const std::optional<FitFigures>& f) {
@@ -215,7 +203,7 @@ std::string where_text(const WhereFound& where) {
   if (where.zone)
     parts.push_back(number_text("within %.2f m", where.zone->radius_m) + number_text(" of x %.2f", where.zone->x_m) +
                     number_text(", y %.2f m", where.zone->y_m));
-  if (!where.regime.empty()) parts.push_back(without_units(where.regime));
+  if (!where.regime.empty()) parts.push_back(regime_in_words(where.regime));
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
   return text;
@@ -301,7 +289,7 @@ std::vector<std::string> finding_lines(std::size_t number, const Finding& f, std
       (f.effect == "unknown" ? std::string("   resembles, without sufficing: ") : std::string("   not beaten: ")) +
       effect_text(a.effect, a.component) + number_text(" (gain %.1f)", a.log_likelihood_gain);
   if (f.alternatives.size() > 1) other += number_text(" and %.0f more", static_cast<double>(f.alternatives.size() - 1));
-  if (!a.told_apart_by.empty()) other += "; told apart by " + without_units(a.told_apart_by);
+  if (!a.told_apart_by.empty()) other += "; told apart by " + regime_in_words(a.told_apart_by);
   append_wrapped(lines, other, columns, "   ");
   return lines;
 }
@@ -339,7 +327,9 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
   if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings) {
     const FitFigures &before = *diagnosis.simulation.calibrated, &after = *diagnosis.simulation.with_findings;
     end.push_back("   simulator: calibrated " + figures_text(before) + "  ->  with findings " + figures_text(after) +
-                  (is_refuted_by_simulator(diagnosis) ? ": it does not confirm this" : ""));
+                  (is_refuted_by_simulator(diagnosis)    ? ": it does not confirm this"
+                   : simulator_lacks_the_form(diagnosis) ? "; its floor has no patch of that form"
+                                                         : ""));
   }
   if (!diagnosis.not_testable.empty()) {
     std::vector<std::string> names;

@@ -68,6 +68,8 @@ Result<FittedModel> read_model(const std::string& path) {
   Result<TomlTable> read = TomlTable::read(path);
   if (!read) return read.error();
   TomlTable& top = *read;
+  if (!top.has("schema") && top.has("kind"))
+    return Error{path, "a vehicle's file", "a model that odolab diagnose --model wrote; --vehicle takes vehicles"};
   top.require("schema");
   top.index_of_choice("schema", 0, kModelSchemas);
   top.require("vehicle");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include "core/base/formatted.h"
@@ -28,6 +29,14 @@ std::optional<double> number_from(std::string_view text) {
   }
   if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+bool says_nothing(std::string_view cell) {
+  constexpr std::string_view kWords[] = {"", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "nil"};
+  const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  return std::any_of(std::begin(kWords), std::end(kWords), [&](std::string_view word) {
+    return std::equal(cell.begin(), cell.end(), word.begin(), word.end(), is_same);
+  });
 }
 
 void append_number(std::string& text, double value) {

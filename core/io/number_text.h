@@ -19,6 +19,9 @@ std::string_view trimmed(std::string_view text);
 // The whole of a trimmed text as a finite number; a leading '+' is allowed. Nothing where it is none.
 std::optional<double> number_from(std::string_view text);
 
+// Whether a cell stands for no number, in the words that programs have for it: nothing, NaN, NA, #N/A, null, None.
+bool says_nothing(std::string_view cell);
+
 // Appends the shortest text that reads back to the same bits. The value is finite.
 void append_number(std::string& text, double value);
 std::string number_text(double value);

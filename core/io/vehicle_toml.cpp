@@ -46,9 +46,22 @@ void wheel_fields(Drive& drive, Toml& toml) {
   toml.field("wheelbase_m", drive.wheelbase_m);
 }
 
+constexpr const char* kCounts = "encoder_counts_per_revolution";
+
+template <typename Drive>
+void counts_field(Drive& drive, TomlTable& table) {
+  drive.counts_are_assumed = !table.has(kCounts);
+  table.field(kCounts, drive.encoder_counts_per_revolution);
+}
+template <typename Drive>
+void counts_field(const Drive& drive, TomlText& text) {
+  if (drive.counts_are_assumed && drive.encoder_counts_per_revolution == Drive{}.encoder_counts_per_revolution) return;
+  text.field(kCounts, drive.encoder_counts_per_revolution);
+}
+
 template <typename Drive, typename Toml>
 void encoder_fields(Drive& drive, Toml& toml) {
-  toml.field("encoder_counts_per_revolution", drive.encoder_counts_per_revolution);
+  counts_field(drive, toml);
   toml.field("gear_ratio", drive.gear_ratio);
   toml.field("counter_bits", drive.counter_bits);
 }

@@ -44,6 +44,12 @@ Result<std::string> read_whole_file(const std::string& path) {
   return text;
 }
 
+bool is_utf16(std::string_view start) { return start.substr(0, 2) == "\xFF\xFE" || start.substr(0, 2) == "\xFE\xFF"; }
+
+Error utf16_error(const std::string& path) {
+  return {path, "text in UTF-16", "text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it"};
+}
+
 std::string read_file_start(const std::string& path, std::size_t bytes) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure)) return {};

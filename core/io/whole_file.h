@@ -14,6 +14,10 @@ namespace odolab {
 Result<std::string> read_whole_file(const std::string& path);
 
 // The first bytes of a file, enough to see what it is; empty where it cannot be read.
+// Text that programs of one make write, which nobody else reads.
+bool is_utf16(std::string_view start);
+Error utf16_error(const std::string& path);
+
 std::string read_file_start(const std::string& path, std::size_t bytes = 8192);
 
 // Writes to a temporary file beside `path` and renames it: whoever looks sees the old file or the whole new one.

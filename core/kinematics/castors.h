@@ -28,7 +28,6 @@ class CastorKinematics {
 
   const Pose& body() const { return body_; }
   double time_s() const { return time_s_; }
-  double castor_angle_rad(std::size_t castor) const { return angles_rad_[castor]; }
   // Unrounded, the pivot encoders' offsets included.
   CastorSample reading() const;
   // A wheel turns without the castor moving: spinning on ice, or climbing something.

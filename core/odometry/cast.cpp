@@ -10,14 +10,14 @@ namespace {
 constexpr int kTurnIterations = 3;  // the turn of an interval is small: each one gains about two digits
 
 // X of Eq. 16.
-struct BodyMotion {
+struct BodyShift {
   double dx_m = 0.0;
   double dy_m = 0.0;
   double dpsi_rad = 0.0;
 };
 
 // Least squares of Eqs. 13 and 14 in the body's motion, linearised at the heading psi: X = (H'H)^-1 H'Y, Eq. 15.
-BodyMotion least_squares(const std::vector<PivotWay>& pivots, double psi_rad) {
+BodyShift least_squares(const std::vector<PivotWay>& pivots, double psi_rad) {
   const double n = static_cast<double>(pivots.size());
   double m_x = 0.0, m_y = 0.0;  // the pivots' middle in the body's frame
   double d = 0.0;
@@ -40,9 +40,9 @@ BodyMotion least_squares(const std::vector<PivotWay>& pivots, double psi_rad) {
 }
 
 // Eq. 22.
-BodyMotion centred(const std::vector<PivotWay>& pivots, double psi_rad) {
+BodyShift centred(const std::vector<PivotWay>& pivots, double psi_rad) {
   const double n = static_cast<double>(pivots.size());
-  BodyMotion x;
+  BodyShift x;
   for (const PivotWay& pivot : pivots) {
     const double direction_rad = psi_rad + pivot.castor->pivot_angle_rad;
     x.dx_m += pivot.way.x_m / n;
@@ -57,7 +57,7 @@ Pose moved_by_cast(const Pose& body, const std::vector<PivotWay>& pivots, const 
   const auto solve = [&](double psi_rad) {
     return options.method == CastorMethod::cast ? least_squares(pivots, psi_rad) : centred(pivots, psi_rad);
   };
-  BodyMotion x = solve(body.heading_rad);
+  BodyShift x = solve(body.heading_rad);
   if (options.linearisation == Linearisation::middle_heading) {
     for (int i = 0; i < kTurnIterations; ++i) {
       x = solve(body.heading_rad + 0.5 * x.dpsi_rad);

@@ -1,5 +1,9 @@
 #include "core/odometry/prediction.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "core/odometry/cast.h"
 #include "core/odometry/differential_drive.h"
 #include "core/odometry/encoder_trailer.h"
@@ -11,17 +15,12 @@ namespace odolab {
 
 namespace {
 
-// The track carried to where it passes through a pose at a time, whichever samples that falls between.
-Track through(const Track& track, double start_s, const Pose& start) {
-  const std::optional<Pose> there = pose_at(track, start_s);
-  if (!there) {  // the truth begins before the wheels were read, or after: then the vehicle is taken to stand until
-                 // then
-    if (track.empty() || start_s > track.back().time_s) return {{start_s, start}};
-    return through(track, track.front().time_s, start);
-  }
-  Track moved = track;
-  for (TimedPose& p : moved) p.pose = start * between(*there, p.pose);
-  return moved;
+// The track carried to where it passes through a pose at a time, whichever samples that falls between. Before the
+// wheels were read, and after, the vehicle is taken to stand.
+Track through(Track track, double start_s, const Pose& start) {
+  const Pose there = *pose_at(track, std::clamp(start_s, track.front().time_s, track.back().time_s));
+  for (TimedPose& p : track) p.pose = start * between(there, p.pose);
+  return track;
 }
 
 // The encoders' own track, from the origin; empty where the recording lacks them.
@@ -72,8 +71,12 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     start = Pose{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)} * inverse(mounting);
     start_s = truth[0].time_s - vehicle.truth.time_offset_s;
   }
-  Track track = through(axle, start_s, start);
+  Track track = through(std::move(axle), start_s, start);
   for (TimedPose& p : track) p = {p.time_s + vehicle.truth.time_offset_s, p.pose * mounting};
+  return within_bounds(std::move(track), recording);
+}
+
+Result<Track> within_bounds(Track track, const Recording& recording) {
   for (const TimedPose& p : track)
     if (!std::isfinite(p.pose.x_m + p.pose.y_m + p.pose.heading_rad))
       return Error{recording.name, "wheel rotation or commands beyond all bounds", "a drive that stays on the floor"};

@@ -13,4 +13,7 @@ namespace odolab {
 // without a heading is taken to look along x.
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle);
 
+// A track of which each pose is on some floor; else the error of the recording that led it there.
+Result<Track> within_bounds(Track track, const Recording& recording);
+
 }  // namespace odolab

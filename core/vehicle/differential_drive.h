@@ -17,6 +17,7 @@ struct DifferentialDrive {
   double encoder_counts_per_revolution = 2000.0;
   double gear_ratio = 1.0;
   int counter_bits = 0;  // a raw counter wraps around at 2^bits; 0: it never does
+  bool counts_are_assumed = false;  // nobody said how many: ticks cannot be read
 
   double counts_per_wheel_turn() const { return encoder_counts_per_revolution * gear_ratio; }
 };

@@ -27,6 +27,7 @@ DifferentialDrive as_differential_drive(const Tracked& v) {
   drive.encoder_counts_per_revolution = v.encoder_counts_per_revolution;
   drive.gear_ratio = v.gear_ratio;
   drive.counter_bits = v.counter_bits;
+  drive.counts_are_assumed = v.counts_are_assumed;
   return drive;
 }
 

@@ -21,6 +21,7 @@ struct Tracked {
   double encoder_counts_per_revolution = 2000.0;
   double gear_ratio = 1.0;
   int counter_bits = 0;
+  bool counts_are_assumed = false;
 };
 
 std::vector<std::string> problems_in(const Tracked& vehicle);

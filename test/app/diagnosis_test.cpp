@@ -220,6 +220,7 @@ TEST(DrawnMysteryWindow, IsGuessedBeforeItIsRevealed) {
     session.advance(0.0, [] { return true; });
   };
   const auto mystery = [&] { return *session.diagnosis().view(session.jobs()).mystery; };
+  for (int i = 0; i < 40; ++i) session.execute(ui::TakeDriveVehicle{});  // more than are kept to be undone
   wish(ui::DrawMystery{3});
   ASSERT_GE(session.diagnosis().runs().size(), 4u);
   EXPECT_TRUE(session.diagnosis().vehicle());

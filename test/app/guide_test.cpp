@@ -189,6 +189,17 @@ TEST_F(GuideTest, DrivesASimulatedRobotThroughAllPages) {
   EXPECT_EQ(task(session), PageTask::finish);
 }
 
+TEST_F(GuideTest, BeginsNoOtherWhileItsRobotDrives) {
+  Session session(true, folder);
+  session.execute(ui::BeginGuide{GuideKind::umbmark, false});
+  next(session);
+  session.execute(ui::DriveGuide{});
+  ASSERT_TRUE(session.jobs().running());
+  session.execute(ui::BeginGuide{GuideKind::linked, false});
+  EXPECT_EQ(now(session).kind, GuideKind::umbmark);
+  EXPECT_EQ(session.messages().size(), 1u);
+}
+
 TEST_F(GuideTest, MeasuresWhatTenBumpsDo) {
   Session session(false, folder);
   Scenario scenario = first_scenario();

@@ -172,6 +172,8 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   expect_refused("run " + path("key.toml") + " --out " + path("run"), {"key.toml:3", "flor", "floor"}, folder / "run");
   expect_refused("run " + path("nothing.toml") + " --out " + path("run"), {"nothing.toml"}, folder / "run");
   expect_refused("run x.toml --no-such-option", {"--no-such-option"});
+  expect_refused("reproduce umbmark --seed 7up", {"--seed", "found '7up'", "expected a whole number"});
+  expect_refused("import x.csv --period 10ms", {"--period", "found '10ms'", "expected a number"});
   expect_refused("no_such_command", {"no_such_command"});
   expect_refused("diagnoze x.csv", {"diagnoze", "the nearest is diagnose"});
   expect_refused("import " + path("cut.toml") + " --out " + path("i.csv"), {"cut.toml"}, folder / "i.csv");

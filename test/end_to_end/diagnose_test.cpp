@@ -66,6 +66,7 @@ TEST(DiagnoseCommand, WritesJsonModelAndReport) {
   const nlohmann::json json = nlohmann::json::parse(text_of_file(json_file));
   EXPECT_EQ(json["schema"], "odolab.diagnosis/1");
   EXPECT_EQ(json["verdict"], "found");
+  EXPECT_EQ(json["recordings"], (nlohmann::json{{"fitted_on", {"run_1.csv"}}, {"held_out", {"run_2.csv"}}}));
   ASSERT_FALSE(json["findings"].empty());
   EXPECT_EQ(json["findings"][0]["effect"], "wheel_eccentricity");
   EXPECT_EQ(json["findings"][0]["component"], "left_wheel");

@@ -8,11 +8,11 @@ namespace {
 constexpr double kGrip_n = 150.0;
 
 // A truck on two wheels, 340 mm apart, which roll at the given speeds.
-struct Truck {
+struct LoneTruck {
   PlanarWorld world;
   int body, left, right;
 
-  Truck(double step_s, Pose start) : world(step_s), body(world.add_body({start, 50.0, 3.0})) {
+  LoneTruck(double step_s, Pose start) : world(step_s), body(world.add_body({start, 50.0, 3.0})) {
     left = world.add_tread(body, {0.0, 0.17});
     right = world.add_tread(body, {0.0, -0.17});
   }
@@ -29,7 +29,7 @@ double ramped(double speed_mps, double time_s) { return speed_mps * std::min(1.0
 TEST(PlanarWorld, KeepsToTheClosedFormOnAnArcHundredMetresAway) {
   for (const double away_m : {0.0, 100.0}) {
     const double h = 0.001;
-    Truck truck(h, {away_m, -away_m, 0.3});
+    LoneTruck truck(h, {away_m, -away_m, 0.3});
     double travel_m = 0.0;
     for (int k = 0; k < 200000; ++k) {
       const double v = ramped(0.3, (k + 0.5) * h);
@@ -85,7 +85,7 @@ TEST(PlanarWorld, ABodyWithoutGripKeepsItsVelocityWhileItSpins) {
 
 TEST(PlanarWorld, CurvesNeedTheCentripetalForce) {
   const double h = 0.001, speed = 0.5, radius = 1.0;
-  Truck truck(h, {});
+  LoneTruck truck(h, {});
   for (int k = 0; k < 4000; ++k) {
     const double v = ramped(speed, (k + 0.5) * h);
     truck.roll(v * (1.0 - 0.17 / radius), v * (1.0 + 0.17 / radius));
@@ -96,7 +96,7 @@ TEST(PlanarWorld, CurvesNeedTheCentripetalForce) {
 
 TEST(PlanarWorld, ASlidingTruckIsBrakedByCoulombFriction) {
   const double h = 0.001;
-  Truck truck(h, {});
+  LoneTruck truck(h, {});
   truck.world.apply_force(truck.body, {50.0 * 2.0 / h, 0.0});  // 2 m/s at once, wheels blocked
   int steps = 0;
   do {

@@ -80,7 +80,6 @@ inline Diagnosis diagnosis_by_hand() {
   d.not_testable = {{"lateral_slip", "no arc was driven at two speeds", "arcs of 1 m radius at 0.2 and 0.6 m/s"},
                     {"castor_reversal_kick", "the robot never reversed", "three metres forward and back"}};
   d.next_drive = "Two arcs of 1 m radius, at 0.2 and 0.6 m/s, 40 s in all.";
-  d.sentences = {"Calibration alone leaves 6.1 mm per metre; noise would leave 1.6 mm."};
   d.warnings = {"run_2.csv: 3 truth samples jump away from their neighbours and were set aside"};
   Response response{"left wheel angle [rad]", "along [mm per m]", {}, {}, {}, {}, {}};
   for (int i = 0; i <= 24; ++i) {

@@ -13,7 +13,6 @@ struct Unit {
 };
 
 inline constexpr Unit kMillimetres{"mm", 1e3, 1, 0.1};
-inline constexpr Unit kFineMillimetres{"mm", 1e3, 3, 0.005};
 inline constexpr Unit kMetres{"m", 1.0, 2, 0.01};
 inline constexpr Unit kDegrees{"°", 180.0 / 3.14159265358979323846, 2, 0.05};
 inline constexpr Unit kSpeed{"m/s", 1.0, 2, 0.005};

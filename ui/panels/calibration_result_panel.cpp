@@ -121,8 +121,9 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
       WithFont large(theme.large);
       ImGui::TextUnformatted((shown(before, kMillimetres) + " → " + shown(after, kMillimetres)).c_str());
     }
-    if (after > 0.0)
-      note("Emax,syst, " + shown(before / after, {"", 1.0, before / after < 10 ? 1 : 0, 0.0}) + " times smaller",
+    if (const double times = std::max(before, after) / std::min(before, after); std::isfinite(times))
+      note("Emax,syst, " + shown(times, {"", 1.0, times < 10 ? 1 : 0, 0.0}) +
+               (after > before ? " times larger" : " times smaller"),
            theme);
     measure_block(last, theme);
   } else {

@@ -124,7 +124,7 @@ void labels_of(const BenchExperiment& e, const PlotResult& result, const PlotVie
   if (!e.runs.counter_clockwise.empty()) label(e.measure->counter_clockwise, "ccw ");
 }
 
-Plot plot_of_errors(const Theme&) {
+Plot plot_of_errors() {
   Plot p;
   const Unit mm{"mm", 1e3, 1, 0.0};
   p.x = {"x", mm};
@@ -183,7 +183,7 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   ImGui::TextDisabled("%s",
                       fitted("true minus calculated, after each square", ImGui::GetContentRegionAvail().x).c_str());
   ImGui::SetCursorPosX(theme.px(10));
-  Plot p = plot_of_errors(theme);
+  Plot p = plot_of_errors();
   Clouds clouds;
   std::size_t points = 0;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
@@ -205,7 +205,7 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
   // The calibrated runs lie close about the origin: a second, enlarged plot in the emptiest corner.
   const float side = std::round(0.44f * std::min(result.high.x - result.low.x, result.high.y - result.low.y));
   const ImVec2 size{side * 1.15f, side};
-  Plot q = plot_of_errors(theme);
+  Plot q = plot_of_errors();
   q.legend = false;
   Clouds near;
   add_experiment(q, near, last, true, nullptr, theme);

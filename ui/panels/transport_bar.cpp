@@ -153,7 +153,7 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
   plot_of.x_low = 0.0;
   plot_of.x_high = std::max(t.total_s, t.latest_s);
   plot_of.from_zero = !state.show_heading;
-  plot_of.least_y_span = state.show_heading ? 0.001 : 0.001;
+  plot_of.least_y_span = 0.001;
   plot_of.cursor_x = t.time_s;
   plot_of.empty_text = t.empty_text;
   for (const TimeCurve& c : state.show_heading ? t.heading_curves : t.position_curves) {

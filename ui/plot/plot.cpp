@@ -43,10 +43,6 @@ std::string read_out(const Plot& what, const Frame& frame, ImVec2 mouse) {
 
 }  // namespace
 
-double PlotResult::x_at(float screen_x, const PlotView& view) const {
-  return view.x0 + double(screen_x - low.x) / (high.x - low.x) * (view.x1 - view.x0);
-}
-
 ImVec2 PlotResult::screen_at(double x, double y, const PlotView& view) const {
   return {low.x + float((x - view.x0) / (view.x1 - view.x0)) * (high.x - low.x),
           high.y - float((y - view.y0) / (view.y1 - view.y0)) * (high.y - low.y)};

@@ -83,7 +83,6 @@ struct PlotResult {
   bool hovered = false;
   std::optional<double> clicked_x;                                  // where a click without a drag landed
   std::optional<std::pair<double, double>> brushed = std::nullopt;  // once a person has let go
-  double x_at(float screen_x, const PlotView& view) const;
   ImVec2 screen_at(double x, double y, const PlotView& view) const;
 };
 

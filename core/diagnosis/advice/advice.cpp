@@ -133,7 +133,7 @@ struct Open {
 };
 
 Open open_of(const JointModel& joint, const std::vector<Confusion>& confused, const std::vector<Visible>& dark) {
-  const double told_apart = std::sqrt(2.0 * kClearlyBeaten) + kPower;
+  const double told_apart = std::sqrt(kClearlyBeaten) + kPower;
   Open open;
   std::vector<std::size_t> known, alternatives;
   for (const AcceptedEffect& a : joint.accepted) known.push_back(open.ask(a.effect, a.shape));
@@ -179,13 +179,13 @@ Open open_of(const JointModel& joint, const std::vector<Confusion>& confused, co
 }
 
 // Information on all columns: what is known before any drive and by the recordings, and what each drive would add.
-struct Known {
+struct KnownAlready {
   MatrixXd now;
   std::vector<MatrixXd> adds;
 };
 
-Known known_of(const JointModel& joint, const Open& open, const std::vector<AdvisedDrive>& all,
-               const DrivingRange& range) {
+KnownAlready known_of(const JointModel& joint, const Open& open, const std::vector<AdvisedDrive>& all,
+                      const DrivingRange& range) {
   const JointModel drives = imagined(joint, all, range);
   std::vector<Question> elsewhere = open.questions;  // neither events nor places come back
   for (Question& q : elsewhere)
@@ -196,7 +196,7 @@ Known known_of(const JointModel& joint, const Open& open, const std::vector<Advi
     parts[static_cast<std::size_t>(i)] =
         i < runs ? information(joint, i, open.questions) : information(drives, i - runs, elsewhere);
   });
-  Known known{MatrixXd::Zero(open.columns(), open.columns()), {parts.begin() + runs, parts.end()}};
+  KnownAlready known{MatrixXd::Zero(open.columns(), open.columns()), {parts.begin() + runs, parts.end()}};
   for (int r = 0; r < runs; ++r) known.now += parts[static_cast<std::size_t>(r)];
   const DifferentialDrive& d = joint.model.drive;
   const double prior[kShared] = {
@@ -207,7 +207,7 @@ Known known_of(const JointModel& joint, const Open& open, const std::vector<Advi
 
 // The drive that tells names apart, by the pair that it tells least.
 void advise_between(Advice& out, const JointModel& joint, const std::vector<Confusion>& confused, const Open& open,
-                    const Known& known, const std::vector<AdvisedDrive>& all) {
+                    const KnownAlready& known, const std::vector<AdvisedDrive>& all) {
   const std::vector<Decision>& pairs = open.pairs;
   const DrivePlan plan = planned(known.now, known.adds, all, pairs);
   std::size_t least = 0;
@@ -227,7 +227,7 @@ void advise_between(Advice& out, const JointModel& joint, const std::vector<Conf
 }
 
 // The drive that would show most of what these recordings could not.
-void advise_to_see(Advice& out, const std::vector<Visible>& dark, const Open& open, const Known& known,
+void advise_to_see(Advice& out, const std::vector<Visible>& dark, const Open& open, const KnownAlready& known,
                    const std::vector<AdvisedDrive>& all) {
   constexpr int kMostNames = 4;
   const DrivePlan plan = planned(known.now, known.adds, all, open.sights);
@@ -253,7 +253,7 @@ Advice advice(const JointModel& joint, const std::vector<Confusion>& confused, c
   const DrivingRange range = range_of(joint);
   const std::vector<AdvisedDrive> all = advised_drives(range);
   const Open open = open_of(joint, confused, dark);
-  const Known known = known_of(joint, open, all, range);
+  const KnownAlready known = known_of(joint, open, all, range);
   for (std::size_t k = 0; k < dark.size(); ++k) {
     const DrivePlan plan = planned(known.now, known.adds, all, {open.sights[k]});
     const bool is_worth_it = plan.any && plan.reached[0] >= kWorthDriving * open.sights[k].needed;

@@ -16,11 +16,12 @@ Motions lagging(const DriveView& view, double tau_s) {
   const std::size_t steps = view.steps.size();
   Motions m(steps);
   std::vector<BodyMotion> lacks(steps + 2);  // of each step, one without before and behind
-  double v = 0.0, w = 0.0;
+  double v = std::nan(""), w = v;  // of the base; not known before the first command
   for (std::size_t i = 0; i < steps; ++i) {
     const EffectStep& s = view.steps[i];
+    if (!(s.duration_s > 0.0)) continue;  // two commands may have one stamp
     const double dt = s.duration_s, command_v = s.forward_m() / dt, command_w = s.turn_rad / dt;
-    if (i == 0) v = command_v, w = command_w;
+    if (std::isnan(v)) v = command_v, w = command_w;
     const double keep = std::exp(-dt / tau_s), gone = 1.0 - keep, lack = 1.0 - tau_s / dt * gone - 0.5 * gone;
     m[i] = {(v - command_v) * gone, 0.0, (w - command_w) * gone};
     lacks[i + 1] = {(v - command_v) * lack, 0.0, (w - command_w) * lack};

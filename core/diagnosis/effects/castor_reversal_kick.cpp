@@ -5,12 +5,11 @@
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/mean_rate.h"
+#include "core/diagnosis/effects/reversals.h"
 
 namespace odolab::effects {
 
 namespace {
-constexpr double kReversed_m = 0.01;  // way back that counts; less is the trembling of a turn on the spot
-
 enum class Course { evenly, fading, of_a_castor, shortly };
 constexpr struct {
   const char* in_words;
@@ -39,33 +38,6 @@ constexpr struct {
     {"always to the same side, fading over 2 cm of way", true, Course::fading, 0.02},
     {"to one side forwards and the other in reverse, fading over 2 cm", false, Course::fading, 0.02},
 };
-
-struct Reversal {
-  std::size_t first = 0;  // step of the way back
-  std::size_t sure = 0;   // the step by which it counts
-  int direction = 1;      // of travel, from here on
-};
-
-std::vector<Reversal> reversals(const DriveView& view) {
-  std::vector<Reversal> found;
-  double travelled_m = 0.0, furthest_m = 0.0;
-  std::size_t furthest = 0;
-  int direction = 0;
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    travelled_m += view.steps[i].forward_m();
-    const double back_m = (direction == 0 ? -1 : direction) * (furthest_m - travelled_m);
-    if (direction == 0 && std::abs(travelled_m) > kReversed_m) direction = travelled_m > 0.0 ? 1 : -1;
-    if (direction != 0 && back_m > kReversed_m) {
-      direction = -direction;
-      found.push_back({furthest, i, direction});
-    }
-    if (direction == 0 || direction * (travelled_m - furthest_m) >= 0.0 || back_m > kReversed_m) {
-      furthest_m = travelled_m;
-      furthest = i + 1;
-    }
-  }
-  return found;
-}
 
 // The steps from which on it goes the other way by its speed: a stop that swings back faster than so much is one, too,
 // however short.

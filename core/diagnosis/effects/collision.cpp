@@ -22,7 +22,6 @@ std::vector<Effect> collision() {
   e.local = true;
   e.forms_of_the_scan = {1};  // half of the others' length is found by both
   e.of_one_recording = true;
-  // Both wheels may stop half a count off, the other way than they set off.
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/model/driven_again.h"
+#include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
@@ -153,10 +154,12 @@ bool is_worth_saying(const JointModel& joint, const JointModel& calibrated, cons
   if (distrust == 0.0) return !is_nothing(joint.gathered_error());
   JointModel with = joint;
   let_in(with, left);
-  // What whitens the innovations was what correlated them.
+  // What whitens the innovations, or nearly, was what correlated them: a soft mast that leans moves no metre of dead
+  // reckoning.
+  constexpr double kNearly = 0.25;
   JointModel whitened = with;
   whitened.fit_noise_and_all();
-  if (whitened.distrust() == 0.0) return !is_nothing(joint.gathered_error());
+  if (whitened.distrust() <= kNearly * distrust) return !is_nothing(joint.gathered_error());
   const JointModel::GatheredError at_first = calibrated.gathered_error(), named_only = joint.gathered_error(),
                                   with_more = with.gathered_error();
   if (!is_material(joint, named_only, with_more)) return false;
@@ -178,10 +181,19 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
   return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
 }
 
+// By a group that was let in last, and the names that did not suffice without it.
+std::optional<MovedTrack> moved_with_its_names(const JointModel& with) {
+  if (!with.accepted.back().acts_on_motion()) return std::nullopt;
+  JointModel names_only = with;
+  names_only.accepted.pop_back();
+  return moved_between(without_names(std::move(names_only), Base::stays), with);
+}
+
 // `with`: a model into which that group was let in last.
 Unnamed unnamed_by(const GenericTest& group, const JointModel& with, std::vector<Response> shape, double gain) {
   Unnamed u;
   u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
+  u.moves = moved_with_its_names(with);
   u.component = group.component;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.where.zone = group.zone;
@@ -272,7 +284,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
   };
   const auto is_as_much = [&](const GenericTest& g, double gain) {
     return (gain - by_form(g)) / g.test.inflation - by_chance(g.test.freedom, std::log(g.tests)) >
-           fair - 2.0 * kClearlyBeaten;
+           fair - kClearlyBeaten;
   };
   const bool correlated = bare.distrust() > 0.0;
   InPlaceOfNames out;
@@ -411,7 +423,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   const double fair = beyond_chance(of_vehicle);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {
     return g.test.statistic > kMostLeft * explained ||
-           g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - 2.0 * kClearlyBeaten;
+           g.instead.judged() - by_chance(g.instead.freedom, std::log(g.tests)) > fair - kClearlyBeaten;
   });
   // First beside the base's own, where there is such; then in the place of that too.
   const std::ptrdiff_t others = names_held_against(joint, Base::stays);
@@ -423,7 +435,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
         simpler_first(in_place_of_names(joint, of_vehicle, Base::goes, error), of_vehicle, Base::goes);
     out.unnamed = std::move(instead.says_more);
     out.as_likely = std::move(instead.as_much);
-    if (!out.unnamed && out.as_likely && out.as_likely->gain > said_by(of_vehicle) + 2.0 * kClearlyBeaten)
+    if (!out.unnamed && out.as_likely && out.as_likely->gain > said_by(of_vehicle) + kClearlyBeaten)
       out.unnamed = std::exchange(out.as_likely, std::nullopt);
   }
   if (sway && names == 0)

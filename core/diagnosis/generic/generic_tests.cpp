@@ -96,6 +96,32 @@ void hold_tests_against_readings(const JointModel& joint, std::vector<GenericTes
   });
 }
 
+// What is asked beside groups of values. `count`: of how many tests each is one; none of those that count their own, or
+// of which the row before is the other.
+struct MoreTests {
+  std::vector<GenericTest> (*ask)(const AskedModel& asked, double looked_at);
+  int count;
+};
+constexpr MoreTests kMoreTests[] = {
+    {uneven_wheel_tests, kUnevenWheelTests},
+    {lagging_tests, kLaggingTests},
+    {bent_truth_tests, kBentTruthTests},
+    {step_response_tests, kStepResponseTests},
+    {told_speed_tests, std::max(kToldSpeedTests, kAfterChangeTests)},  // of commands
+    {after_change_tests, 0},                                           // of wheels that are read
+    {late_truth_tests, kLateTruthTests},
+    {tracked_point_tests, kTrackedPointTests},
+    {moving_frame_tests, kMovingFrameTests},
+    {uneven_floor_tests, kUnevenFloorTests},
+    {on_the_spot_tests, kOnTheSpotTests},
+    {at_rest_tests, kAtRestTests},
+    {swinging_tests, kSwingingTestsApart},
+    {on_a_patch_tests, 0},
+    {line_tests, 0},
+    {truth_error_tests, 0},
+    {wave_tests, 0},
+};
+
 }  // namespace
 
 GenericTest asked_of(const AskedModel& asked, const std::string& variable, const std::string& channel,
@@ -142,10 +168,8 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
   }
   const auto count = static_cast<int>(asked.size());
   const double of_the_truth = joint.truth_errors ? static_cast<double>(joint.truth_errors->size()) : 0.0;
-  const double n = count + kUnevenWheelTests + kLaggingTests + kBentTruthTests + kStepResponseTests +
-                   std::max(kToldSpeedTests, kAfterChangeTests) + kLateTruthTests + kTrackedPointTests +
-                   kMovingFrameTests + kUnevenFloorTests + kOnTheSpotTests + kAtRestTests + kSwingingTestsApart +
-                   count_of_patch_tests(joint) + of_the_truth;
+  double n = count + count_of_patch_tests(joint) + of_the_truth;
+  for (const MoreTests& more : kMoreTests) n += more.count;
   std::vector<GenericTest> tests(asked.size());
   parallel_for(count, [&](int i) {
     const Group& g = *asked[i].group;
@@ -184,14 +208,11 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     term->component = tests[i].channel;
     ask(tests[i], asked_model, std::move(term), n);
   });
-  for (const std::vector<GenericTest>& more :
-       {uneven_wheel_tests(asked_model, n), lagging_tests(asked_model, n), bent_truth_tests(asked_model, n),
-        step_response_tests(asked_model, n), told_speed_tests(asked_model, n), after_change_tests(asked_model, n),
-        late_truth_tests(asked_model, n), tracked_point_tests(asked_model, n), moving_frame_tests(asked_model, n),
-        uneven_floor_tests(asked_model, n), on_the_spot_tests(asked_model, n), at_rest_tests(asked_model, n),
-        on_a_patch_tests(asked_model, n), band_tests(asked_model, shaken, n), line_tests(asked_model, n),
-        swinging_tests(asked_model, n), truth_error_tests(asked_model, n), wave_tests(asked_model, n)})
+  const auto append = [&](const std::vector<GenericTest>& more) {
     tests.insert(tests.end(), more.begin(), more.end());
+  };
+  for (const MoreTests& more : kMoreTests) append(more.ask(asked_model, n));
+  append(band_tests(asked_model, shaken, n));
   hold_tests_against_readings(joint, tests);
   std::sort(tests.begin(), tests.end(), [](const GenericTest& a, const GenericTest& b) {
     return a.p_value != b.p_value ? a.p_value < b.p_value : a.test.judged() > b.test.judged();

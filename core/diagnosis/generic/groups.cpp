@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/diagnosis/effects/floor.h"
+#include "core/diagnosis/effects/reversals.h"
 #include "core/diagnosis/generic/hats.h"
 #include "core/diagnosis/model/wheels_at_rest.h"
 
@@ -171,20 +172,13 @@ Group by_way_since_reversal() {
   g.is_memory = true;
   g.values = [](const DriveView& view, std::vector<std::vector<double>>& out) {
     constexpr double kForgotten_m[] = {0.1, 0.5, 2.0};
-    constexpr double kGoes_m = 0.01;  // the other way, that is no rocking
     out.assign(std::size(kForgotten_m), std::vector<double>(view.steps.size()));
-    double at_m = 0.0, furthest_m = 0.0, way_m = 1e3, sign = 0.0;  // what was before the run is not known
+    const std::vector<Reversal> all = reversals(view);
+    double way_m = 1e3;  // what was before the run is not known
+    std::size_t next = 0;
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
-      const double forward_m = view.steps[i].forward_m();
-      at_m += forward_m;
-      way_m += std::abs(forward_m);
-      if (sign == 0.0 && std::abs(at_m) > kGoes_m) sign = at_m > 0.0 ? 1.0 : -1.0, furthest_m = at_m;
-      if (sign * (at_m - furthest_m) > 0.0) furthest_m = at_m;
-      if (sign != 0.0 && sign * (furthest_m - at_m) > kGoes_m) {
-        sign = -sign;
-        way_m = std::abs(furthest_m - at_m);
-        furthest_m = at_m;
-      }
+      way_m += std::abs(view.steps[i].forward_m());
+      if (next < all.size() && i == all[next].sure) way_m = all[next++].back_m;
       for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
     }
   };

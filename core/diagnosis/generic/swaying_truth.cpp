@@ -52,7 +52,7 @@ std::optional<GenericTest> as_it_drives(const GenericTest& t, const AskedModel& 
   constexpr double kByChance = 0.05;
   GenericTest driving = t, both = t;
   ask(driving, asked, in_parts(t.as_effect, false), t.tests);
-  if (driving.test.statistic < t.test.statistic + 2.0 * kClearlyBeaten) return std::nullopt;
+  if (driving.test.statistic < t.test.statistic + kClearlyBeaten) return std::nullopt;
   ask(both, asked, in_parts(t.as_effect, true), t.tests);
   const int more = both.test.freedom - driving.test.freedom;
   const double of_rests = (both.test.statistic - driving.test.statistic) / driving.test.inflation;

@@ -19,13 +19,13 @@ constexpr double kPeriods_s[kSwingingTests] = {0.9, 1.1, 1.35, 1.65, 2.0, 2.45, 
 constexpr double kHalvedWithin = 1.5;  // periods
 
 // What sets it swinging, and what of the vehicle's motion it becomes.
-struct Way {
+struct SwingWay {
   const char *variable, *channel;
   double (*input)(const EffectStep&);
   double BodyMotion::*becomes;
 };
 double sideways_mps2(const EffectStep& s) { return s.speed_mps * s.yaw_rate_radps; }
-constexpr Way kWays[] = {
+constexpr SwingWay kWays[] = {
     {"time since its speed changed [s]", "pace, as a share of the change [1]",
      [](const EffectStep& s) { return s.speed_mps; }, &BodyMotion::forward_m},
     {"time since its yaw rate changed [s]", "yaw rate, as a share of the change [1]",

@@ -1,6 +1,7 @@
 // Something that is missing and has no name.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Unnamed {
   double p_value = 0.0;
   std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
   GatheredEvidence gathered;    // of what stands for it; empty where nothing does
+  std::optional<MovedTrack> moves;
 };
 
 }  // namespace odolab

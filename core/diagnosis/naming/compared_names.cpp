@@ -12,7 +12,7 @@ double more_by_tries(const ScoredCandidate& c, const ScoredCandidate& other) {
 }
 
 bool beats(const ScoredCandidate& c, const ScoredCandidate& other) {
-  const double by = 2.0 * kClearlyBeaten + more_by_tries(c, other);
+  const double by = kClearlyBeaten + more_by_tries(c, other);
   return c.test.judged() > other.test.judged() + by &&
          c.test.statistic > other.test.statistic + by * std::max(1.0, c.test.inflation);
 }

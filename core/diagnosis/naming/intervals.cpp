@@ -123,7 +123,7 @@ double Intervals::stderr_of_nuisance(int c) const { return std::sqrt(std::max(0.
 
 SharedClock Intervals::shared_clock(const JointModel& joint) const {
   const auto runs = static_cast<Eigen::Index>(joint.clock_s.size());
-  return odolab::shared_clock(joint.clock_s, columns.block(6, 6, runs, runs));
+  return odolab::shared_clock(joint.clock_s, columns.block(column::truth_clock, column::truth_clock, runs, runs));
 }
 
 std::vector<int> free_shapes(const Effect& effect) {

@@ -44,7 +44,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
   constexpr std::size_t kMost = 3;
   constexpr double kWorthALook = 8.0;                          // of the statistic
-  constexpr double kBeyondDoubt = -16.0, kOnceByChance = 0.0;  // of the logarithm of its p value
+  constexpr double kCertain = -16.0, kOnceByChance = 0.0;  // of the logarithm of its p value
   constexpr double kGivenToAnyTerm =
       1.05;  // by which noise makes a term larger where nothing is missing, 19 in 20 times
   const auto tail = [](const ScoredCandidate* c) {
@@ -53,7 +53,7 @@ void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
   std::vector<ScoredCandidate*> nearest;
   for (ScoredCandidate& c : scored) {
     if (!c.beyond_counts || c.test.judged() <= kWorthALook || of_the_same(joint, c)) continue;
-    if (tail(&c) < kBeyondDoubt) return;
+    if (tail(&c) < kCertain) return;
     if (!c.effect->of_one_recording && tail(&c) < kOnceByChance) nearest.push_back(&c);
   }
   std::stable_sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) { return tail(a) < tail(b); });

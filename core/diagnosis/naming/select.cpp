@@ -20,9 +20,9 @@ namespace {
 
 constexpr int kMostEffects = 4;
 
-// The same of what could look like the effect (JointModel::can_look_like): a form that is wrong by a fourteenth, and
-// everywhere in the way of the effect.
-constexpr double kLeastShareWhereBothShow = 0.5;  // of the shares above
+// Of the shares that a name must have beside others (standing.cpp), where it is held against what could look like it
+// (JointModel::can_look_like): a form that is wrong by a fourteenth, and everywhere in the way of the effect.
+constexpr double kLeastShareWhereBothShow = 0.5;
 
 // Of what a name says, what another must say at least that is asked of recordings held out, though it is beaten.
 constexpr double kComparable = 0.5;
@@ -171,7 +171,7 @@ class Selection {
       return {};
     std::vector<Fitted> fitted;
     for (const ScoredCandidate* c : {standing.front(), *strongest}) fitted.push_back(fitted_with(c));
-    if (fitted[1].gained > fitted[0].gained + 2.0 * kClearlyBeaten + more_by_tries(**strongest, *standing.front()))
+    if (fitted[1].gained > fitted[0].gained + kClearlyBeaten + more_by_tries(**strongest, *standing.front()))
       std::rotate(standing.begin(), strongest, strongest + 1);
     return fitted;
   }
@@ -358,7 +358,7 @@ class Selection {
       if (!c.beyond_counts && c.test.statistic / own.test.inflation < own.test.judged()) continue;
       const bool at_one_place = of_one_moment(own, c) || of_one_small_place(own, c) || of_one_small_place(c, own);
       const double beaten_by =
-          std::max(2.0 * kClearlyBeaten + more_by_tries(own, c), at_one_place ? kFormError * own.test.judged() : 0.0);
+          std::max(kClearlyBeaten + more_by_tries(own, c), at_one_place ? kFormError * own.test.judged() : 0.0);
       if (own.test.judged() - c.test.statistic / own.test.inflation < beaten_by)
         alternatives.push_back(c);
       else if (own.effect->of_one_recording && !c.effect->of_one_recording && stands(c, family_wise_error_) &&

@@ -30,8 +30,8 @@ Selected select_effects(JointModel& joint, double family_wise_error, const Progr
 // Of twice the log-likelihood, noise and all: beyond what rounded readings and a changed wheelbase make of it.
 constexpr double kDecisive = 200.0;
 
-// A log-likelihood ratio below which two names are not told apart.
-constexpr double kClearlyBeaten = 5.0;
+// Of twice the log-likelihood: names that are nearer to each other are not told apart.
+constexpr double kClearlyBeaten = 10.0;
 
 // What of an effect's evidence other names must have a share of. A smoothed truth tells by every sample, and what it
 // does beyond its second moment looks like nothing that a vehicle does. A clock's rate is the same all along, and

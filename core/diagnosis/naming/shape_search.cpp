@@ -142,10 +142,11 @@ class ShapeSearch {
     const bool is_a_place = e_.local && e_.scan && e_.shapes.size() >= 2 && !e_.of_one_recording;
     for (std::size_t k = 0; k < out_.shapes.size(); ++k) {
       const CandidateTest& t = tests[k];
-      if (t.freedom > 0 && t.survives > 0.0) out_.statistics.push_back(t.statistic);
       take(t, out_.shapes[k]);
-      out_.of_shape.resize(out_.statistics.size(), k);
-      if (is_a_place && !out_.statistics.empty()) places_.emplace_back(-out_.statistics.back(), k);
+      if (t.freedom == 0 || t.survives <= 0.0) continue;
+      out_.statistics.push_back(t.statistic);
+      out_.of_shape.push_back(k);
+      if (is_a_place) places_.emplace_back(-t.statistic, k);
     }
   }
 

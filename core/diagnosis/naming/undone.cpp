@@ -53,7 +53,7 @@ std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& c) 
         best = std::move(test);
         best.shape = shape;
       }
-  if (best.statistic < c.test.statistic + 2.0 * (kClearlyBeaten + std::log(tries))) return std::nullopt;
+  if (best.statistic < c.test.statistic + kClearlyBeaten + 2.0 * std::log(tries)) return std::nullopt;
   return Undone{static_cast<int>(best.shape[0]), best.shape[1], best.shape[2], std::hypot(best.value[0], best.value[1]),
                 best.value[2]};
 }

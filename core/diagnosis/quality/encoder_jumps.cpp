@@ -138,7 +138,7 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
 }
 
 JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated) {
-  constexpr double kBeyondDoubt = 30.0;  // of twice the log-likelihood
+  constexpr double kShown = 30.0;  // of twice the log-likelihood
   // The same where both wheels do so at once by more than 1 g: no vehicle does.
   constexpr double kNoVehicle_mps2 = 9.81, kOfNoVehicle = 10.0;
   constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
@@ -160,7 +160,7 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
                    slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
       const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
                                  slowed_mps2 > kNoVehicle_mps2;
-      if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kBeyondDoubt)) continue;
+      if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kShown)) continue;
       if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
       (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + readings]);
     }

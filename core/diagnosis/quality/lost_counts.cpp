@@ -46,7 +46,7 @@ std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDr
 }  // namespace
 
 JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calibrated) {
-  constexpr double kBeyondDoubt = 30.0;            // of twice the log-likelihood
+  constexpr double kShown = 30.0;            // of twice the log-likelihood
   constexpr double kLeastOf = 0.4, kMostOf = 2.0;  // what the truth shows, of what the paces before and behind do
   JumpsOfWheels lost;
   for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {
@@ -75,7 +75,7 @@ JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calib
       return misfit_of(part, calibrated);
     };
     const std::optional<ShownShare> shown = shown_share(misfit);
-    if (!shown || shown->gain < kBeyondDoubt || shown->best < kLeastOf || shown->best > kMostOf) continue;
+    if (!shown || shown->gain < kShown || shown->best < kLeastOf || shown->best > kMostOf) continue;
     (hold.left && hold.right ? lost.both : hold.left ? lost.left : lost.right).emplace_back(hold.from_s, hold.to_s);
   }
   return lost;

@@ -8,6 +8,7 @@
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
+#include "core/calibration/repeated_stamps.h"
 #include "core/diagnosis/quality/drawn_truth.h"
 #include "core/diagnosis/quality/encoder_jumps.h"
 #include "core/diagnosis/quality/frozen_truth.h"
@@ -56,11 +57,11 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
   if (even) out.warnings = even->said;
   const Recording& recording = even ? even->recording : as_logged;
   out.recording = recording;
-  std::vector<WheelSample> wheels = wheel_samples(recording, drive);
+  std::vector<WheelSample> wheels = without_repeated(wheel_samples(recording, drive));
   if (wheels.size() < 2 && recording.channel("command_speed_mps") && recording.channel("command_yaw_rate_radps")) {
     out.from_commands = true;
     out.recording = with_obeying_wheels(recording, drive);
-    wheels = obeying_wheels(command_samples(recording), drive);
+    wheels = without_repeated(obeying_wheels(command_samples(recording), drive));
   }
   const std::vector<TruthSample> truth = truth_samples(recording);
   constexpr std::size_t kFewest = 4;

@@ -10,6 +10,8 @@ namespace odolab {
 
 namespace {
 
+constexpr std::size_t kPace = 5;  // readings before, and behind, that say how fast a wheel goes
+
 // The truth at a time, by the median of three samples: one of them may err by anything.
 class SteadyTruth {
  public:
@@ -123,7 +125,6 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
 }
 
 TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel wheel) {
-  constexpr std::size_t kPace = 5;  // readings before, and behind, that say how fast it goes
   constexpr double kCounts = 5.0, kTimesThePace = 3.0, kGap_s = 0.5;
   constexpr double kOfTheWayMissed = 0.25;  // of what comes at once: a wheel that stood before holds nothing back
   TimeStretches found;
@@ -183,72 +184,72 @@ Pace pace_over(const std::vector<WheelSample>& wheels, Wheel wheel, std::size_t 
   return p;
 }
 
-TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
-  constexpr std::size_t kPace = 5, kFewest = 2;
-  constexpr double kEven = 0.3, kSame = 0.3;  // of the pace
-  constexpr double kCounts = 4.0;             // that a pace has in each interval
-  constexpr double kWheel_mps2 = 3.0;         // more than a motor and what it drives are stopped and sped up by
-  TimeStretches found;
+namespace {
+
+// On both sides of readings that hold, and what it comes to at their ends. The first and the last interval may be in
+// part of the hold.
+struct PaceAround {
+  Pace before, after;
+  double stops, goes_on;
+  double slower() const { return std::min(std::abs(stops), std::abs(goes_on)); }
+};
+
+// Readings that hold though no motor stops, or speeds up, a wheel and what it drives so suddenly. `even_from`: readings
+// from which on the pace is taken to be even; `is_one(hold, pace)`: what else is asked of them.
+template <typename IsOne>
+TimeStretches sudden_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive,
+                           std::size_t fewest, std::size_t even_from, const IsOne& is_one) {
+  constexpr double kCounts = 4.0;      // that a pace has in each interval
+  constexpr double kWheel_mps2 = 3.0;  // more than a motor and what it drives are stopped and sped up by
   const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
   const double least_rad = kCounts * least_count_rad(wheels, wheel);
-  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
-  const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
-    return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
-  };
+  TimeStretches found;
   for (const HeldReadings& hold : held_readings(wheels, wheel, kPace + 1)) {
     const std::size_t first = hold.first, last = hold.last;
-    if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
-    const double middle_s = 0.5 * (wheels[first].time_s + wheels[last].time_s);
+    if (last < first + fewest || last + 1 + kPace >= wheels.size()) continue;
     const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
                               static_cast<double>(last + 1 + 2 * kPace - first);
-    const bool even = last - first > kPace;  // a wheel that speeds up does not go on so for long
-    // The first and the last interval may be in part of the halt.
-    const auto halts = [&](bool per_second) {
+    const bool even = last - first >= even_from;
+    for (const bool per_second : {true, false}) {
       const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second, even),
                  after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second, even);
-      const double stops = before.at(wheels[first].time_s), goes_on = after.at(wheels[last].time_s);
-      const double least = std::min(std::abs(stops), std::abs(goes_on)), at_middle = before.at(middle_s);
-      const double each_rad = least * (per_second ? interval_s : 1.0);
-      return stops * goes_on > 0.0 && each_rad > least_rad &&
-             each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
-             std::abs(after.at(middle_s) - at_middle) < kSame * std::abs(at_middle) &&
-             std::max(before.largest_deviation, after.largest_deviation) < kEven * least;
-    };
-    if ((halts(true) || halts(false)) &&
-        step_of_other_rad(first, last) > (1.0 - kSame) * step_of_other_rad(first - kPace, first))
+      const PaceAround pace{before, after, before.at(wheels[first].time_s), after.at(wheels[last].time_s)};
+      const double each_rad = pace.slower() * (per_second ? interval_s : 1.0);
+      if (pace.stops * pace.goes_on <= 0.0 || each_rad <= least_rad ||
+          each_rad * radius_m <= kWheel_mps2 * interval_s * interval_s || !is_one(hold, pace))
+        continue;
       found.push_back({wheels[first].time_s, wheels[last + 1].time_s});
+      break;
+    }
   }
   return found;
 }
 
+}  // namespace
+
+TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
+  constexpr std::size_t kFewest = 2, kEvenFrom = kPace + 1;  // a wheel that speeds up does not go on so for long
+  constexpr double kEven = 0.3, kSame = 0.3;                 // of the pace
+  const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
+  const auto step_of_other_rad = [&](std::size_t begin, std::size_t end) {
+    return std::abs(rotation(wheels[end], other) - rotation(wheels[begin], other)) / static_cast<double>(end - begin);
+  };
+  return sudden_holds(wheels, wheel, drive, kFewest, kEvenFrom, [&](const HeldReadings& hold, const PaceAround& pace) {
+    const double middle_s = 0.5 * (wheels[hold.first].time_s + wheels[hold.last].time_s);
+    const double at_middle = pace.before.at(middle_s);
+    return std::abs(pace.after.at(middle_s) - at_middle) < kSame * std::abs(at_middle) &&
+           std::max(pace.before.largest_deviation, pace.after.largest_deviation) < kEven * pace.slower() &&
+           step_of_other_rad(hold.first, hold.last) > (1.0 - kSame) * step_of_other_rad(hold.first - kPace, hold.first);
+  });
+}
+
 TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
-  constexpr std::size_t kPace = 5, kFewest = 3;
-  constexpr double kSteady = 0.5;      // of the pace
-  constexpr double kCounts = 4.0;      // that a pace has in each interval
-  constexpr double kWheel_mps2 = 3.0;  // as for a wheel that halts
-  TimeStretches found;
-  const double radius_m = wheel == Wheel::left ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
-  const double least_rad = kCounts * least_count_rad(wheels, wheel);
-  for (const HeldReadings& hold : held_readings(wheels, wheel, kPace + 1)) {
-    const std::size_t first = hold.first, last = hold.last;
-    if (last < first + kFewest || last + 1 + kPace >= wheels.size()) continue;
-    const double interval_s = (wheels[last + 1 + kPace].time_s - wheels[first - kPace].time_s) /
-                              static_cast<double>(last + 1 + 2 * kPace - first);
-    // The first and the last interval may be in part of the hold.
-    const auto is_abrupt = [&](bool per_second) {
-      const Pace before = pace_over(wheels, wheel, first - 1 - kPace, first - 1, per_second, false),
-                 after = pace_over(wheels, wheel, last + 1, last + 1 + kPace, per_second, false);
-      const double stops = before.at(wheels[first].time_s), goes_on = after.at(wheels[last].time_s);
-      const double least = std::min(std::abs(stops), std::abs(goes_on));
-      const double each_rad = least * (per_second ? interval_s : 1.0);
-      return stops * goes_on > 0.0 && each_rad > least_rad &&
-             each_rad * radius_m > kWheel_mps2 * interval_s * interval_s &&
-             before.largest_deviation < kSteady * std::abs(stops) &&
-             after.largest_deviation < kSteady * std::abs(goes_on);
-    };
-    if (is_abrupt(true) || is_abrupt(false)) found.push_back({wheels[first].time_s, wheels[last + 1].time_s});
-  }
-  return found;
+  constexpr std::size_t kFewest = 3, kNeverEven = static_cast<std::size_t>(-1);
+  constexpr double kSteady = 0.5;  // of the pace
+  return sudden_holds(wheels, wheel, drive, kFewest, kNeverEven, [&](const HeldReadings&, const PaceAround& pace) {
+    return pace.before.largest_deviation < kSteady * std::abs(pace.stops) &&
+           pace.after.largest_deviation < kSteady * std::abs(pace.goes_on);
+  });
 }
 
 TimeStretches moved_at_rest(const std::vector<WheelSample>& wheels, Wheel wheel) {

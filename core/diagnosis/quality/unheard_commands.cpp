@@ -35,16 +35,18 @@ std::optional<Pose> pose_about(const std::vector<TruthSample>& truth, double tim
                                      [](const TruthSample& t, double s) { return t.time_s < s; });
   Vec2 sum;
   double turned = 0.0;
-  int n = 0;
+  int n = 0, headings = 0;
   std::optional<double> first;
   for (auto i = from; i != truth.end() && i->time_s <= time_s + kMean_s; ++i) {
     sum = sum + i->position;
-    if (i->heading_rad) turned += wrapped(*i->heading_rad - first.value_or(*i->heading_rad));
-    if (i->heading_rad && !first) first = *i->heading_rad;
     ++n;
+    if (!i->heading_rad) continue;
+    if (!first) first = i->heading_rad;
+    turned += wrapped(*i->heading_rad - *first);
+    ++headings;
   }
   if (n == 0) return {};
-  return Pose{sum.x_m / n, sum.y_m / n, first.value_or(0.0) + turned / n};
+  return Pose{sum.x_m / n, sum.y_m / n, first.value_or(0.0) + turned / std::max(1, headings)};
 }
 
 // Whether it does, from half a second on, what it was told before; nothing where that is too little to tell, or the

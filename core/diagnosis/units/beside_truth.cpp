@@ -31,7 +31,6 @@ namespace {
 // A biased encoder must be so in runs that it was not fitted on. `right`: encoders that are known to be.
 void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const GeometryFit& geometry, const Vehicle& nominal,
                   const std::vector<std::string>& right) {
-  bool dropped = false;
   for (const JointEstimate& e : geometry.joints) {
     const auto f = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& g) {
       return e.is_of_an_encoder() && g.effect == e.parameter.effect && g.component == e.parameter.component;
@@ -44,10 +43,8 @@ void prove_biases(Diagnosis& d, const std::vector<JoinedRun>& runs, const Geomet
       f->sentence += formatted(words, 100.0 * ratio);
     } else {
       d.findings.erase(f);
-      dropped = true;
     }
   }
-  if (dropped && d.findings.empty()) d.verdict = Verdict::nothing_missing;
 }
 
 // Other encoders that alone would do nearly as well.
@@ -60,7 +57,6 @@ void add_instead(const LoneBias& lone, const GeometryFit& geometry, Diagnosis& d
       f.alternatives.push_back({p.effect, p.component, 0.5 * other.gain,
                                 "tight bends to both sides: wide ones show how the encoders differ, and of neither "
                                 "which is off"});
-      d.verdict = Verdict::ambiguous;
     }
   }
 }
@@ -312,22 +308,18 @@ class BesideTruth {
     }
     if (of_joint_ && std::none_of(d.findings.begin(), d.findings.end(), is_of_a_joint)) {
       d.findings.insert(d.findings.begin(), *of_joint_);
-      if (!leave_out_small_rest(d.findings)) {
-        d.sentences.insert(d.sentences.begin(), of_joint_->sentence);
-        d.verdict = Verdict::unknown_effect;
-        leave_out_biases_beside_erring_joints(d.findings);
-      }
+      if (!leave_out_small_rest(d.findings)) leave_out_biases_beside_erring_joints(d.findings);
     }
     if (!clocks_.empty()) {
       std::erase_if(d.findings, [](const Finding& f) { return f.effect == "clock_rate"; });
       d.findings.push_back(finding_of(clocks_));
-      if (d.verdict == Verdict::nothing_missing || d.verdict == Verdict::cannot_say) d.verdict = Verdict::found;
     }
     if (!carries_truth(units_)) {
       const std::vector<Finding> frozen = frozen_truths(train_.recordings, train_.runs, units_[0].drive);
       d.findings.insert(d.findings.end(), frozen.begin(), frozen.end());
-      if (!frozen.empty() && d.verdict == Verdict::nothing_missing) d.verdict = Verdict::found;
     }
+    // What one unit by itself cannot say all of them together may.
+    d.verdict = verdict_by(d.findings, any_cannot_say(diagnoses_) && !(told_ && !d.cannot_judge));
     mark_named(d);
     return d;
   }

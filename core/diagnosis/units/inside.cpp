@@ -78,7 +78,9 @@ Result<Judged> judged_by(const OwnRecordings& recordings, GeometryFit geometry, 
     if (!own || !own_held_out) return own ? own_held_out.error() : own.error();
     Vehicle vehicle = vehicle_of_unit(units[u], by_truth ? nominal : without_mounting(nominal));
     vehicle.truth.is_reckoned = by_others;
-    Result<Diagnosis> one = diagnose(*own, *own_held_out, vehicle, options, progress);
+    Result<Diagnosis> one = diagnose(*own, *own_held_out, vehicle, options, [&](double share) {
+      return goes_on(progress, (static_cast<double>(u) + share) / static_cast<double>(units.size()));
+    });
     if (!one) return Error{units[u].name + ": " + one.error().where, one.error().found, one.error().expected};
     leave_out_standing(*one, *own, units[u].drive);
     // What is no fault of its readings all of them tell together.

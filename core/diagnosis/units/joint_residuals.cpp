@@ -276,8 +276,6 @@ void add_erring_joint(const ErringJoint& erring, const Vehicle& vehicle, Diagnos
   f.where.regime = by_way ? "by which way " + name + " went last" : "by what " + name + " reads";
   f.sentence = text;
   d.findings.insert(d.findings.begin(), f);
-  d.sentences.insert(d.sentences.begin(), f.sentence);
-  d.verdict = Verdict::unknown_effect;
   Response shape = erring.by_reading;
   shape.variable = name + " [" + own.unit + "]";
   shape.channel = "error of " + name + " [" + own.unit + "]";

@@ -48,21 +48,20 @@ std::vector<NotTestable> not_testable_in(const std::vector<Diagnosis>& diagnoses
   return all;
 }
 
-Verdict merged_verdict(const std::vector<Diagnosis>& diagnoses, const std::vector<Finding>& findings) {
-  const auto any = [&](Verdict v) {
-    return std::any_of(diagnoses.begin(), diagnoses.end(), [&](const Diagnosis& d) { return d.verdict == v; });
-  };
-  if (std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.effect == "unknown"; }))
-    return Verdict::unknown_effect;
-  if (!findings.empty()) {
-    const bool open =
-        std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return !f.alternatives.empty(); });
-    return open ? Verdict::ambiguous : Verdict::found;
-  }
-  return any(Verdict::cannot_say) ? Verdict::cannot_say : Verdict::nothing_missing;
+}  // namespace
+
+bool any_cannot_say(const std::vector<Diagnosis>& diagnoses) {
+  return std::any_of(diagnoses.begin(), diagnoses.end(),
+                     [](const Diagnosis& d) { return d.verdict == Verdict::cannot_say; });
 }
 
-}  // namespace
+Verdict verdict_by(const std::vector<Finding>& findings, bool cannot_say) {
+  const auto any = [&](const auto& is) { return std::any_of(findings.begin(), findings.end(), is); };
+  if (any([](const Finding& f) { return f.effect == "unknown"; })) return Verdict::unknown_effect;
+  if (any([](const Finding& f) { return !f.alternatives.empty(); })) return Verdict::ambiguous;
+  if (!findings.empty()) return Verdict::found;
+  return cannot_say ? Verdict::cannot_say : Verdict::nothing_missing;
+}
 
 Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geometry, const Vehicle& nominal,
                  const std::vector<Recording>& recordings, OutsideTruth truth) {
@@ -126,8 +125,8 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   if (leave_out_small_rest(d.findings))
     d.warnings.push_back("beside the names given something small is left that no name describes");
   put_in_order(d.findings);
-  d.verdict = merged_verdict(diagnoses, d.findings);
   d.cannot_judge = std::any_of(diagnoses.begin(), diagnoses.end(), std::mem_fn(&Diagnosis::cannot_judge));
+  d.verdict = verdict_by(d.findings, any_cannot_say(diagnoses));
   d.train = joined_table(diagnoses, &Diagnosis::train);
   d.held_out = joined_table(diagnoses, &Diagnosis::held_out);
   d.not_testable = not_testable_in(diagnoses, units);
@@ -146,7 +145,6 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
         f.sentence +=
             "; castors whose lengths differ from the file's drag each other along: calibrate them first, and "
             "drive by what was found";
-  for (const Finding& f : d.findings) d.sentences.push_back(f.sentence);
   return d;
 }
 

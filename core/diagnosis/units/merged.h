@@ -9,6 +9,11 @@
 
 namespace odolab {
 
+bool any_cannot_say(const std::vector<Diagnosis>& diagnoses);
+
+// What findings come to; `cannot_say`: where there are none.
+Verdict verdict_by(const std::vector<Finding>& findings, bool cannot_say);
+
 // `diagnoses`: one for each unit of the vehicle, in their order. Effects that all units share become one finding; what
 // of a unit's truth seems to sit elsewhere is a biased encoder of its joint. `truth`: what there is of one; by the
 // poses at both ends no unit was judged, but where the tracked point sits is known.

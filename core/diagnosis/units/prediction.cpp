@@ -1,6 +1,7 @@
 #include "core/diagnosis/units/prediction.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effects/effect_motions.h"
@@ -150,7 +151,7 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
     }
   }
   for (TimedPose& p : track) p.time_s += with.truth.time_offset_s;
-  return track;
+  return within_bounds(std::move(track), recording);
 }
 
 }  // namespace odolab

@@ -1,6 +1,7 @@
 #include "core/io/import/imported_recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "core/io/bag/bag.h"
@@ -38,10 +39,12 @@ const ForeignFormat* format_of(const std::string& path) {
   return nullptr;
 }
 
-// Whether the first line names a column time_s.
+// Whether the first line that is no comment names a column time_s.
 bool has_recording_header(const std::string& path) {
   const std::string start = read_file_start(path);
-  return start.substr(0, start.find('\n')).find("time_s") != std::string::npos;
+  std::string_view rest = start;
+  while (rest.substr(0, 1) == "#" && rest.find('\n') != std::string_view::npos) rest.remove_prefix(rest.find('\n') + 1);
+  return rest.substr(0, rest.find('\n')).find("time_s") != std::string_view::npos;
 }
 
 Error folder_given(const std::string& path) {
@@ -201,6 +204,12 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   Result<Recording> recording = read_recording_csv(path);
   if (!recording) return recording.error();
   std::vector<std::string> warnings = unread_columns(*recording);
+  std::erase_if(recording->channels, [&](const Channel& c) {
+    const bool is_empty = !is_recording_column(c.name) &&
+                          std::none_of(c.values.begin(), c.values.end(), [](double v) { return !std::isnan(v); });
+    if (is_empty) warnings.push_back("the column '" + c.name + "' holds no number and is left out");
+    return is_empty;
+  });
   return ImportedRecording{std::move(*recording), std::move(warnings)};
 }
 

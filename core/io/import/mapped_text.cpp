@@ -42,11 +42,9 @@ std::string listed_in_quotes(const std::vector<std::string>& names) {
 
 bool all_numbers(TextRows& rows, const std::vector<std::string_view>& cells) {
   for (std::string_view cell : cells)
-    if (!cell.empty() && !rows.number(cell)) return false;
+    if (!says_nothing(cell) && !rows.number(cell)) return false;
   return true;
 }
-
-bool says_nothing(std::string_view cell) { return cell.empty() || cell == "nan" || cell == "NaN" || cell == "NAN"; }
 
 double added_up(Source& source, double value, std::int64_t time_ns) {
   if (source.mapped->kind == ColumnKind::increment) return source.sum += value;
@@ -199,12 +197,14 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
     if (kept++ == 0) first_ns = *time_ns;
     spool.add(*time_ns, values.data());
   }
-  if (kept == 0) return left_out.error(path, "rows of numbers in the mapped columns");
   if (out_of_order > kept)
     return Error{path,
                  "rows that are not in order of time, " + std::to_string(out_of_order) + " of " +
                      std::to_string(out_of_order + kept),
                  "rows in order of time: sort them first"};
+  constexpr std::uint64_t kFew = 10;
+  if (kept == 0 || (left_out.count() > kept && left_out.count() > kFew))
+    return left_out.error(path, "rows of numbers in the mapped columns");
   const std::string name = std::filesystem::path(path).filename().string();
   left_out.warn(name, streams.warnings);
   if (layout.time.cell != kNowhere)

@@ -18,13 +18,13 @@ bool is_quaternion(const std::string& channel) {
   return channel == "truth_qx" || channel == "truth_qy" || channel == "truth_qz" || channel == "truth_qw";
 }
 
-struct Unit {
+struct UnitWord {
   const char* name;
   double factor;
 };
 
-std::optional<double> factor_among(const std::string& unit, std::initializer_list<Unit> units) {
-  for (const Unit& known : units)
+std::optional<double> factor_among(const std::string& unit, std::initializer_list<UnitWord> units) {
+  for (const UnitWord& known : units)
     if (unit == known.name) return known.factor;
   return std::nullopt;
 }

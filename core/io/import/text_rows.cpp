@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/io/number_text.h"
+#include "core/io/whole_file.h"
 
 namespace odolab {
 
@@ -22,8 +23,7 @@ Result<TextRows> TextRows::open(const std::string& path, const TextShape& shape,
   if (!file) return file.error();
   if (file->peek(3) == "\xEF\xBB\xBF") file->advance(3);
   const std::string_view start = file->peek(kUsualLine);
-  if (start.substr(0, 2) == "\xFF\xFE" || start.substr(0, 2) == "\xFE\xFF")
-    return Error{path, "text in UTF-16", "text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it"};
+  if (is_utf16(start)) return utf16_error(path);
   const std::size_t carriage_return = start.find('\r');
   if (carriage_return != std::string_view::npos && carriage_return + 1 < start.size() &&
       start.find('\n') == std::string_view::npos)

@@ -159,6 +159,15 @@ TEST(LeastSquares, SaysThatAStraightCannotTellTheWheelbase) {
   EXPECT_NEAR(mean, 0.5 * 0.075 * (1.02 + 1.015), 4 * named(*result, "wheel_radius_left_m").stderr_value);
 }
 
+TEST(LeastSquares, SaysThatOneWheelAloneCannotTellTheWheelbase) {
+  Random random(4);
+  const auto about_the_left = [](double t) { return test::WheelSpeedsAt{0.0, straight(t).right_radps}; };
+  const auto result = calibrate_least_squares({generated(off_the_drawing(), about_the_left, random)}, labmate());
+  ASSERT_TRUE(result.ok());
+  EXPECT_FALSE(named(*result, "wheel_radius_left_m").determined);
+  EXPECT_TRUE(says(result->cannot_tell, "wheelbase_m: one wheel alone rolled"));
+}
+
 TEST(LeastSquares, TellsOfASpinTheRatioOfWheelbaseToRadiusAndNotTheScale) {
   Random random(3);
   const GeneratorSettings g = off_the_drawing();

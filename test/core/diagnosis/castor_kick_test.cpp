@@ -62,7 +62,7 @@ TEST(CastorReversalKick, IsMeasuredAsTheCastorSwings) {
 TEST(CastorReversalKick, IsOneThoughNoTwoOfItsKicksAreAlike) {
   Random random(63);
   const Diagnosis d = diagnose(forth_and_back(random, {0.075, 0.075, 0.34}, 0.02, 0.6), {}, Vehicle{}).value();
-  ASSERT_EQ(d.findings.size(), 1u) << d.findings[1].effect;
+  ASSERT_EQ(d.findings.size(), 1u);
   EXPECT_EQ(d.findings[0].effect, "castor_reversal_kick");
 }
 

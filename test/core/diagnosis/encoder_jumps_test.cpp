@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/diagnosis/quality/quality.h"
 #include "core/geometry/track.h"
 #include "core/odometry/differential_drive.h"
 
@@ -64,6 +65,26 @@ TEST(EncoderJumps, AreNotWhereOnlyAStampIsLate) {
     for (std::size_t i = 201; i < late.angle_rad.size(); ++i) late.angle_rad[i] -= 3.0 * 6.0 * reading_s;
     EXPECT_EQ(jumps_of(late).size(), 1u) << "and what is lost besides shows as it did";
   }
+}
+
+TEST(EncoderJumps, AreFoundWhereOneReadingInTenIsWrittenTwice) {
+  Recording r;
+  const Read read_once = read(drives);
+  std::vector<double> left, right;
+  for (std::size_t i = 0; i < read_once.time_s.size(); ++i)
+    for (int times = i % 10 == 5 ? 2 : 1; times > 0; --times) {
+      r.time_s.push_back(read_once.time_s[i]);
+      left.push_back(read_once.angle_rad[i] - (i > 200 ? 0.12 : 0.0));
+      right.push_back(read_once.angle_rad[i]);
+    }
+  r.channels = {{"left_wheel_rad", left}, {"right_wheel_rad", right}};
+  Vehicle vehicle;
+  vehicle.kind = DifferentialDrive{kJumpingRadius_m, kJumpingRadius_m, 0.4};
+  const std::vector<DataFault> faults = checked(r, vehicle).faults;
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults.front().component, "left_wheel");
+  ASSERT_EQ(faults.front().time_s.size(), 1u);
+  EXPECT_NEAR(faults.front().time_s.front().first, 2.0, 1e-9);
 }
 
 TEST(EncoderJumps, AreNotWhereReadingsAreCoarse) {

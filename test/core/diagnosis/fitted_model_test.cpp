@@ -48,6 +48,30 @@ TEST(FittedModel, KeepsEachRecordingsOwnClockWhereTheMeanIsAFindingToo) {
   ASSERT_EQ(model.effects_in("another").size(), 1u);  // one that was not fitted: the mean is the best guess
 }
 
+// Written twice, a command is obeyed once.
+TEST(FittedModel, PredictsFromCommandsOfWhichOneIsWrittenTwice) {
+  const auto end_of = [](bool twice) {
+    Recording r;
+    r.name = "told";
+    std::vector<double> speed_mps, yaw_rate_radps;
+    for (int i = 0; i < 100; ++i)
+      for (int times = twice && i == 40 ? 2 : 1; times > 0; --times) {
+        r.time_s.push_back(0.05 * i);
+        speed_mps.push_back(i < 60 ? 0.4 : 0.1);
+        yaw_rate_radps.push_back(0.2);
+      }
+    r.channels = {{"command_speed_mps", speed_mps}, {"command_yaw_rate_radps", yaw_rate_radps}};
+    const Result<Track> track =
+        predicted_track(r, Vehicle{}, {{"actuator_lag", "vehicle", {{"time_constant_s", 0.3}}}});
+    EXPECT_TRUE(track);
+    EXPECT_EQ(track->size(), r.time_s.size());
+    return track->back().pose;
+  };
+  const Pose once = end_of(false), twice = end_of(true);
+  EXPECT_NEAR(once.x_m, twice.x_m, 1e-9);
+  EXPECT_NEAR(once.y_m, twice.y_m, 1e-9);
+}
+
 // A base without encoders whose wheels are 3 and 2 % larger than its file says, on a base 4 % wider, and that follows a
 // tenth of a second late: what is predicted from the model stays within the truth's noise over a minute.
 TEST(FittedModel, PredictsFromCommandsAsTheyWereObeyed) {

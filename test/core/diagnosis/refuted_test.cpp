@@ -36,6 +36,10 @@ TEST(RefutedAnswer, IsOneThatTheSimulatorDoesNotFollow) {
   d.simulation.with_findings = off_by(0.020, 0.010);
   EXPECT_TRUE(is_refuted_by_simulator(d));
   EXPECT_NE(verdict_sentence(d).find("the simulator does not bear it out"), std::string::npos);
+  d.findings.front().effect = "slip_zone";
+  EXPECT_TRUE(is_refuted_by_simulator(d));
+  d.findings.front().form = 1;  // by where the axle's middle is, which no wheel of the simulator asks for
+  EXPECT_FALSE(is_refuted_by_simulator(d));
   d.findings.clear();
   EXPECT_FALSE(is_refuted_by_simulator(d));
 }

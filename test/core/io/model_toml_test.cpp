@@ -65,6 +65,11 @@ TEST(ModelToml, RefusesWhatItDoesNotKnow) {
     const std::string path = folder.write("m.toml", text);
     return message_of(read_model(path), path);
   };
+  EXPECT_EQ(
+      message_of(read_model(ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml"),
+                 ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml"),
+      "labmate.toml: found a vehicle's file, expected a model that odolab diagnose --model wrote; --vehicle takes "
+      "vehicles");
   EXPECT_NE(message_with("model/1", "model/2").find("m.toml:2: schema: found 'odolab.model/2'"), std::string::npos)
       << message_with("model/1", "model/2");
   EXPECT_NE(message_with("wheelbase_m", "wheelbas_m").find("wheelbase_m"), std::string::npos);

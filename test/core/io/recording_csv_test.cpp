@@ -1,10 +1,12 @@
 #include "core/io/recording_csv.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "core/base/random.h"
+#include "core/io/import/imported_recording.h"
 #include "core/io/track_csv.h"
 #include "core/io/whole_file.h"
 #include "test/core/io/files.h"
@@ -61,7 +63,49 @@ TEST(RecordingCsv, ToleratesWhatOtherProgramsWrite) {
   EXPECT_TRUE(std::isnan(recording->channel("note")->values[0]));
 }
 
+TEST(RecordingCsv, ReadsSemicolonsAndTabsWithDecimalCommasBelowComments) {
+  for (const char divider : {';', '\t'}) {
+    std::string text =
+        "# a log\n# of 2026\ntime_s;left_ticks;right_ticks;truth_x_m;truth_y_m\n0,0;1;2;;\n0,5;3;4;-1,25;2.5\n";
+    std::replace(text.begin(), text.end(), ';', divider);
+    ScratchFolder folder;
+    const Result<ImportedRecording> read = load_recording(folder.write("run.csv", text));
+    ASSERT_TRUE(read.ok()) << read.error().message();
+    EXPECT_EQ(read->recording.time_s, (std::vector<double>{0.0, 0.5}));
+    EXPECT_EQ(read->recording.channel("right_ticks")->values, (std::vector<double>{2.0, 4.0}));
+    EXPECT_TRUE(std::isnan(read->recording.channel("truth_x_m")->values[0]));
+    EXPECT_EQ(read->recording.channel("truth_x_m")->values[1], -1.25);
+    EXPECT_EQ(read->recording.channel("truth_y_m")->values[1], 2.5);
+  }
+}
+
+TEST(RecordingCsv, TakesTheWordsOfOtherProgramsForNothing) {
+  for (const char* nothing : {"", "NaN", "nan", "NA", "N/A", "#N/A", "null", "None"}) {
+    ScratchFolder folder;
+    const std::string path =
+        folder.write("run.csv", std::string("time_s,left_ticks,right_ticks\n0,1,2\n1,3,") + nothing + "\n");
+    const Result<Recording> read = read_recording_csv(path);
+    ASSERT_TRUE(read.ok()) << read.error().message();
+    EXPECT_TRUE(std::isnan(read->channel("right_ticks")->values[1])) << nothing;
+  }
+}
+
+TEST(RecordingCsv, SaysThatAColumnOfWordsIsLeftOut) {
+  ScratchFolder folder;
+  const Result<ImportedRecording> read = load_recording(
+      folder.write("run.csv", "time_s,left_ticks,right_ticks,mode,load_n\n0,1,2,auto,\n1,3,4,manual,5\n"));
+  ASSERT_TRUE(read.ok()) << read.error().message();
+  EXPECT_EQ(read->recording.channel("mode"), nullptr);
+  EXPECT_NE(read->recording.channel("load_n"), nullptr);
+  EXPECT_EQ(read->warnings, std::vector<std::string>{"the column 'mode' holds no number and is left out"});
+}
+
 TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
+  EXPECT_EQ(complaint_of_recording("0.0,1,2\n0.1,1,2\n"),
+            "run.csv:1: found numbers, expected a header line that names the columns, 'time_s' among them");
+  EXPECT_EQ(complaint_of_recording(std::string("\xFF\xFEt\0,\0", 6)),
+            "run.csv: found text in UTF-16, expected text in UTF-8: 'iconv -f UTF-16 -t UTF-8' makes it");
+
   EXPECT_EQ(complaint_of_recording(""), "run.csv: found an empty file, expected a header line with a column 'time_s'");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n"),
             "run.csv:1: found a header without rows, expected one row or more");

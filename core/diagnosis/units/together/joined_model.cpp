@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/units/outside_truth.h"
 #include "core/diagnosis/units/unit_models.h"
 
@@ -31,8 +32,8 @@ std::string aside_name(std::size_t castor) { return "castor[" + std::to_string(c
 }  // namespace
 
 bool JoinedTest::lasts_throughout() const {
-  constexpr double kUneven = 2.5, kBeyondDoubt = 200.0;  // what acts in a few places scatters, unless it says so much
-  return cross_validated > 0.0 && (inflation < kUneven || judged() > kBeyondDoubt);
+  constexpr double kUneven = 2.5;  // what acts in a few places scatters, unless it says so much
+  return cross_validated > 0.0 && (inflation < kUneven || judged() > kDecisive);
 }
 
 JoinedModel::JoinedModel(std::vector<JoinedRun> runs, const Vehicle& vehicle, std::vector<double> clock_s,

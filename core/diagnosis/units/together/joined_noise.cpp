@@ -80,11 +80,11 @@ std::vector<JoinedModel::NoiseSize> JoinedModel::sizes_of_truth() const {
 
 // Satellites, beacons and maps: where that is beyond doubt, since a frame that wanders tells less of all that lasts.
 bool JoinedModel::let_frame_wander() {
-  constexpr double kWorthFitting = 10.0, kBeyondDoubt = 20.0;  // in twice the log-likelihood
+  constexpr double kWorthFitting = 10.0, kSurelyBetter = 20.0;  // in twice the log-likelihood
   const double still = minus_two_log_likelihood(noise_);
   const JoinedNoise as_it_stands = noise_;
   JoinedNoise best = noise_;
-  double least = still - kBeyondDoubt;
+  double least = still - kSurelyBetter;
   for (const double lasts_s : {0.0, 1.5}) {  // on and on, or back again
     JoinedNoise from = as_it_stands;
     double of_from = still - kWorthFitting;

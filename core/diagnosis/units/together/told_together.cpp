@@ -177,23 +177,13 @@ void put_names_into(const ToldTogether& told, Diagnosis& d) {
   if (told.said.unknown) {
     std::erase_if(d.findings, [](const Finding& f) { return f.effect == "unknown"; });
     d.findings.insert(d.findings.begin(), *told.said.unknown);
-    d.verdict = Verdict::unknown_effect;
     return;
   }
   for (const JoinedName& name : told.said.names)
     if (!name.is_usual) d.findings.push_back(name.finding);
   put_in_order(d.findings);
   if (std::string usual = usual_in_words(told.said.names); !usual.empty()) d.warnings.push_back(std::move(usual));
-  // What one unit by itself could not say all of them may.
   d.cannot_judge = d.cannot_judge && are_most_effects(d.not_testable);
-  if (d.verdict == Verdict::cannot_say && !d.cannot_judge) d.verdict = Verdict::nothing_missing;
-  const auto is_usual = [](const JoinedName& name) { return name.is_usual; };
-  if (std::all_of(told.said.names.begin(), told.said.names.end(), is_usual) || d.verdict == Verdict::unknown_effect)
-    return;
-  d.verdict =
-      std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) { return !f.alternatives.empty(); })
-          ? Verdict::ambiguous
-          : Verdict::found;
 }
 
 }  // namespace odolab

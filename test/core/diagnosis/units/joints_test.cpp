@@ -52,7 +52,7 @@ void turn_truth(std::vector<Recording>& runs, double by_rad) {
         for (double& heading : c.values) heading += by_rad;
 }
 
-void wobble(std::vector<Recording>& runs, double amplitude_rad) {
+void wobble_each(std::vector<Recording>& runs, double amplitude_rad) {
   for (Recording& r : runs)
     for (Channel& c : r.channels)
       if (c.name == "hitch_angle_rad")
@@ -63,7 +63,7 @@ TEST(JointErrors, OfAHitchThatWobblesByFourMilliradiansHaveNoNameAndAShape) {
   std::vector<Recording> runs = trailer_runs(trailer_with_a_fine_hitch(), 311);
   EXPECT_EQ(diagnose(runs, {}, vehicle_of(trailer_with_a_fine_hitch()))->verdict, Verdict::nothing_missing);
   constexpr double kWobble_rad = 0.004;
-  wobble(runs, kWobble_rad);
+  wobble_each(runs, kWobble_rad);
   const Diagnosis d = diagnose(runs, {}, vehicle_of(trailer_with_a_fine_hitch())).value();
   ASSERT_EQ(d.verdict, Verdict::unknown_effect);
   EXPECT_EQ(d.findings.front().component, "trailer");

@@ -110,8 +110,13 @@ TEST(MappedText, SaysWhatIsOdd) {
       complaint("t,a,b\n1700000000123456789,2,3\n", {"time_s=t", "truth_x_m=a", "truth_y_m=b"}),
       "log.csv:2: found '1700000000123456789' is no time in s (ms, us, ns say otherwise), expected rows of numbers "
       "in the mapped columns");
-  EXPECT_EQ(complaint("time_s;left_wheel_rad;right_wheel_rad\n0,0;1;2\n", {}),
-            "log.csv:1: found columns that no comma divides, expected commas; odolab import --map reads other text");
+  EXPECT_EQ(complaint("0.5,1,2,3\n1.0,1,2,3\n", {}),
+            "log.csv: found columns of one's own ('0.5', '1', '2', '3'), expected --map "
+            "CHANNEL=COLUMN[,UNIT] for each, such as time_s=1,ms left_wheel_rad=2,deg (a name or a number)");
+  std::string hardly_any = "t,a,b\n0,1,2\n";
+  for (int i = 1; i < 20; ++i) hardly_any += std::to_string(i) + ",x,3\n";
+  EXPECT_EQ(complaint(hardly_any, {"time_s=t", "truth_x_m=a", "truth_y_m=b"}),
+            "log.csv:3: found 'x' is no number, expected rows of numbers in the mapped columns");
 }
 
 // A wheel that speeds up evenly: the integral between samples is exact by the trapezium rule.

@@ -1,0 +1,55 @@
+#include "core/diagnosis/quality/bridged_recording.h"
+
+#include <cmath>
+#include <limits>
+
+#include "core/calibration/left_out.h"
+#include "core/calibration/repeated_stamps.h"
+#include "core/diagnosis/quality/quality.h"
+#include "core/recording/truth_left_out.h"
+
+namespace odolab {
+
+namespace {
+
+Recording without_truth(Recording recording) {
+  std::erase_if(recording.channels, [](const Channel& c) { return is_of_truth(c.name); });
+  return recording;
+}
+
+}  // namespace
+
+BridgedRecording bridged_recording(const Recording& recording, const Vehicle& vehicle, Looks looks) {
+  BridgedRecording out{recording, {}, {}};
+  Vehicle as_drive = vehicle;
+  if (const auto* tracked = std::get_if<Tracked>(&vehicle.kind)) as_drive.kind = as_differential_drive(*tracked);
+  const auto* drive = std::get_if<DifferentialDrive>(&as_drive.kind);
+  if (!drive || wheel_samples(recording, *drive).size() < 2) return out;
+  CheckedRecording ready = checked(looks == Looks::at_truth_too ? recording : without_truth(recording), as_drive);
+  for (const DataFault& fault : ready.faults)
+    if (fault.effect == "encoder_data_fault") out.said.push_back(in_words(fault));
+  if (out.said.empty()) return out;
+  out.left_out_s = ready.left_out_s;
+  const std::vector<WheelSample> wheels = bridged(without_repeated(wheel_samples(ready.recording, *drive)),
+                                                  out.left_out_s, 2.0 * kPi / drive->counts_per_wheel_turn());
+  if (looks == Looks::at_truth_too) out.recording.channels = std::move(ready.recording.channels);
+  out.recording.time_s = std::move(ready.recording.time_s);
+  const std::vector<double>& read_s = out.recording.time_s;
+  std::erase_if(out.recording.channels, [](const Channel& c) {
+    return c.name == "left_ticks" || c.name == "right_ticks" || c.name == "left_wheel_rad" ||
+           c.name == "right_wheel_rad";
+  });
+  std::vector<double> left(read_s.size(), std::numeric_limits<double>::quiet_NaN()), right = left;
+  std::size_t row = 0;
+  for (const WheelSample& w : wheels) {
+    while (row < read_s.size() && read_s[row] < w.time_s) ++row;
+    if (row == read_s.size()) break;
+    left[row] = w.left_rad;
+    right[row] = w.right_rad;
+  }
+  out.recording.channels.push_back({"left_wheel_rad", std::move(left)});
+  out.recording.channels.push_back({"right_wheel_rad", std::move(right)});
+  return out;
+}
+
+}  // namespace odolab
