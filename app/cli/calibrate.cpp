@@ -150,8 +150,9 @@ int execute_calibrate(const CalibrateOptions& options) {
     rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal, how)});
   print_table(rows);
   for (const CalibratedPart& part : calibration->parts)
-    for (const std::string& warning : part.calibration.warnings)
-      print_message("warning: " + part.name + (part.name.empty() ? "" : ": ") + warning);
+    for (const auto* warnings : {&part.calibration.warnings, &part.calibration.of_misfit})
+      for (const std::string& warning : *warnings)
+        print_message("warning: " + part.name + (part.name.empty() ? "" : ": ") + warning);
   if (!options.out.empty()) std::printf("\nwritten: %s\n", options.out.c_str());
   return kDone;
 }

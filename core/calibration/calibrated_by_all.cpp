@@ -271,7 +271,7 @@ class FitOfAll {
         if (determined_[active_[k]]) factor(k) = std::max(1.0, std::sqrt(robust(k, k) / covariance(k, k)));
     }
     result.innovations_are_correlated = true;
-    result.warnings.push_back(
+    result.of_misfit.push_back(
         formatted("the innovations are correlated (%.2f from one to the next): there is something that these "
                   "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
                   largest, n > 0 ? factor.maxCoeff() : 1.0));
@@ -352,8 +352,8 @@ class FitOfAll {
                                 (fit_->restarts() == 1 ? " place; the fit starts anew behind it"
                                                        : " places; the fit starts anew behind them"));
     if (result.outliers > 0.02 * samples)
-      result.warnings.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
-                                " truth samples contradict their neighbours and were set aside");
+      result.of_misfit.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
+                                 " truth samples contradict their neighbours and were set aside");
   }
 
   static void warn_of_values(const Clock& clock, LeastSquaresCalibration& result) {

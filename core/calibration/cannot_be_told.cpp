@@ -67,7 +67,7 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   if (base)
     sentences.push_back(std::string("wheelbase_m: ") +
                         (driven.turn_rad < kTurned_rad ? "the robot hardly turned"
-                         : driven.by_one_wheel()       ? "one wheel alone rolled, which shows its radius by the wheelbase"
+                         : driven.by_one_wheel()       ? "one wheel alone rolled: its radius shows by the wheelbase"
                                                        : "what it does to these turns the wheel radii do as well") +
                         so_far + "; drive a full turn on the spot each way, or arcs");
   if (open(column::mounting_x) || open(column::mounting_y))

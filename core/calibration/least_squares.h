@@ -57,6 +57,7 @@ struct LeastSquaresCalibration {
   FittedNoise noise;                     // from the same recordings
   std::vector<std::string> cannot_tell;  // what the recordings cannot determine, and which drive would, in words
   std::vector<std::string> warnings;
+  std::vector<std::string> of_misfit;    // more warnings: of what these parameters alone do not describe
   bool scale_is_open = false;            // only ratios show: the mean radius is held as it was given
   int innovations = 0;                   // scalar measurements used
   int outliers = 0;                      // truth samples set aside because they contradict their neighbours

@@ -234,6 +234,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   if (joint.noise_as_recorded().wander_lasts_s > 0.0 && joint.distrust() == 0.0)
     d.calibration_alone.innovations_are_correlated = false;
   append(d.warnings, ready->warnings);
+  if (!looked->names_explain_all()) append(d.warnings, ready->calibration.of_misfit);
   append(d.warnings, sought->of_undone);
   append(d.warnings, names.warnings);
   append(d.warnings, warnings_beside(joint, adequacy));

@@ -90,9 +90,10 @@ void draw_lens(ImDrawList& draw, ImVec2 low, ImVec2 high, const FloorScene& scen
   draw.PopClipRect();
   draw.AddRect(low, high, theme.ink, theme.px(4), 0, theme.px(1.2f));
   draw.AddLine({low.x, camera.low.y}, {high.x, camera.low.y}, theme.line);
-  const std::string title = "lens " + times(magnification);
-  draw.AddText({low.x + theme.px(8), low.y + theme.px(4)}, theme.ink, title.c_str());
   const std::string gap = shown_length(gap_m);
+  std::string title = "lens " + times(magnification);
+  if (ImGui::CalcTextSize((title + " " + gap).c_str()).x > high.x - low.x - theme.px(16)) title = times(magnification);
+  draw.AddText({low.x + theme.px(8), low.y + theme.px(4)}, theme.ink, title.c_str());
   draw.AddText({high.x - theme.px(8) - ImGui::CalcTextSize(gap.c_str()).x, low.y + theme.px(4)}, theme.orange,
                gap.c_str());
 }

@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/repeated_stamps.h"
 #include "core/diagnosis/quality/quality.h"
@@ -32,8 +35,10 @@ BridgedRecording bridged_recording(const Recording& recording, const Vehicle& ve
   out.left_out_s = ready.left_out_s;
   const std::vector<WheelSample> wheels = bridged(without_repeated(wheel_samples(ready.recording, *drive)),
                                                   out.left_out_s, 2.0 * kPi / drive->counts_per_wheel_turn());
-  if (looks == Looks::at_truth_too) out.recording.channels = std::move(ready.recording.channels);
-  out.recording.time_s = std::move(ready.recording.time_s);
+  if (looks == Looks::at_truth_too)
+    out.recording = std::move(ready.recording);
+  else if (std::optional<EvenedRecording> even = evened(recording, *drive))
+    out.recording = std::move(even->recording);
   const std::vector<double>& read_s = out.recording.time_s;
   std::erase_if(out.recording.channels, [](const Channel& c) {
     return c.name == "left_ticks" || c.name == "right_ticks" || c.name == "left_wheel_rad" ||

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/calibration/external.h"
@@ -59,6 +60,21 @@ TEST(BridgedRecording, CalibratesAsIfItsCountersHadGoneOn) {
     const ParameterEstimate& p = found->parts[0].calibration.parameters[static_cast<std::size_t>(k)];
     EXPECT_NEAR(p.value, truth[k], 4.0 * p.stderr_value) << p.name;
     EXPECT_LT(p.stderr_value, 1e-3 * truth[k]) << p.name;
+  }
+}
+
+// Stamps that tremble make other rows; the truth stays in its own.
+TEST(BridgedRecording, HasAWholeTruthThoughStampsAreEvened) {
+  Recording r = minute_of(true);
+  Random random(3);
+  const Channel& left = *r.channel("left_wheel_rad");
+  for (std::size_t i = 1; i + 1 < r.time_s.size(); ++i)
+    if (!std::isnan(left.values[i])) r.time_s[i] += 0.001 * std::clamp(random.normal(), -2.0, 2.0);
+  for (const Looks looks : {Looks::at_wheels_alone, Looks::at_truth_too}) {
+    const BridgedRecording sound = bridged_recording(r, as_drawn(), looks);
+    ASSERT_FALSE(sound.said.empty());
+    EXPECT_TRUE(problems_in(sound.recording).empty());
+    EXPECT_EQ(truth_samples(sound.recording).size(), truth_samples(r).size());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
 #include "test/support/missing_physics.h"
 #include "test/support/uncalibrated_model.h"
@@ -54,6 +55,45 @@ TEST(SlipZone, IsFoundThoughAWheelLosesLessThanACountOnIt) {
   ASSERT_TRUE(d.findings.front().where.zone);
   EXPECT_NEAR(d.findings.front().where.zone->x_m, kPlaceOfZone.x_m, 0.2);
   EXPECT_NEAR(d.findings.front().where.zone->y_m, kPlaceOfZone.y_m, 0.2);
+}
+
+// A patch that takes a vehicle three seconds to cross correlates innovations as a tracker does that smooths: only
+// samples half a second apart were used, and it was warned of a truth whose noise lasts.
+TEST(SlipZone, ThatIsCrossedSlowlyIsNoTrackerThatSmooths) {
+  constexpr double kLoses = 0.12, kRadius_m = 1.7;
+  const auto large_eights = [](int run) {
+    const double bend = 0.17 / kRadius_m, speed_radps = 4.0 + 0.4 * run,
+                 circle_s = 2.0 * kPi * kRadius_m / (0.075 * speed_radps);
+    return [=](double t) {
+      const double to_the_left = std::fmod(t, 2.0 * circle_s) < circle_s ? bend : -bend;
+      return WheelSpeedsAt{speed_radps * (1.0 - to_the_left), speed_radps * (1.0 + to_the_left)};
+    };
+  };
+  const auto slipping = [](int) {
+    return [](InjectedStep& s) {
+      const Vec2 side = rotated({0.0, 0.17}, s.pose.heading_rad), middle{kRadius_m, kRadius_m};
+      if (length(s.pose.position() + side - middle) < 0.5) s.left_m *= 1.0 - kLoses;
+      if (length(s.pose.position() - side - middle) < 0.5) s.right_m *= 1.0 - kLoses;
+    };
+  };
+  Random random(5);
+  GeneratorSettings g = under_motion_capture({0.075, 0.075, 0.34}, 0.0001, 0.01);
+  g.duration_s = 80.0;
+  const std::vector<Recording> runs = three_runs(g, random, large_eights, slipping);
+  EXPECT_GT(calibrate_least_squares(runs, Vehicle{}).value().truth_apart_s, 0.0);  // so it seems by itself
+  const Diagnosis d = diagnose(runs, {}, Vehicle{}).value();
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings.front().effect, "slip_zone");
+  EXPECT_NEAR(d.findings.front().parameters.front().value, kLoses,
+              2.0 * d.findings.front().parameters.front().stderr_value);
+  for (const std::string& warning : d.warnings) {
+    EXPECT_EQ(warning.find("noise lasts"), std::string::npos) << warning;
+    EXPECT_EQ(warning.find("correlated"), std::string::npos) << warning;
+  }
+  std::size_t samples = 0, used = 0;
+  for (const Recording& r : runs) samples += truth_samples(r).size();
+  for (const Residuals& r : d.residuals_after) used += r.time_s.size();
+  EXPECT_GT(used, 9 * samples / 10);
 }
 
 // Of another program's three runs one went 45 m away, so that patches were sought 1.5 m apart: one of 0.5 m that lost
