@@ -104,7 +104,8 @@ int run_for_picture(const GuiOptions& options, Session& session, Window& window)
       !session.guide().shown()) {  // the picture shows what a click on both buttons leads to
     const std::optional<Benchmark>& asked = session.run().scenario().benchmark;
     session.execute(ui::StartBenchmark{asked ? asked->runs_each_way : 5, asked.has_value()});
-    session.execute(ui::ApplyCalibration{});
+    if (!asked || !asked->extended)
+      session.execute(ui::ApplyCalibration{});  // what cables do no vehicle is changed for
   }
   if (session.mode() == ui::Mode::compare && !session.comparison().loaded() && options.files.empty())
     session.execute(ui::RecordSimulatedRun{});
