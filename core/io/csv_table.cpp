@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 
+#include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -12,35 +13,10 @@ namespace odolab {
 
 namespace {
 
-// Cells of one line, those inside double quotes kept whole, the quotes themselves taken off.
-void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
-  cells.clear();
-  std::size_t from = 0;
-  bool inside_quotes = false;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    if (i < line.size() && line[i] == '"') inside_quotes = !inside_quotes;
-    if (i < line.size() && (line[i] != delimiter || inside_quotes)) continue;
-    std::string_view cell = trimmed(line.substr(from, i - from));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    cells.push_back(cell);
-    from = i + 1;
-  }
-}
-
 // What divides the names of a header: a comma, or what spreadsheets write where that is the decimal point.
 char divider_of(std::string_view header) {
-  for (const char c : {',', ';', '\t'})
-    if (header.find(c) != std::string_view::npos) return c;
-  return ',';
-}
-
-// Of what no comma divides, a decimal comma is a point.
-std::optional<double> number_in(std::string_view cell, char delimiter) {
-  const std::size_t comma = delimiter == ',' ? std::string_view::npos : cell.find(',');
-  if (comma == std::string_view::npos) return number_from(cell);
-  std::string pointed(cell);
-  pointed[comma] = '.';
-  return number_from(pointed);
+  const char likely = likely_delimiter(header);
+  return likely == ' ' || header.find(',') != std::string_view::npos ? ',' : likely;
 }
 
 std::string listed_columns(const std::vector<std::string>& names) {
@@ -79,6 +55,10 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   std::vector<CsvCells> kinds;
   std::size_t time_column = 0;
   char delimiter = ',';
+  std::string pointed;
+  const auto number_in = [&](std::string_view cell) {
+    return number_from(delimiter == ',' ? cell : with_decimal_point(cell, pointed));
+  };
   std::size_t line_number = 0;
   while (!rest.empty()) {
     const void* newline = std::memchr(rest.data(), '\n', rest.size());
@@ -91,11 +71,11 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
     if (trimmed(line).empty()) continue;
     if (table.names.empty() && line.front() == '#') continue;  // a comment above the header
     if (table.names.empty()) delimiter = divider_of(line);
-    split(line, delimiter, cells);
+    split_cells(line, delimiter, cells);
     const std::string place = path + ":" + std::to_string(line_number);
 
     if (table.names.empty()) {
-      const auto is_number = [&](std::string_view cell) { return number_in(cell, delimiter).has_value(); };
+      const auto is_number = [&](std::string_view cell) { return number_in(cell).has_value(); };
       if (std::any_of(cells.begin(), cells.end(), is_number) &&
           std::all_of(cells.begin(), cells.end(), [&](auto cell) { return is_number(cell) || says_nothing(cell); }))
         return Error{place, "numbers", "a header line that names the columns, 'time_s' among them"};
@@ -122,7 +102,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
                    std::to_string(table.names.size()) + ", one for each column of the header"};
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      std::optional<double> value = number_in(cells[i], delimiter);
+      std::optional<double> value = number_in(cells[i]);
       if (!value) {
         const bool empty = says_nothing(cells[i]);
         if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))

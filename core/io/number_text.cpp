@@ -31,6 +31,16 @@ std::optional<double> number_from(std::string_view text) {
   return value;
 }
 
+std::string_view with_decimal_point(std::string_view cell, std::string& buffer) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || cell.find('.') != std::string_view::npos ||
+      cell.find(',', comma + 1) != std::string_view::npos)
+    return cell;
+  buffer = cell;
+  buffer[comma] = '.';
+  return buffer;
+}
+
 bool says_nothing(std::string_view cell) {
   constexpr std::string_view kWords[] = {"", "nan", "na", "n/a", "#n/a", "#na", "null", "none", "nil"};
   const auto is_same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };

@@ -19,6 +19,9 @@ std::string_view trimmed(std::string_view text);
 // The whole of a trimmed text as a finite number; a leading '+' is allowed. Nothing where it is none.
 std::optional<double> number_from(std::string_view text);
 
+// A cell with one comma, and no point, that is to be read as a decimal point; `buffer` holds it where there is one.
+std::string_view with_decimal_point(std::string_view cell, std::string& buffer);
+
 // Whether a cell stands for no number, in the words that programs have for it: nothing, NaN, NA, #N/A, null, None.
 bool says_nothing(std::string_view cell);
 

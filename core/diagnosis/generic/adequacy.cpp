@@ -181,19 +181,12 @@ bool is_in_pieces(const std::vector<ScoredCandidate>& evidence) {
   return share.size() > 2 && share[0] + share[1] < kTwoExplain * all;
 }
 
-// By a group that was let in last, and the names that did not suffice without it.
-std::optional<MovedTrack> moved_with_its_names(const JointModel& with) {
-  if (!with.accepted.back().acts_on_motion()) return std::nullopt;
-  JointModel names_only = with;
-  names_only.accepted.pop_back();
-  return moved_between(without_names(std::move(names_only), Base::stays), with);
-}
-
-// `with`: a model into which that group was let in last.
-Unnamed unnamed_by(const GenericTest& group, const JointModel& with, std::vector<Response> shape, double gain) {
+// `with`: a model into which that group was let in last; `without`: that has neither it nor names.
+Unnamed unnamed_by(const GenericTest& group, const JointModel& with, const JointModel& without,
+                   std::vector<Response> shape, double gain) {
   Unnamed u;
   u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
-  u.moves = moved_with_its_names(with);
+  if (with.accepted.back().acts_on_motion()) u.moves = moved_between(without, with);
   u.component = group.component;
   u.where.regime = group.channel + " that depends on " + group.variable;
   u.where.zone = group.zone;
@@ -300,7 +293,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     if (!is_simplest && !is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = says_more ? beyond(*g, kept, kMostLeft) : kept;
-    if (!which || more > which->gain) which = unnamed_by(*g, with, shape_of(*g, with), more);
+    if (!which || more > which->gain) which = unnamed_by(*g, with, bare, shape_of(*g, with), more);
   }
   return out;
 }
@@ -318,8 +311,8 @@ Unnamed unnamed_sway(const JointModel& joint, GenericTest group) {
   group.p_value = group.sway->p_value;
   JointModel with = joint;
   let_in(with, group);
-  Unnamed u =
-      unnamed_by(group, with, {}, std::max(0.0, group.test.statistic - group.test.freedom * group.test.inflation));
+  Unnamed u = unnamed_by(group, with, joint, {},
+                         std::max(0.0, group.test.statistic - group.test.freedom * group.test.inflation));
   u.where.regime += ", unless the truth sways so by itself";
   return u;
 }
@@ -418,7 +411,7 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
     if (!names_leave_as_much && !is_worth_saying(joint, calibrated, *left.group))
       out.something_small_is_left = joint.distrust() > 0.0 && !joint.accepted.empty();
     else if (gain > left.group->most_left * explained || is_in_pieces(of_vehicle))
-      out.unnamed = unnamed_by(*left.group, *left.with, left.shape, gain);
+      out.unnamed = unnamed_by(*left.group, *left.with, without_names(joint, Base::stays), left.shape, gain);
   }
   const double fair = beyond_chance(of_vehicle);
   const bool worth_asking = std::any_of(out.generic.begin(), out.generic.end(), [&](const GenericTest& g) {

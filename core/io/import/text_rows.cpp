@@ -53,13 +53,7 @@ bool TextRows::next_line(std::string_view& line) {
 }
 
 std::string_view TextRows::with_point(std::string_view cell) {
-  const std::size_t comma = shape_.delimiter == ',' ? std::string_view::npos : cell.find(',');
-  if (comma == std::string_view::npos || cell.find('.') != std::string_view::npos ||
-      cell.find(',', comma + 1) != std::string_view::npos)
-    return cell;
-  pointed_ = cell;
-  pointed_[comma] = '.';
-  return pointed_;
+  return shape_.delimiter == ',' ? cell : with_decimal_point(cell, pointed_);
 }
 
 std::optional<double> TextRows::number(std::string_view cell) {
