@@ -11,4 +11,7 @@ double quantile(std::vector<double> values, double share);
 // The middle one, or the mean of both in the middle; 0 of none.
 double median(std::vector<double> values);
 
+// The standard deviation of normal numbers about zero, by the median of their sizes: outliers hardly count. 0 of none.
+double scatter_about_zero(std::vector<double> values);
+
 }  // namespace odolab

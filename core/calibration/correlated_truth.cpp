@@ -20,13 +20,11 @@ struct Neighbours {
   // The samples of one rest. An outlier counts as little as the farthest of the rest.
   void add(std::vector<double> values) {
     constexpr std::size_t kFewest = 4;
-    constexpr double kFarthest = 4.0, kOfNormal = 1.4826;  // median deviation to standard deviation
+    constexpr double kFarthest = 4.0;  // in standard deviations
     if (values.size() < kFewest) return;
     const double middle = median(values);
     for (double& v : values) v -= middle;
-    std::vector<double> sizes;
-    for (double v : values) sizes.push_back(std::abs(v));
-    const double most = kFarthest * kOfNormal * median(std::move(sizes));
+    const double most = kFarthest * scatter_about_zero(values);
     double mean = 0.0;
     for (double& v : values) mean += v = std::clamp(v, -most, most);
     const auto n = static_cast<double>(values.size());

@@ -22,11 +22,6 @@ constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
 constexpr double kMatters = 0.5;  // of the readings' own roughness: what lateness adds below that is one part in ten
 
-double median_size(Series v) {
-  for (double& x : v) x = std::abs(x);
-  return quantile(std::move(v), 0.5);
-}
-
 // The typical period: so many rows at a time that packets do not hide it.
 double period_of(const Series& time_s, int look) {
   Series gaps;
@@ -47,7 +42,7 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   }
   Series step(time_s.size(), 0.0);
   for (int i = look; i + look <= n; ++i) step[i] = early[i] - early[i - look] - period_s * look;
-  const double limit = std::max(0.4 * period_s, 5.0 * 1.4826 * median_size(step));
+  const double limit = std::max(0.4 * period_s, 5.0 * scatter_about_zero(step));
   std::vector<int> ends;
   for (int i = 1; i < n; ++i) {
     // A step shows for some rows around it; it lies where the gap is least like a period.
@@ -168,7 +163,7 @@ void lay_line(const Series& time_s, const std::vector<int>& numbers, int from, i
       off[i] = late[i] - (1.0 - u) * knots[k] - u * knots[k + 1];
       even[from + i] = time_s[from + i] - off[i];
     }
-    const double scale = 2.0 * 1.4826 * median_size(off);
+    const double scale = 2.0 * scatter_about_zero(off);
     for (int i = 0; i < n; ++i) weight[i] = std::abs(off[i]) > scale && scale > 0.0 ? scale / std::abs(off[i]) : 1.0;
   }
 }
@@ -236,7 +231,7 @@ Share share_of(const Series& shown, const Series& lateness) {
     constexpr double kOverlap = 2.31;
     share.stderr_value = std::sqrt(kOverlap * ee / n / xx);
     share.size = ee > 0.0 ? std::sqrt(xx / ee) : 1e9;
-    const double limit = 6.0 * 1.4826 * median_size(left);
+    const double limit = 6.0 * scatter_about_zero(left);
     if (limit > 0.0)
       for (std::size_t i = 0; i < shown.size(); ++i) used[i] = std::abs(left[i]) <= limit;
   }

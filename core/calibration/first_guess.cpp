@@ -110,7 +110,7 @@ Plane fitted_plane(const std::vector<TurningStretch>& stretches, double TurningS
       if (used[i]) left_over += misses[i] * misses[i], total += s.*y * s.*y;
     }
     plane.explained = 1.0 - left_over / total;
-    const double gate = 3.0 * median(misses) / 0.6745 + 1e-9;
+    const double gate = 3.0 * scatter_about_zero(misses) + 1e-9;
     for (std::size_t i = 0; i < stretches.size(); ++i) used[i] = misses[i] <= gate;
   }
   return plane;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/calibration/evened_recording.h"
+#include "core/calibration/frozen_truth.h"
 #include "core/calibration/innovations.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/repeated_stamps.h"
@@ -29,33 +30,13 @@ bool lie_on_counts(const std::vector<WheelSample>& wheels, const DifferentialDri
 }
 
 // Truth that repeats itself to the last bit while the wheels drive on is not a measurement.
-int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels, const Vehicle& vehicle) {
-  const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
-  std::vector<TruthSample> kept;
-  std::size_t k = 0;
-  std::vector<double> rolled_m(wheels.size(), 0.0);
-  for (std::size_t i = 1; i < wheels.size(); ++i)
-    rolled_m[i] = rolled_m[i - 1] +
-                  0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
-                  0.5 * drive.wheel_radius_right_m * std::abs(wheels[i].right_rad - wheels[i - 1].right_rad);
-  const auto rolled_at = [&](double time_s) {
-    while (k + 1 < wheels.size() && wheels[k].time_s < time_s) ++k;
-    return rolled_m[k];
-  };
-  for (std::size_t i = 0; i < truth.size();) {
-    std::size_t j = i + 1;
-    while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
-           truth[j].position.y_m == truth[i].position.y_m && truth[j].heading_rad == truth[i].heading_rad)
-      ++j;
-    const double before_m = rolled_at(truth[i].time_s);
-    const bool frozen = j - i >= 3 && rolled_at(truth[j - 1].time_s) - before_m > 0.02;
-    for (std::size_t n = i; n < j; ++n)
-      if (!frozen || n == i) kept.push_back(truth[n]);
-    i = j;
-  }
-  const int left_out = static_cast<int>(truth.size() - kept.size());
-  truth = std::move(kept);
-  return left_out;
+int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
+                     const DifferentialDrive& drive) {
+  const TimeStretches frozen = frozen_truth(truth, wheels, drive);
+  return static_cast<int>(std::erase_if(truth, [&](const TruthSample& t) {
+    return std::any_of(frozen.begin(), frozen.end(),
+                       [&](const auto& stretch) { return t.time_s > stretch.first && t.time_s <= stretch.second; });
+  }));
 }
 // How fast a wheel goes at most from the first reading on, over a quarter of a second; a wheel that stands may be read
 // on either side of a count. Zero where a reading comes again.
@@ -125,7 +106,7 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     if (time_s < first_s || time_s > last_s) continue;
     if (truth.empty() || t.time_s > truth.back().time_s) truth.push_back(t);
   }
-  run.frozen = leave_out_frozen(truth, run.wheels, vehicle);
+  run.frozen = leave_out_frozen(truth, run.wheels, drive);
   const auto with_heading =
       std::count_if(truth.begin(), truth.end(), [](const TruthSample& t) { return t.heading_rad.has_value(); });
   run.truth_has_heading = 2 * with_heading > static_cast<std::ptrdiff_t>(truth.size());

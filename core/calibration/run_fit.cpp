@@ -117,7 +117,7 @@ Solution solved(const MatrixXd& rows, const VectorXd& y, int each, const std::ve
       misses.push_back(std::sqrt(size_of(left, i)));
       if (telling[static_cast<std::size_t>(i)]) of_telling.push_back(misses.back());
     }
-    const double gate = 3.0 * median(std::move(of_telling)) / 0.6745 + 1e-9;
+    const double gate = 3.0 * scatter_about_zero(std::move(of_telling)) + 1e-9;
     double squares = 0.0, count = 0.0;
     for (std::size_t i = 0; i < misses.size(); ++i) {
       used[i] = misses[i] <= gate;

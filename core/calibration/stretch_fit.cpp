@@ -27,9 +27,9 @@ VectorXd contradictions(const StretchProblem& problem, int stretch, const std::v
 VectorXd deviations(const std::vector<VectorXd>& residuals, const std::vector<double>& least) {
   VectorXd result(static_cast<Eigen::Index>(least.size()));
   for (int k = 0; k < result.size(); ++k) {
-    std::vector<double> sizes;
-    for (const VectorXd& r : residuals) sizes.push_back(std::abs(r[k]));
-    result[k] = std::max({1.4826 * median(std::move(sizes)), least[static_cast<std::size_t>(k)], 1e-7});
+    std::vector<double> of_one;
+    for (const VectorXd& r : residuals) of_one.push_back(r[k]);
+    result[k] = std::max({scatter_about_zero(std::move(of_one)), least[static_cast<std::size_t>(k)], 1e-7});
   }
   return result;
 }

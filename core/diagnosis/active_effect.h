@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/vehicle/vehicle.h"
+
 namespace odolab {
 
 struct ActiveEffect {
@@ -30,6 +32,9 @@ inline bool is_of_the_truth(const std::string& effect) {
 inline bool is_bias_of_a_joint(const std::string& effect) {
   return effect == "link_angle_bias" || effect == "link_length_bias" || effect == "pivot_angle_bias";
 }
+
+// How the truth is measured with those of the effects that say so.
+TruthMounting truth_under(const std::vector<ActiveEffect>& effects, TruthMounting truth);
 
 // What is wrong with the recorded numbers themselves.
 inline bool is_data_fault(const std::string& effect) {

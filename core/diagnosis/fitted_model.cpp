@@ -35,8 +35,7 @@ Vehicle FittedModel::vehicle_in(const std::string& recording) const {
     if (name == recording) result.truth.time_offset_s = offset_s;
   for (const FittedEffect& e : effects)
     if (e.active.effect == "truth_mounting_offset" && !e.recording.empty() && e.recording == recording)
-      result.truth.axle_T_tracked = {e.active.parameter("x_m"), e.active.parameter("y_m"),
-                                     e.active.parameter("heading_rad")};
+      result.truth = truth_under({e.active}, result.truth);
   return result;
 }
 

@@ -12,11 +12,9 @@ namespace {
 
 constexpr double kGathered_s[] = {0.05, 0.5};  // to both sides
 
-// The middle size of a channel's values, as the standard deviation of a normal distribution with few outliers.
 double size_of(std::vector<double> values) {
   values.erase(std::remove_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }), values.end());
-  for (double& v : values) v = std::abs(v);
-  return 1.4826 * median(std::move(values));
+  return scatter_about_zero(std::move(values));
 }
 
 // What lies far below the noise of one sample shows here as soon as it keeps its direction.

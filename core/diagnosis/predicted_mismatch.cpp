@@ -18,10 +18,8 @@ void take_in(const std::vector<ActiveEffect>& effects, InnovationRun& run, Truth
   for (const ActiveEffect& a : effects) {
     if (a.effect == "clock_rate") put_clock_right(run, a.parameter("rate"), truth.time_offset_s);
     if (a.effect == "actuator_delay") put_later(run, a.parameter("delay_s"));
-    if (a.effect == "truth_time_offset") truth.time_offset_s = a.parameter("offset_s");
-    if (a.effect == "truth_mounting_offset")
-      truth.axle_T_tracked = {a.parameter("x_m"), a.parameter("y_m"), a.parameter("heading_rad")};
   }
+  truth = truth_under(effects, truth);
 }
 
 // Where the filter has the axle, on the wheels' clock.

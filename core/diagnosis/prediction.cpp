@@ -39,32 +39,20 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   if (const auto other = other_than_differential_drive(vehicle, "can have effects fitted to it")) return *other;
   const CheckedRecording ready = checked(recording, vehicle);
   const bool from_commands = ready.from_commands;
-  Vehicle with = vehicle;
+  const TruthMounting mounting = truth_under(effects, vehicle.truth);
   double rate = 0.0, delay_s = 0.0;
   for (const ActiveEffect& a : effects) {
     if (a.effect == "clock_rate") rate += a.parameter("rate");
     if (a.effect == "actuator_delay") delay_s += a.parameter("delay_s");
-    if (a.effect == "truth_time_offset") with.truth.time_offset_s = a.parameter("offset_s");
-    if (a.effect == "truth_mounting_offset")
-      with.truth.axle_T_tracked = {a.parameter("x_m"), a.parameter("y_m"), a.parameter("heading_rad")};
   }
   InnovationRun run;
   run.wheels = wheel_samples(ready.recording, *drive);
-  const std::vector<TruthSample> truth = truth_samples(recording);
   if (run.wheels.size() < 2) return predicted_track(recording, vehicle);
   const double t0 = run.wheels.front().time_s;
   for (WheelSample& w : run.wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + rate) + delay_s;
   if (!from_commands) run.smooth = smoothed(run.wheels);
-  const Pose mounting = with.truth.axle_T_tracked;
-  Pose start;
-  double start_s = run.wheels.front().time_s;
-  if (!truth.empty()) {
-    start = Pose{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)} * inverse(mounting);
-    start_s = truth[0].time_s - with.truth.time_offset_s;
-    run.truth = {truth[0]};
-  } else {
-    run.truth = {TruthSample{start_s, {}, 0.0}};
-  }
+  const TimedPose start = predicted_start(recording, mounting, run.wheels.front().time_s);
+  run.truth = {TruthSample{start.time_s, start.pose.position(), start.pose.heading_rad}};
 
   // Effects of a place act where the track is, and the track is where they put it: twice is enough.
   Track track;
@@ -83,11 +71,9 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
               pose.y_m + f * std::sin(middle) + l * std::cos(middle), pose.heading_rad + turn};
       track.push_back({run.wheels[i + 1].time_s, pose});
     }
-    const double at_s = std::min(std::max(start_s, track.front().time_s), track.back().time_s);
-    const Pose there = *pose_at(track, at_s);
-    for (TimedPose& p : track) p.pose = start * between(there, p.pose);
+    track = through(std::move(track), start);
   }
-  for (TimedPose& p : track) p = {p.time_s + with.truth.time_offset_s, p.pose * mounting};
+  track = as_tracked(std::move(track), mounting);
   return within_bounds(from_commands ? at_commands(track, ready.recording) : std::move(track), recording);
 }
 

@@ -15,14 +15,6 @@ namespace odolab {
 
 namespace {
 
-// The track carried to where it passes through a pose at a time, whichever samples that falls between. Before the
-// wheels were read, and after, the vehicle is taken to stand.
-Track through(Track track, double start_s, const Pose& start) {
-  const Pose there = *pose_at(track, std::clamp(start_s, track.front().time_s, track.back().time_s));
-  for (TimedPose& p : track) p.pose = start * between(there, p.pose);
-  return track;
-}
-
 // The encoders' own track, from the origin; empty where the recording lacks them.
 struct ReckonedTrack {
   const Recording& recording;
@@ -63,17 +55,27 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
                  "the encoders of a " + kind_name(vehicle) + ", or commands"};
   }
 
-  const Pose& mounting = vehicle.truth.axle_T_tracked;
+  const TimedPose start = predicted_start(recording, vehicle.truth, axle.front().time_s);
+  return within_bounds(as_tracked(through(std::move(axle), start), vehicle.truth), recording);
+}
+
+TimedPose predicted_start(const Recording& recording, const TruthMounting& mounting, double without_truth_s) {
   const std::vector<TruthSample> truth = truth_samples(recording);
-  Pose start;
-  double start_s = axle.front().time_s;
-  if (!truth.empty()) {
-    start = Pose{truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)} * inverse(mounting);
-    start_s = truth[0].time_s - vehicle.truth.time_offset_s;
-  }
-  Track track = through(std::move(axle), start_s, start);
-  for (TimedPose& p : track) p = {p.time_s + vehicle.truth.time_offset_s, p.pose * mounting};
-  return within_bounds(std::move(track), recording);
+  if (truth.empty()) return {without_truth_s, Pose{}};
+  const TruthSample& first = truth.front();
+  const Pose tracked{first.position.x_m, first.position.y_m, first.heading_rad.value_or(0.0)};
+  return {first.time_s - mounting.time_offset_s, tracked * inverse(mounting.axle_T_tracked)};
+}
+
+Track through(Track axle, const TimedPose& start) {
+  const Pose there = *pose_at(axle, std::clamp(start.time_s, axle.front().time_s, axle.back().time_s));
+  for (TimedPose& p : axle) p.pose = start.pose * between(there, p.pose);
+  return axle;
+}
+
+Track as_tracked(Track axle, const TruthMounting& mounting) {
+  for (TimedPose& p : axle) p = {p.time_s + mounting.time_offset_s, p.pose * mounting.axle_T_tracked};
+  return axle;
 }
 
 Result<Track> within_bounds(Track track, const Recording& recording) {

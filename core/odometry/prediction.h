@@ -13,6 +13,17 @@ namespace odolab {
 // without a heading is taken to look along x.
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle);
 
+// Where the axle's centre is when a predicted track begins, on the encoders' clock: at the first truth sample; without
+// any at the origin, and at that time.
+TimedPose predicted_start(const Recording& recording, const TruthMounting& mounting, double without_truth_s);
+
+// The axle's track carried to where it passes through a pose, whichever samples that falls between. Before the wheels
+// were read, and after, the vehicle is taken to stand.
+Track through(Track axle, const TimedPose& start);
+
+// Of the point that the truth measures, on its clock.
+Track as_tracked(Track axle, const TruthMounting& mounting);
+
 // A track of which each pose is on some floor; else the error of the recording that led it there.
 Result<Track> within_bounds(Track track, const Recording& recording);
 

@@ -93,9 +93,9 @@ std::string apart_text(const FileCheck& file, const std::vector<FileCheck>& all)
       if (const ParameterEstimate* p = f.determined(name)) values.push_back(p->value);
     if (values.size() < 3 || !own) return false;
     const double middle = median(values);
-    for (double v : values) deviations.push_back(std::abs(v - middle));
+    for (double v : values) deviations.push_back(v - middle);
     const double away = std::abs(own->value - middle);
-    return away > least && away > 5.0 * own->stderr_value && away > 5.0 * 1.4826 * median(deviations);
+    return away > least && away > 5.0 * own->stderr_value && away > 5.0 * scatter_about_zero(deviations);
   };
   std::string text;
   const auto add = [&](bool is, const char* what) {

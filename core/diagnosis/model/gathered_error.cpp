@@ -107,9 +107,9 @@ double scatter_of_headings(const Track& truth) {
   for (std::size_t i = 3; i < truth.size(); ++i) {
     if (truth[i].time_s - truth[i - 3].time_s > 3.0 * kApart_s) continue;
     const auto heading = [&](std::size_t back) { return truth[i - back].pose.heading_rad; };
-    third_rad.push_back(std::abs(wrapped(heading(0) - 3.0 * heading(1) + 3.0 * heading(2) - heading(3))));
+    third_rad.push_back(wrapped(heading(0) - 3.0 * heading(1) + 3.0 * heading(2) - heading(3)));
   }
-  return third_rad.empty() ? 0.0 : 1.4826 * median(std::move(third_rad)) / std::sqrt(kOfNoise);
+  return scatter_about_zero(std::move(third_rad)) / std::sqrt(kOfNoise);
 }
 
 // A likelihood that takes headings and places for independent, or the rounding of coarse counts at samples within one

@@ -46,8 +46,8 @@ class SteadyTruth {
   double noise_of(const Of& of) const {
     std::vector<double> second;
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i)
-      second.push_back(std::abs(of(samples_[i + 1]) - 2.0 * of(samples_[i]) + of(samples_[i - 1])));
-    return median(second) / 0.6745 / std::sqrt(6.0);
+      second.push_back(of(samples_[i + 1]) - 2.0 * of(samples_[i]) + of(samples_[i - 1]));
+    return scatter_about_zero(std::move(second)) / std::sqrt(6.0);
   }
 
   const std::vector<TruthSample>& samples_;

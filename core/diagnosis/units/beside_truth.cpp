@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/base/formatted.h"
-#include "core/diagnosis/quality/frozen_truth.h"
+#include "core/calibration/frozen_truth.h"
 #include "core/diagnosis/units/errors_of_lengths.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"

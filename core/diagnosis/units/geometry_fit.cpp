@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
+#include "core/diagnosis/units/laid_stretch.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -217,26 +218,10 @@ class Passage {
         by_joints.push_back(tracked[k] * tracked_T_own.back());
         by_wheels.push_back(*pose_at(now.wheels, at_s));
       }
-      const double n = static_cast<double>(by_joints.size());
-      const double first_rad = by_joints[0].heading_rad - by_wheels[0].heading_rad;
-      double turned_rad = 0.0;
-      for (std::size_t k = 0; k < by_joints.size(); ++k)
-        turned_rad += wrapped(by_joints[k].heading_rad - by_wheels[k].heading_rad - first_rad) / n;
-      turned_rad += first_rad;
-      std::vector<Vec2> off;
-      Vec2 mean;
-      for (std::size_t k = 0; k < by_joints.size(); ++k) {
-        off.push_back(rotated(by_joints[k].position(), -turned_rad) - by_wheels[k].position());
-        mean = mean + (1.0 / n) * off.back();
-      }
-      for (std::size_t k = 0; k < by_joints.size(); ++k) {
-        const Vec2 rest = rotated(off[k] - mean, -by_wheels[k].heading_rad);  // along and across the unit
-        all.push_back({rest.x_m, rest.y_m, wrapped(by_joints[k].heading_rad - by_wheels[k].heading_rad - turned_rad)});
-        if (!by_wheels_alone) continue;
-        const Vec2 laid = rotated(by_wheels[k].position() + mean, turned_rad);
-        (*by_wheels_alone)[s.first + k] =
-            Pose{laid.x_m, laid.y_m, by_wheels[k].heading_rad + turned_rad} * inverse(tracked_T_own[k]);
-      }
+      const LaidStretch laid = laid_stretch(by_joints, by_wheels);
+      all.insert(all.end(), laid.rest.begin(), laid.rest.end());
+      for (std::size_t k = 0; k < by_wheels.size() && by_wheels_alone; ++k)
+        (*by_wheels_alone)[s.first + k] = laid.joints_T_wheels * by_wheels[k] * inverse(tracked_T_own[k]);
     }
     return all;
   }
@@ -250,9 +235,9 @@ class Passage {
   static Vector3d deviations(const std::vector<Vector3d>& residuals) {
     Vector3d result;
     for (int k = 0; k < 3; ++k) {
-      std::vector<double> sizes;
-      for (const Vector3d& r : residuals) sizes.push_back(std::abs(r[k]));
-      result[k] = std::max(1.4826 * median(std::move(sizes)), 1e-6);
+      std::vector<double> of_one;
+      for (const Vector3d& r : residuals) of_one.push_back(r[k]);
+      result[k] = std::max(scatter_about_zero(std::move(of_one)), 1e-6);
     }
     return result;
   }

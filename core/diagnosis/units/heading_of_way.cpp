@@ -77,9 +77,9 @@ std::optional<HeadingOfWay> heading_of_way(const std::vector<Track>& tracked) {
   double mounting_rad = 0.0, ahead_m = 0.0, deviation = 0.0, stderr_rad = 0.0;
   const auto rest = [&](const WayStretch& s) { return s.off_rad + mounting_rad - ahead_m * s.swung_pm; };
   for (int iteration = 0; iteration < 10; ++iteration) {
-    std::vector<double> sizes;
-    for (const WayStretch& s : all) sizes.push_back(std::sqrt(s.weight) * std::abs(rest(s)));
-    deviation = std::max(1.4826 * median(std::move(sizes)), 1e-6);
+    std::vector<double> rests;
+    for (const WayStretch& s : all) rests.push_back(std::sqrt(s.weight) * rest(s));
+    deviation = std::max(scatter_about_zero(std::move(rests)), 1e-6);
     double w = 0.0, c = 0.0, cc = 1e-9, r = 0.0, cr = 0.0;
     for (const WayStretch& s : all) {
       const double e = rest(s), size = std::sqrt(s.weight) * std::abs(e);

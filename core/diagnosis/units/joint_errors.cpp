@@ -45,10 +45,10 @@ double moved_by_slip_m(const std::vector<std::vector<UnitSample>>& samples, cons
           between(tracked_T_axle(vehicle, 0, of_run[i].joints), tracked_T_axle(vehicle, 1, of_run[i].joints));
       const Pose then = inverse(between(*pose_at(a, from_s), *pose_at(a, to_s))) * a_T_b *
                         between(*pose_at(b, from_s), *pose_at(b, to_s));
-      off_m.push_back(std::abs(length(then.position()) - length(a_T_b.position()) - (apart_m(k) - apart_m(i))));
+      off_m.push_back(length(then.position()) - length(a_T_b.position()) - (apart_m(k) - apart_m(i)));
     }
   }
-  return off_m.empty() ? 0.0 : 1.4826 * median(std::move(off_m));
+  return scatter_about_zero(std::move(off_m));
 }
 
 // Of what a joint reads, about its mean.

@@ -9,6 +9,7 @@
 #include "core/base/quantile.h"
 #include "core/diagnosis/units/joint_errors.h"
 #include "core/diagnosis/units/joint_shapes.h"
+#include "core/diagnosis/units/laid_stretch.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -64,29 +65,15 @@ class Laid {
   VectorXd residuals(std::size_t joint, const std::vector<double>& error) const {
     std::vector<double> all;
     for (const std::vector<Point>& stretch : stretches_) {
-      std::vector<Pose> by_joints;
-      const double n = static_cast<double>(stretch.size());
+      std::vector<Pose> by_joints, by_wheels;
       for (const Point& p : stretch) {
         std::vector<double> joints = p.joints;
         if (!error.empty()) joints[joint] -= error[p.sample];
         by_joints.push_back(p.tracked * tracked_T_axle(*vehicle_, unit_, joints));
+        by_wheels.push_back(p.wheels);
       }
-      const double first_rad = by_joints[0].heading_rad - stretch[0].wheels.heading_rad;
-      double turned_rad = 0.0;
-      for (std::size_t k = 0; k < stretch.size(); ++k)
-        turned_rad += wrapped(by_joints[k].heading_rad - stretch[k].wheels.heading_rad - first_rad) / n;
-      turned_rad += first_rad;
-      std::vector<Vec2> off;
-      Vec2 mean;
-      for (std::size_t k = 0; k < stretch.size(); ++k) {
-        off.push_back(rotated(by_joints[k].position(), -turned_rad) - stretch[k].wheels.position());
-        mean = mean + (1.0 / n) * off.back();
-      }
-      for (std::size_t k = 0; k < stretch.size(); ++k) {
-        const Vec2 rest = rotated(off[k] - mean, -stretch[k].wheels.heading_rad);
-        all.insert(all.end(), {rest.x_m, rest.y_m,
-                               wrapped(by_joints[k].heading_rad - stretch[k].wheels.heading_rad - turned_rad)});
-      }
+      for (const Eigen::Vector3d& rest : laid_stretch(by_joints, by_wheels).rest)
+        all.insert(all.end(), rest.begin(), rest.end());
     }
     return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
@@ -165,9 +152,9 @@ VectorXd fitted_shapes(const std::vector<Problem>& problems, std::size_t without
 Eigen::Vector3d deviations_of(const VectorXd& residuals) {
   Eigen::Vector3d result;
   for (int k = 0; k < 3; ++k) {
-    std::vector<double> sizes;
-    for (Eigen::Index i = k; i < residuals.size(); i += 3) sizes.push_back(std::abs(residuals[i]));
-    result[k] = std::max(1.4826 * median(std::move(sizes)), 1e-6);
+    std::vector<double> of_one;
+    for (Eigen::Index i = k; i < residuals.size(); i += 3) of_one.push_back(residuals[i]);
+    result[k] = std::max(scatter_about_zero(std::move(of_one)), 1e-6);
   }
   return result;
 }

@@ -110,32 +110,20 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
   std::vector<UnitSample> samples = unit_samples(recording, vehicle);
   if (samples.size() < 2) return predicted_track(recording, vehicle);
   Vehicle with = vehicle;
+  with.truth = truth_under(effects, vehicle.truth);
   double rate = 0.0;
-  for (const ActiveEffect& a : effects) {
+  for (const ActiveEffect& a : effects)
     if (a.effect == "clock_rate") rate += a.parameter("rate");
-    if (a.effect == "truth_time_offset") with.truth.time_offset_s = a.parameter("offset_s");
-    if (a.effect == "truth_mounting_offset")
-      with.truth.axle_T_tracked = {a.parameter("x_m"), a.parameter("y_m"), a.parameter("heading_rad")};
-  }
   const double begin_s = samples.front().time_s;
   for (UnitSample& s : samples) s.time_s = begin_s + (s.time_s - begin_s) / (1.0 + rate);
-  const Pose mounting = with.truth.axle_T_tracked;
-  const std::vector<TruthSample> truth = truth_samples(recording);
-  Pose start = mounting;  // of the tracked point
-  double start_s = begin_s;
-  if (!truth.empty()) {
-    start = {truth[0].position.x_m, truth[0].position.y_m, truth[0].heading_rad.value_or(0.0)};
-    start_s = std::clamp(truth[0].time_s - with.truth.time_offset_s, begin_s, samples.back().time_s);
-  }
-
+  const TimedPose start = predicted_start(recording, with.truth, begin_s);
   const std::vector<VehicleUnit> units = units_of(with);
   std::vector<std::vector<BodyMotion>> motions(units.size());
   Track track;
   // Effects of a place act where the units are, and the units are where they put them: twice is enough.
   for (int pass = 0; pass < 3; ++pass) {
-    track = std::visit(Reckoned{without_effects(samples, units, motions)}, with.kind);
-    const Pose there = *pose_at(track, start_s) * mounting;
-    for (TimedPose& p : track) p.pose = start * between(there, p.pose * mounting);
+    Track axle_a = std::visit(Reckoned{without_effects(samples, units, motions)}, with.kind);
+    track = as_tracked(through(std::move(axle_a), start), with.truth);
     for (std::size_t u = 0; u < units.size() && pass < 2; ++u) {
       InnovationRun run;
       Track axle;
@@ -150,7 +138,6 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
           motions_of(drive_view(0, run, units[u].drive, false, axle), effects_of_unit(effects, units[u], units));
     }
   }
-  for (TimedPose& p : track) p.time_s += with.truth.time_offset_s;
   return within_bounds(std::move(track), recording);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "core/base/quantile.h"
 #include "core/io/number_text.h"
 #include "physics/experiments/concealed/tally.h"
 
@@ -175,7 +176,7 @@ ResultTable parameters_table(const std::vector<Judged>& all, Tally& held) {
                     {}};
   for (const auto& [name, of] : by_name)
     table.rows.push_back(
-        {name, std::to_string(of.held.of), number_text("%.1f %%", 100.0 * median_of(of.error)), percent_of(of.held)});
+        {name, std::to_string(of.held.of), number_text("%.1f %%", 100.0 * median(of.error)), percent_of(of.held)});
   return table;
 }
 
@@ -246,8 +247,8 @@ void add_claims(ExperimentReport& report, const std::vector<Judged>& all, const 
   if (!h.share.empty())
     report.claims.push_back(
         {.sentence = "one effect, held-out error removed, as a share of what the oracle removes: median at least 0.9",
-         .holds = median_of(h.share) >= 0.9,
-         .because = "median " + number_text("%.2f", median_of(h.share)) + " of " + std::to_string(h.share.size()) +
+         .holds = median(h.share) >= 0.9,
+         .because = "median " + number_text("%.2f", median(h.share)) + " of " + std::to_string(h.share.size()) +
                     " cases in which the oracle removes more than " + number_text("%.0f %%", 100.0 * kOracleRemoves) +
                     " of the squared error"});
   if (!h.worse.empty()) {

@@ -1,6 +1,5 @@
 #include "physics/experiments/concealed/tally.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/io/number_text.h"
@@ -31,12 +30,5 @@ std::string text_with_interval(const Tally& t) {
 }
 
 std::string percent_of(const Tally& t) { return t.of > 0 ? number_text("%.0f %%", 100.0 * t.share()) : ""; }
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 }  // namespace odolab::concealed

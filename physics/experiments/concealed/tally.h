@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace odolab::concealed {
 
@@ -19,6 +18,5 @@ struct Tally {
 std::string text_of(const Tally& tally);             // "9 of 10"
 std::string text_with_interval(const Tally& tally);  // "9 of 10 = 90 % (60 to 98)"
 std::string percent_of(const Tally& tally);          // "90 %", empty without cases
-double median_of(std::vector<double> values);        // 0 where there is none
 
 }  // namespace odolab::concealed

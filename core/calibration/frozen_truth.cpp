@@ -1,4 +1,4 @@
-#include "core/diagnosis/quality/frozen_truth.h"
+#include "core/calibration/frozen_truth.h"
 
 #include <algorithm>
 #include <cmath>
