@@ -76,6 +76,7 @@ void print_calibration(const LeastSquaresCalibration& calibration) {
   std::printf("\nnormalised chi2 of the innovations: %.3f before, %.3f after, on %d of them (%d outliers set aside)\n",
               calibration.normalised_chi2_nominal, calibration.normalised_chi2, calibration.innovations,
               calibration.outliers);
+  std::printf("the noise is fitted, too: whether it is noise, or physics that the model lacks, odolab diagnose says\n");
   for (const std::string& sentence : calibration.cannot_tell) std::printf("cannot tell: %s\n", sentence.c_str());
 }
 

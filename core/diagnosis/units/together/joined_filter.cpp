@@ -38,13 +38,6 @@ std::vector<char> say_more(const std::vector<UnitSample>& samples) {
   return more;
 }
 
-Eigen::Matrix2d rotation_by(double heading_rad) {
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
-  Eigen::Matrix2d r;
-  r << c, -s, s, c;
-  return r;
-}
-
 }  // namespace
 
 JoinedFilter::JoinedFilter(const JoinedRun& run, const Vehicle& vehicle, double clock_s)
@@ -226,7 +219,7 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
         const Vec2 ahead = step.predicted[u].position() - before.position();
         off.row(k) -= ahead.y_m * off.row(k + 2);
         off.row(k + 1) += ahead.x_m * off.row(k + 2);
-        const Eigen::Matrix2d room = rotation_by(before.heading_rad);
+        const Eigen::Matrix2d& room = steps_[r - 1].room_R_corrected[u];
         for (Index c = 0; c < count; ++c) {
           const JoinedColumn& column = columns[static_cast<std::size_t>(c)];
           if (column.moved.empty() || column.moved[u].cols() == 0) continue;
@@ -237,8 +230,8 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
       }
     if (step.count == 0) continue;
     auto here = out.middleRows(static_cast<Index>(r) * n + step.first_row, step.count);
-    here.noalias() = step.out * off;
-    passed.noalias() = step.on * off;
+    here.noalias() = step.out.lazyProduct(off);  // too small to be packed for
+    passed.noalias() = step.on.lazyProduct(off);
     for (Index c = 0; c < count; ++c) {
       const JoinedColumn& column = columns[static_cast<std::size_t>(c)];
       if (column.read.cols() == 0) continue;

@@ -98,6 +98,7 @@ class JoinedFilter {
   struct Step {
     bool starts = false;
     std::vector<Pose> predicted, corrected;  // of each unit
+    std::vector<Eigen::Matrix2d> room_R_corrected;
     Eigen::MatrixXd uncertain;               // covariance of the states as predicted
     Eigen::Index first_row = 0, count = 0;   // of what was read
     Eigen::MatrixXd whitener, out;           // of what is read; of what the poses are off by, as it is seen

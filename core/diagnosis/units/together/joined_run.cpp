@@ -72,18 +72,21 @@ JoinedFilter::State JoinedFilter::begun(const JoinedNoise& noise) const {
 void JoinedFilter::go_on(std::size_t reading, const JoinedNoise& noise, State& state) const {
   std::vector<Pose>& at = state.at;
   Small& p = state.p;
+  std::array<Eigen::Matrix2d, kMostJoinedUnits> room_R_unit;
+  std::array<Eigen::Vector2d, kMostJoinedUnits> aheads;
   for (std::size_t u = 0; u < units(); ++u) {
     const auto k = 3 * static_cast<Index>(u);
     const Pose& moved = moved_[u][reading - 1];
-    const Eigen::Vector2d ahead = turned(at[u].heading_rad) * Eigen::Vector2d(moved.x_m, moved.y_m);
+    room_R_unit[u] = turned(at[u].heading_rad);
+    const Eigen::Vector2d& ahead = aheads[u] = room_R_unit[u] * Eigen::Vector2d(moved.x_m, moved.y_m);
     p.row(k) -= ahead[1] * p.row(k + 2);
     p.row(k + 1) += ahead[0] * p.row(k + 2);
   }
   for (std::size_t u = 0; u < units(); ++u) {
     const auto k = 3 * static_cast<Index>(u);
     const Pose& moved = moved_[u][reading - 1];
-    const Eigen::Matrix2d room = turned(at[u].heading_rad);
-    const Eigen::Vector2d ahead = room * Eigen::Vector2d(moved.x_m, moved.y_m);
+    const Eigen::Matrix2d& room = room_R_unit[u];
+    const Eigen::Vector2d& ahead = aheads[u];
     p.col(k) -= ahead[1] * p.col(k + 2);
     p.col(k + 1) += ahead[0] * p.col(k + 2);
     const auto [left_m, right_m] = rolled_m_[u][reading - 1];
@@ -347,11 +350,15 @@ double JoinedFilter::run(const JoinedNoise& noise, Wanted wanted) {
     residual_.segment(static_cast<Index>(r) * n + from, m) = white;
     step->corrected = state.at;
     step->whitener = root.matrixL().solve(Small::Identity(m, m));
-    step->out = step->whitener * h;
+    step->out = step->whitener.lazyProduct(h);
     step->first_row = from;
     step->count = m;
-    step->gain = turn * gain;
-    step->on = turn - step->gain * h;
+    step->gain = turn.lazyProduct(gain);
+    step->on = turn - step->gain.lazyProduct(h);
+  }
+  for (Step& step : steps_) {
+    step.room_R_corrected.clear();
+    for (const Pose& at : step.corrected) step.room_R_corrected.push_back(turned(at.heading_rad));
   }
   return minus_two_log;
 }
