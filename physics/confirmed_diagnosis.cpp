@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "core/calibration/evened_recording.h"
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/refuted.h"
+#include "core/diagnosis/units/vehicle_units.h"
 #include "core/recording/truth_left_out.h"
+#include "core/recording/vehicle_samples.h"
 #include "physics/driven_recording.h"
 #include "physics/model_replay.h"
 
@@ -18,21 +21,34 @@ namespace {
 // Where stamps tremble, wheels that are turned by them are jerked until they slip.
 Recording with_even_stamps(const Recording& recording, const Vehicle& nominal) {
   const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  const auto* tracks = std::get_if<Tracked>(&nominal.kind);
+  const std::vector<std::string> encoders = encoder_columns(nominal);
   std::optional<EvenedRecording> even;
-  if (drive) even = evened(recording, *drive);
+  if (drive || tracks)
+    even = evened(recording, drive ? *drive : as_differential_drive(*tracks));
+  else if (!encoders.empty())
+    even = evened(recording, encoders);
   return even ? std::move(even->recording) : recording;
 }
 
-// On the truth's clock, and a reading wider at either end.
-WaysUnknown ways_unknown(const Diagnosis& diagnosis, const FittedModel& model) {
+// Where encoders are at fault, or nobody read them: on the truth's clock, and a reading wider at either end.
+WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnosis& diagnosis,
+                         const FittedModel& model) {
   constexpr double kWider_s = 0.1;
   WaysUnknown unknown;
+  const auto add = [&](const std::string& recording, const TimeStretches& times) {
+    const double late_s = model.vehicle_in(recording).truth.time_offset_s;
+    for (const auto& [from_s, to_s] : times)
+      unknown[recording].emplace_back(from_s + late_s - kWider_s, to_s + late_s + kWider_s);
+  };
   for (const Finding& f : diagnosis.findings)
-    if (f.effect == "encoder_data_fault")
-      for (const auto& [from_s, to_s] : f.where.time_s) {
-        const double late_s = model.vehicle_in(f.where.recording).truth.time_offset_s;
-        unknown[f.where.recording].emplace_back(from_s + late_s - kWider_s, to_s + late_s + kWider_s);
-      }
+    if (f.effect == "encoder_data_fault") add(f.where.recording, f.where.time_s);
+  for (const Recording& r : recordings) {
+    std::vector<WheelSample> first;  // all units are read together
+    for (const UnitSample& s : unit_samples(r, model.vehicle))
+      first.push_back({s.time_s, s.wheels[0].left_rad, s.wheels[0].right_rad});
+    if (first.size() > 1) add(r.name, encoder_gaps(first));
+  }
   return unknown;
 }
 
@@ -75,7 +91,7 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   const Result<ModelReplay> replayed = replay_model(
       all, nominal, before, model_of(*diagnosis), noise_floor,
       [&](double share) { return goes_on(progress, kOfDiagnosis + (1.0 - kOfDiagnosis) * share); },
-      ways_unknown(*diagnosis, before));
+      ways_unknown(all, *diagnosis, before));
   if (!replayed) return replayed.error();
   diagnosis->simulation = replayed->fit;
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);

@@ -149,7 +149,8 @@ std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackEr
 // Each unit of a linked or castor vehicle driven alone by its own wheels: the joints say where it should come to.
 static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings, const Vehicle& file,
                                         const FittedModel& before, const FittedModel& after,
-                                        const std::optional<FitFigures>& noise_floor, const Progress& progress) {
+                                        const std::optional<FitFigures>& noise_floor, const Progress& progress,
+                                        const WaysUnknown& unknown) {
   ModelReplay result;
   const std::size_t units = units_of(after.vehicle).size();
   const auto add = [&](std::optional<FitFigures>& sum, const std::optional<FitFigures>& one) {
@@ -167,7 +168,7 @@ static Result<ModelReplay> replay_units(const std::vector<Recording>& recordings
       return goes_on(progress, (static_cast<double>(u) + share) / static_cast<double>(units));
     };
     Result<ModelReplay> one = replay_model(recordings_of_unit(recordings, after, u), file, model_of_unit(before, u),
-                                           model_of_unit(after, u), noise_floor, part);
+                                           model_of_unit(after, u), noise_floor, part, unknown);
     if (!one) return one.error();
     add(result.fit.calibrated, one->fit.calibrated);
     add(result.fit.with_findings, one->fit.with_findings);
@@ -180,7 +181,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
                                  const FittedModel& before, const FittedModel& after,
                                  const std::optional<FitFigures>& noise_floor, const Progress& progress,
                                  const WaysUnknown& unknown) {
-  if (has_units(after.vehicle)) return replay_units(recordings, file, before, after, noise_floor, progress);
+  if (has_units(after.vehicle)) return replay_units(recordings, file, before, after, noise_floor, progress, unknown);
   ModelReplay result;
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {

@@ -38,17 +38,39 @@ Pose start_of(const Scenario& scenario, const Recording* replayed, const TruthMo
   return tracked * inverse(mounting.axle_T_tracked);
 }
 
-// What the recording's encoders read first; empty where it lacks one of them.
-std::vector<double> first_readings(const Scenario& scenario, const Recording* replayed) {
+// On the clock of its encoders.
+double replay_begin_s(const Recording& replayed, const TruthMounting& mounting, double without_truth_s) {
+  const std::vector<TruthSample> truth = truth_samples(replayed);
+  return truth.empty() ? without_truth_s : truth.front().time_s - mounting.time_offset_s;
+}
+
+// What a channel reads at a time, evenly between its samples; before the first and behind the last as there.
+std::optional<double> reading_at(const Recording& recording, const Channel& channel, double time_s) {
+  std::optional<std::size_t> before;
+  for (std::size_t row = 0; row < channel.values.size(); ++row) {
+    if (std::isnan(channel.values[row])) continue;
+    const double now_s = recording.time_s[row];
+    if (now_s >= time_s) {
+      if (!before) return channel.values[row];
+      const double share = (time_s - recording.time_s[*before]) / (now_s - recording.time_s[*before]);
+      return channel.values[*before] + share * (channel.values[row] - channel.values[*before]);
+    }
+    before = row;
+  }
+  if (!before) return std::nullopt;
+  return channel.values[*before];
+}
+
+// What the recording's encoders read where the replay begins; empty where it lacks one of them.
+std::vector<double> first_readings(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
   std::vector<double> readings;
-  if (!replayed) return readings;
+  if (!replayed || replayed->time_s.empty()) return readings;
+  const double begin_s = replay_begin_s(*replayed, mounting, replayed->time_s.front());
   for (const std::string& name : encoder_channels(scenario.vehicle.kind)) {
     const Channel* channel = replayed->channel(name);
-    if (!channel) return {};
-    const auto first =
-        std::find_if(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
-    if (first == channel->values.end()) return {};
-    readings.push_back(*first);
+    const std::optional<double> reading = channel ? reading_at(*replayed, *channel, begin_s) : std::nullopt;
+    if (!reading) return {};
+    readings.push_back(*reading);
   }
   return readings;
 }
@@ -87,8 +109,8 @@ struct Simulation::Parts {
         ground(effects.laid_on(scenario.floor), inside_of(scenario.path), floor_seed),
         start(start_of(scenario, replayed.get(), mounting)),
         built(with_effects_built_in(scenario, effects)),
-        vehicle(make_planar_vehicle(
-            {built, start, effects, seed_of_stream(seed, kEncoderStream), first_readings(scenario, replayed.get())})),
+        vehicle(make_planar_vehicle({built, start, effects, seed_of_stream(seed, kEncoderStream),
+                                     first_readings(scenario, replayed.get(), mounting)})),
         driven_start(vehicle->believed_driven_point()),
         route(route_of(scenario.path, driven_start)),
         follower(route, scenario.driving, scenario.sensors.encoder_period_s),
@@ -131,8 +153,7 @@ struct Simulation::Parts {
       if (!replayed || (rotation.empty() && commands.empty())) return;
       const double first_s = rotation.empty() ? commands.first_s() : rotation.first_s();
       const double last_s = rotation.empty() ? commands.last_s() : rotation.last_s();
-      const std::vector<TruthSample> truth = truth_samples(*replayed);
-      begin_s = truth.empty() ? first_s : truth.front().time_s - mounting.time_offset_s;
+      begin_s = replay_begin_s(*replayed, mounting, first_s);
       duration_s = std::max(0.0, effects.empty() ? last_s - begin_s : effects.since_start_of_stamp_s(begin_s, last_s));
       vehicle->set_clock(begin_s);
       if (!rotation.empty()) {

@@ -134,6 +134,48 @@ std::optional<std::vector<double>> new_times(const std::string& name, const char
   return spread->time_s;
 }
 
+// A row that says what the one before said, at the same time: a log that wrote it twice.
+std::vector<std::size_t> rows_written_twice(const Recording& r) {
+  std::vector<std::size_t> rows;
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (std::size_t i = 1; i < r.time_s.size(); ++i)
+    if (r.time_s[i] == r.time_s[i - 1] && std::all_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) {
+          return same(c.values[i], c.values[i - 1]);
+        }))
+      rows.push_back(i);
+  return rows;
+}
+
+Recording without_rows(const Recording& r, const std::vector<std::size_t>& rows) {
+  const auto kept = [&](const std::vector<double>& all) {
+    std::vector<double> some;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (next < rows.size() && rows[next] == i)
+        ++next;
+      else
+        some.push_back(all[i]);
+    return some;
+  };
+  Recording out{r.name, r.provenance, kept(r.time_s), {}};
+  for (const Channel& c : r.channels) out.channels.push_back({c.name, kept(c.values)});
+  return out;
+}
+
+// `even`: of a recording without such rows.
+template <typename Even>
+std::optional<EvenedRecording> evened_once(const Recording& recording, const Even& even) {
+  const std::vector<std::size_t> twice = rows_written_twice(recording);
+  if (twice.empty()) return even(recording);
+  Recording once = without_rows(recording, twice);
+  std::optional<EvenedRecording> out = even(once);
+  if (!out) out = EvenedRecording{std::move(once), {}};
+  out->said.insert(out->said.begin(),
+                   name_or_words(recording.name) +
+                       formatted(": %d of its rows stand there twice; read once", static_cast<int>(twice.size())));
+  return out;
+}
+
 std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadEncoders& read) {
   EvenedRecording out;
   std::vector<NewTimes> parts;
@@ -156,9 +198,7 @@ std::optional<EvenedRecording> evened_by(const Recording& recording, const ReadE
   return out;
 }
 
-}  // namespace
-
-std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive) {
+std::optional<EvenedRecording> evened_of(const Recording& recording, const DifferentialDrive& drive) {
   ReadEncoders read{rows_of(recording, {"left_wheel_rad", "right_wheel_rad"}), {}, {{}, {}}, of_wheels};
   if (!read.rows) read.rows = rows_of(recording, {"left_ticks", "right_ticks"});
   if (read.rows)
@@ -170,7 +210,7 @@ std::optional<EvenedRecording> evened(const Recording& recording, const Differen
   return evened_by(recording, read);
 }
 
-std::optional<EvenedRecording> evened(const Recording& recording, const std::vector<std::string>& encoders) {
+std::optional<EvenedRecording> evened_of(const Recording& recording, const std::vector<std::string>& encoders) {
   ReadEncoders read{rows_of(recording, encoders), {}, {}, [&](const std::string& name) {
                       return std::find(encoders.begin(), encoders.end(), name) != encoders.end();
                     }};
@@ -185,6 +225,16 @@ std::optional<EvenedRecording> evened(const Recording& recording, const std::vec
     }
   }
   return evened_by(recording, read);
+}
+
+}  // namespace
+
+std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive) {
+  return evened_once(recording, [&](const Recording& r) { return evened_of(r, drive); });
+}
+
+std::optional<EvenedRecording> evened(const Recording& recording, const std::vector<std::string>& encoders) {
+  return evened_once(recording, [&](const Recording& r) { return evened_of(r, encoders); });
 }
 
 }  // namespace odolab

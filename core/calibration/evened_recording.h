@@ -16,7 +16,7 @@ struct EvenedRecording {
   std::vector<std::string> said;  // what was done, for whoever reads the report
 };
 
-// Nothing where all stamps are to be believed (`even_stamps`, `spread_repeated`): the wheels' way decides for the
+// Rows that say the same twice are read once. Nothing where all stamps are to be believed (`even_stamps`, `spread_repeated`): the wheels' way decides for the
 // encoders, the truth's own path for the truth.
 std::optional<EvenedRecording> evened(const Recording& recording, const DifferentialDrive& drive);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string_view>
 
 #include "core/geometry/angles.h"
 #include "core/recording/vehicle_samples.h"
@@ -175,8 +176,8 @@ Result<ExternalCalibration> calibrate_train(const std::vector<Recording>& record
     e.nominal = before;
     e.determined = p->determined;
     e.value = e.determined ? before + sign * p->value : before;
-    e.stderr_value =
-        std::hypot(p->stderr_value, tows && !(skids && of_mounting != kHeading) ? tows->stderr_value : 0.0);
+    e.stderr_value = std::hypot(
+        p->stderr_value, tows && !(skids && std::string_view(of_mounting) != kHeading) ? tows->stderr_value : 0.0);
     e.stderr_value = std::hypot(e.stderr_value, rounding);
     of_hitch.push_back(e);
     return e.value;

@@ -30,11 +30,4 @@ std::optional<SpreadStamps> spread_repeated(const std::vector<double>& time_s) {
   return spread;
 }
 
-std::vector<WheelSample> without_repeated(const std::vector<WheelSample>& readings) {
-  std::vector<WheelSample> kept;
-  for (const WheelSample& w : readings)
-    if (kept.empty() || w.time_s > kept.back().time_s) kept.push_back(w);
-  return kept;
-}
-
 }  // namespace odolab

@@ -18,6 +18,12 @@ struct SpreadStamps {
 std::optional<SpreadStamps> spread_repeated(const std::vector<double>& time_s);
 
 // Those whose stamp is later than that of the one before.
-std::vector<WheelSample> without_repeated(const std::vector<WheelSample>& readings);
+template <typename Reading>
+std::vector<Reading> without_repeated(const std::vector<Reading>& readings) {
+  std::vector<Reading> kept;
+  for (const Reading& r : readings)
+    if (kept.empty() || r.time_s > kept.back().time_s) kept.push_back(r);
+  return kept;
+}
 
 }  // namespace odolab

@@ -103,7 +103,11 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
 // What is wrong with the recordings themselves stands beside all physics; of those held out it gives no finding.
 void add_faults(Diagnosis& d, const ReadyRecordings& ready) {
   for (const CheckedRecording& c : ready.train)
-    for (const DataFault& fault : c.faults) d.findings.push_back(finding_of(fault));
+    for (const DataFault& fault : c.faults)
+      if (fault.effect == kEncoderGap)
+        d.warnings.push_back(in_words(fault));
+      else
+        d.findings.push_back(finding_of(fault));
   for (const CheckedRecording& c : ready.held_out)
     for (const DataFault& fault : c.faults) d.warnings.push_back(in_words(fault));
   for (const MovedMounting& m : ready.moved) d.findings.push_back(finding_of(m));

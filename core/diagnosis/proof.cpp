@@ -24,9 +24,11 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal) {
   return v;
 }
 
-// Other runs under a model that is frozen but for their clocks.
+// Other runs under a model that is frozen but for their clocks, or with these as well where it is as it was given: a
+// vehicle that is wrong would drag them along.
 JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std::vector<char> commands,
-                  LeastSquaresCalibration start, const Vehicle& nominal, const FittedNoise& noise) {
+                  LeastSquaresCalibration start, const Vehicle& nominal, const FittedNoise& noise,
+                  Predictor::Fit fit = Predictor::Fit::to_recordings) {
   start.vehicle = vehicle_of(source, nominal);
   start.noise = noise;
   start.time_offset_s.assign(runs.size(), start.vehicle.truth.time_offset_s);
@@ -42,8 +44,10 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   }
   j.linearise(false);
   j.gate();
-  align_clocks(j);
-  j.linearise(false);
+  if (fit != Predictor::Fit::none) {
+    align_clocks(j);
+    j.linearise(false);
+  }
   // Whether what came in one recording and stayed is there in these is not known either.
   for (std::size_t k = 0; k < j.accepted.size(); ++k) {
     if (!j.accepted[k].effect->and_later_recordings) continue;
@@ -136,7 +140,7 @@ Predicted Predictor::of(const JointModel& model, const FittedNoise& noise, Fit f
   Predicted p;
   p.fitted = side_of(all);
   if (!runs_.empty())
-    p.unseen = side_of({frozen(model, runs_, commands_, calibration_, nominal_, noise)});
+    p.unseen = side_of({frozen(model, runs_, commands_, calibration_, nominal_, noise, fit)});
   else if (leaves_out_in_turn) {
     const std::vector<JointModel> each = left_out_in_turn(all[0]);
     p.unseen = side_of(each);

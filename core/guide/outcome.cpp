@@ -124,6 +124,12 @@ void squares_outcome(GuideOutcome& out, const GuideSession& session) {
   else
     out.warnings.push_back("No tape was read: a scale that both wheels share is not in these numbers.");
   if (out.rounds.empty()) return;
+  if (!out.rounds.front().calibration) {
+    out.warnings.push_back(
+        "The first round has no run in one of both directions any more: what was found by it cannot be told again. "
+        "Count its runs again, or begin anew.");
+    return;
+  }
   tell_type_errors(out, *out.rounds.front().calibration, session.side_m);
   tell_accuracy(out);
   // Driven rounds carry the corrections; before there is one, the first round's own calibration.

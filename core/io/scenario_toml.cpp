@@ -302,16 +302,30 @@ Result<Done> read_nominal(TomlTable& top, const std::string& path, Scenario& sce
   return Done{};
 }
 
+// A file that is being read, and the one that includes it.
+struct Reading {
+  std::string path;
+  const Reading* included_by = nullptr;
+
+  bool is_under_way(const std::string& other) const {
+    std::error_code failure;
+    return std::filesystem::equivalent(path, other, failure) || (included_by && included_by->is_under_way(other));
+  }
+};
+
+Result<Scenario> read_scenario(const Reading& reading);
+
 // What an included scenario says, seen from the including file.
-Result<Done> read_included(TomlTable& top, const std::string& path, Scenario& scenario) {
+Result<Done> read_included(TomlTable& top, const Reading& reading, Scenario& scenario) {
+  const std::string& path = reading.path;
   std::string named;
   top.field("include", named);
-  const std::string file = beside(path, named);
+  const std::string file = beside(path, named), place = top.place_of("include") + ": include";
   std::error_code failure;
-  if (!std::filesystem::exists(file, failure))
-    return Error{top.place_of("include") + ": include", "'" + named + "', which does not exist",
-                 "a scenario, relative to this file"};
-  Result<Scenario> included = read_scenario(file);
+  if (!std::filesystem::is_regular_file(file, failure))
+    return Error{place, "'" + named + "', which does not exist", "a scenario, relative to this file"};
+  if (reading.is_under_way(file)) return Error{place, "'" + named + "', which includes itself", "another scenario"};
+  Result<Scenario> included = read_scenario(Reading{file, &reading});
   if (!included) return included.error();
   scenario = std::move(*included);
   scenario.expectations.clear();
@@ -327,10 +341,11 @@ Result<Done> read_included(TomlTable& top, const std::string& path, Scenario& sc
 }
 
 // All but the checks at the end, which are the whole file's.
-Result<Done> read_fields(TomlTable& top, const std::string& path, Scenario& scenario) {
+Result<Done> read_fields(TomlTable& top, const Reading& reading, Scenario& scenario) {
+  const std::string& path = reading.path;
   const bool includes = top.has("include");
   if (includes)
-    if (const Result<Done> done = read_included(top, path, scenario); !done) return done.error();
+    if (const Result<Done> done = read_included(top, reading, scenario); !done) return done.error();
   top_fields(scenario, top);
   const bool another_vehicle = top.has("vehicle");
   const Result<Done> nominal = read_nominal(top, path, scenario);
@@ -365,6 +380,18 @@ Result<Done> read_fields(TomlTable& top, const std::string& path, Scenario& scen
   return Done{};
 }
 
+Result<Scenario> read_scenario(const Reading& reading) {
+  Result<TomlTable> file = TomlTable::read(reading.path);
+  if (!file) return file.error();
+  TomlTable& top = *file;
+  Scenario scenario;
+  if (const Result<Done> read = read_fields(top, reading, scenario); !read) return read.error();
+  const Result<Done> done = top.finish();
+  if (!done) return done.error();
+  for (const std::string& problem : problems_in(scenario)) return top.error_of(problem);
+  return scenario;
+}
+
 }  // namespace
 
 std::string beside(const std::string& scenario_path, const std::string& named_file) {
@@ -373,21 +400,11 @@ std::string beside(const std::string& scenario_path, const std::string& named_fi
   return (std::filesystem::path(scenario_path).parent_path() / named).lexically_normal().string();
 }
 
-Result<Scenario> read_scenario(const std::string& path) {
-  Result<TomlTable> file = TomlTable::read(path);
-  if (!file) return file.error();
-  TomlTable& top = *file;
-  Scenario scenario;
-  if (const Result<Done> read = read_fields(top, path, scenario); !read) return read.error();
-  const Result<Done> done = top.finish();
-  if (!done) return done.error();
-  for (const std::string& problem : problems_in(scenario)) return top.error_of(problem);
-  return scenario;
-}
+Result<Scenario> read_scenario(const std::string& path) { return read_scenario(Reading{path}); }
 
 Result<Scenario> scenario_from(TomlTable& table, const std::string& path) {
   Scenario scenario;
-  if (const Result<Done> read = read_fields(table, path, scenario); !read) return read.error();
+  if (const Result<Done> read = read_fields(table, Reading{path}, scenario); !read) return read.error();
   if (table.failure()) return *table.failure();
   for (const std::string& problem : problems_in(scenario)) return Error{path + ": scenario." + problem, "", ""};
   return scenario;

@@ -13,7 +13,9 @@ struct TypicalRadius {
   double operator()(const LinkedTrucks& trucks) const { return trucks.truck_a.wheel_radius_left_m; }
   double operator()(const EncoderTrailer& train) const { return train.tow.wheel_radius_left_m; }
   double operator()(const SmartEncoderTrailer& train) const { return train.tow.wheel_radius_left_m; }
-  double operator()(const MultiCastor& vehicle) const { return vehicle.castors.front().wheel_radius_left_m; }
+  double operator()(const MultiCastor& vehicle) const {
+    return (vehicle.castors.empty() ? Castor{} : vehicle.castors.front()).wheel_radius_left_m;
+  }
 };
 
 }  // namespace

@@ -41,7 +41,8 @@ void FreeAxle::after_step(const Ground& ground) {
     rolling.speed_radps = rolled_m / (wheel.radius_m * step_s_);
     rolling.radius_m = wheel.radius_m;
     planar::VehicleMotion motion;
-    motion.since_start_s = motion.time_s = (static_cast<double>(steps_) + 0.5) * step_s_;
+    motion.since_start_s = (static_cast<double>(steps_) + 0.5) * step_s_;
+    motion.time_s = begin_s_ + motion.since_start_s;
     for (const auto& effect : *effects_) effect->roll(motion, rolling);
     const double turned_rad = rolled_m / (rolling.radius_m * contact.horizontal_share);
     double counted_rad = turned_rad;

@@ -27,6 +27,7 @@ class FreeAxle {
   void before_step();
   void after_step(const Ground& ground);  // a wheel turns by what it travelled, and on a bump by more
   WheelPair read(double time_s) const;
+  void set_clock(double begin_s) { begin_s_ = begin_s; }
   const WheelState& left() const { return wheels_[0].state; }
   const WheelState& right() const { return wheels_[1].state; }
 
@@ -45,6 +46,7 @@ class FreeAxle {
   int number_;
   const planar::Effects* effects_;
   double step_s_;
+  double begin_s_ = 0.0;
   std::int64_t steps_ = 0;
   Pose before_;
   std::array<Wheel, 2> wheels_;

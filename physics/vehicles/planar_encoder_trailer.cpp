@@ -6,6 +6,7 @@
 #include "core/odometry/differential_drive.h"
 #include "core/odometry/encoder_trailer.h"
 #include "core/scenario/effect_catalogue.h"
+#include "physics/sensors/absolute_encoder.h"
 #include "physics/sensors/encoder.h"
 #include "physics/sensors/slip_ring.h"
 #include "physics/vehicles/axle_commands.h"
@@ -83,6 +84,7 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
     axle_->after_step(ground);
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
+  void set_clock(double begin_s) override { axle_->set_clock(begin_s); }
 
   Pose pose() const override { return world_.pose(body_) * tracks_middle_; }
   double speed_mps() const override { return world_.velocity_of_point_mps(body_, {}).x_m; }
@@ -133,9 +135,8 @@ class PlanarEncoderTrailer final : public PlanarVehicle {
   double hitch_reading_rad() {
     const double angle_rad = world_.pose(body_).heading_rad - world_.pose(towed_).heading_rad;
     const double noise_rad = masses_.hitch_noise_rad > 0.0 ? masses_.hitch_noise_rad * hitch_noise_.normal() : 0.0;
-    const double biased_rad = wrapped(angle_rad + actual_.hitch_angle_offset_rad + noise_rad);
-    const double step_rad = nominal_.hitch_angle_resolution_rad;
-    return step_rad > 0.0 ? step_rad * std::round(biased_rad / step_rad) : biased_rad;
+    return wrapped(
+        quantised(angle_rad + actual_.hitch_angle_offset_rad + noise_rad, nominal_.hitch_angle_resolution_rad));
   }
 
   EncoderTrailer nominal_, actual_;

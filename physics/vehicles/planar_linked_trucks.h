@@ -24,6 +24,7 @@ class PlanarLinkedTrucks final : public PlanarVehicle {
   void turn(const Ground& ground, const Floor& floor, const std::vector<double>& speeds_radps) override;
   void begin_in_motion(const std::vector<double>& speeds_radps) override;
   void push(Vec2 impulse_ns) override;
+  void set_clock(double begin_s) override { a_.axle().set_clock(begin_s), b_.axle().set_clock(begin_s); }
   Pose pose() const override { return a_.pose(); }
   double speed_mps() const override { return world_.velocity_of_point_mps(a_.body(), {}).x_m; }
   double yaw_rate_radps() const override { return world_.yaw_rate_radps(a_.body()); }

@@ -129,6 +129,9 @@ class PlanarMultiCastor final : public PlanarVehicle {
     for (DrivenCastor& castor : castors_) castor.axle.after_step();
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(platform_, (1.0 / step_s_) * impulse_ns); }
+  void set_clock(double begin_s) override {
+    for (DrivenCastor& castor : castors_) castor.axle.set_clock(begin_s);
+  }
 
   Pose pose() const override { return world_.pose(platform_); }
   double speed_mps() const override { return world_.velocity_of_point_mps(platform_, {}).x_m; }

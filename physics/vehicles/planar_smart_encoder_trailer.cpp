@@ -64,6 +64,7 @@ class PlanarSmartEncoderTrailer final : public PlanarVehicle {
     axle_.after_step(ground);
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(tow_.body(), (1.0 / step_s_) * impulse_ns); }
+  void set_clock(double begin_s) override { tow_.axle().set_clock(begin_s), axle_.set_clock(begin_s); }
 
   Pose pose() const override { return tow_.pose(); }
   double speed_mps() const override { return world_.velocity_of_point_mps(tow_.body(), {}).x_m; }

@@ -87,6 +87,7 @@ class PlanarSynchroDrive final : public PlanarVehicle {
   }
 
   void push(Vec2 impulse_ns) override { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
+  void set_clock(double) override {}  // nor effects
 
   Pose pose() const override {
     const Pose& base = world_.pose(body_);

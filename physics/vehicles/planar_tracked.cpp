@@ -54,6 +54,7 @@ class PlanarTracked final : public PlanarVehicle {
     tracks_.after_step();
   }
   void push(Vec2 impulse_ns) override { world_.apply_force(body_, (1.0 / step_s_) * impulse_ns); }
+  void set_clock(double) override {}  // tracks have no effects
 
   Pose pose() const override { return world_.pose(body_) * tracks_middle_; }
   double speed_mps() const override { return world_.velocity_of_point_mps(body_, {}).x_m; }

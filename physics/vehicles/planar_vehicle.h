@@ -54,7 +54,7 @@ class PlanarVehicle {
   // A push from outside at the centre of mass of the first body, spread over the next step.
   virtual void push(Vec2 impulse_ns) = 0;
   // The clock of the run at its start, for effects that have a time; 0 if not told.
-  virtual void set_clock(double /*begin_s*/) {}
+  virtual void set_clock(double begin_s) = 0;
   // Of a recording that is replayed, the columns that turn the vehicle's motors, a speed for each; and one step in
   // which their encoders are to count exactly these speeds.
   virtual std::vector<std::string> turned_channels() const = 0;

@@ -106,6 +106,8 @@ int execute_run(const RunOptions& options) {
   for (const std::string& sentence : out->sentences) std::printf("%s\n", sentence.c_str());
   std::printf("written: %s/report.html, summary.json, recordings and pictures\n", folder.c_str());
   if (!options.check) return kDone;
+  if (scenario->expectations.empty())
+    print_message("warning: " + options.scenario + " has no [[expect]]: nothing was judged");
   std::printf("%s", judgement->lines.c_str());
   return judgement->all_hold ? kDone : kCheckFailed;
 }

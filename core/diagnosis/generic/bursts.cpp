@@ -6,6 +6,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
+#include "core/base/quantile.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/model/coarse_counts.h"
@@ -47,6 +48,20 @@ bool hides_behind_counts(const std::vector<double>& push, const JointModel& join
   return displaced_m <= kCounts * largest_count_m(joint);
 }
 
+// A truth that is worse for a while, as a camera is of what is far from it, says as much less of what happens then: how
+// much wider than chi-square the moments about one scatter, by their median, which no burst moves.
+double scatter_about(const SearchedShapes& moments, std::size_t n) {
+  constexpr double kAbout_s = 5.0, kMiddle = 2.366;  // the median of chi-square of kFreedom
+  const std::vector<double>& at = moments.shapes[moments.of_shape[n]];
+  std::vector<double> about;
+  for (std::size_t k = 0; k < moments.statistics.size(); ++k) {
+    const std::vector<double>& shape = moments.shapes[moments.of_shape[k]];
+    const double away_s = std::abs(shape[1] - at[1]);
+    if (shape[0] == at[0] && away_s < kAbout_s && away_s > kBurstsApart_s) about.push_back(moments.statistics[k]);
+  }
+  return median(std::move(about)) / kMiddle;
+}
+
 }  // namespace
 
 std::vector<Burst> bursts_of(std::vector<Burst> statistics) {
@@ -83,8 +98,11 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
-    const double statistic = moments.statistics[n] / scatter;
-    if (statistic > kNinetySeven && hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
+    double statistic = moments.statistics[n] / scatter;
+    if (statistic > kNinetySeven) {
+      if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
+      statistic = moments.statistics[n] / std::max(scatter, scatter_about(moments, n));
+    }
     all.push_back({static_cast<int>(shape[0]), shape[1], statistic});
   }
   std::sort(all.begin(), all.end(), [](const Burst& a, const Burst& b) {

@@ -30,7 +30,7 @@ BridgedRecording bridged_recording(const Recording& recording, const Vehicle& ve
   if (!drive || wheel_samples(recording, *drive).size() < 2) return out;
   CheckedRecording ready = checked(looks == Looks::at_truth_too ? recording : without_truth(recording), as_drive);
   for (const DataFault& fault : ready.faults)
-    if (fault.effect == "encoder_data_fault") out.said.push_back(in_words(fault));
+    if (fault.effect == "encoder_data_fault" || fault.effect == kEncoderGap) out.said.push_back(in_words(fault));
   if (out.said.empty()) return out;
   out.left_out_s = ready.left_out_s;
   const std::vector<WheelSample> wheels = bridged(without_repeated(wheel_samples(ready.recording, *drive)),

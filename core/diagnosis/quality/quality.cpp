@@ -102,8 +102,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
 
   if (const TimeStretches gaps = encoder_gaps(wheels); !gaps.empty()) {
     out.left_out_s = gaps;
-    out.faults.push_back({"encoder_data_fault", "both_wheels", recording.name, gaps,
-                          "no encoder readings " + times_text(gaps) + ", left out"});
+    out.faults.push_back(
+        {kEncoderGap, "both_wheels", recording.name, gaps, "no encoder readings " + times_text(gaps) + ", left out"});
   }
 
   for (int wheel = 0; wheel < 2; ++wheel) {

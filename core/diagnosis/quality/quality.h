@@ -11,8 +11,10 @@
 
 namespace odolab {
 
+inline constexpr const char* kEncoderGap = "encoder_gap";
+
 struct DataFault {
-  std::string effect;     // "truth_frozen" or "encoder_data_fault"
+  std::string effect;     // "truth_frozen" or "encoder_data_fault"; kEncoderGap is none: nothing is wrong that is there
   std::string component;  // "truth", "left_wheel", "right_wheel", "both_wheels"
   std::string recording;
   std::vector<std::pair<double, double>> time_s;

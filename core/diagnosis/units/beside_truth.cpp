@@ -85,9 +85,14 @@ GeometryFit geometry_of_trailer(const std::vector<JoinedRun>& runs, const Vehicl
     heading.determined = true;
   }
   GeometryFit geometry = fitted_geometry(runs, turned);
-  for (JointEstimate& e : geometry.joints)
-    if (e.parameter.name == "hitch_angle_offset_rad")
-      e.stderr_value = std::hypot(e.stderr_value, way ? way->stderr_rad : kUnknown_rad);
+  const double of_heading_rad = way ? way->stderr_rad : kUnknown_rad;
+  for (std::size_t k = 0; k < geometry.joints.size(); ++k) {
+    JointEstimate& e = geometry.joints[k];
+    if (e.parameter.name != "hitch_angle_offset_rad") continue;
+    e.stderr_value = std::hypot(e.stderr_value, of_heading_rad);
+    const auto c = static_cast<Eigen::Index>(k);
+    if (c < geometry.covariance.rows()) geometry.covariance(c, c) += of_heading_rad * of_heading_rad;
+  }
   geometry.joints.push_back(heading);
   return geometry;
 }
@@ -188,10 +193,7 @@ class BesideTruth {
     geometry_ = is_followed_ ? fitted() : geometry_of_file(nominal_, train_.runs.size());
     if (!carries_truth(units_) && is_followed_) clocks_ = put_clocks_right(train_.runs, nominal_, geometry_);
     if (is_towed_ && !clocks_.empty()) geometry_ = fitted();
-    if (!clocks_.empty() && !held_out_.runs.empty()) {
-      GeometryFit of_held_out = geometry_;
-      put_clocks_right(held_out_.runs, nominal_, of_held_out);
-    }
+    put_clocks_right_as(clocks_, held_out_.runs, nominal_, geometry_);
     for (const Set* set : {&train_, &held_out_})
       for (const JoinedRun& run : set->runs) samples_.push_back(run.samples);
     set_most_pivots_right(geometry_);

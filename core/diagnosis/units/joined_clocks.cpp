@@ -99,6 +99,17 @@ std::vector<ClockRate> put_clocks_right(std::vector<JoinedRun>& runs, const Vehi
   return rates;
 }
 
+void put_clocks_right_as(const std::vector<ClockRate>& fitted, std::vector<JoinedRun>& runs, const Vehicle& nominal,
+                         const GeometryFit& geometry) {
+  if (fitted.empty() || runs.empty()) return;
+  if (differ(fitted)) {
+    GeometryFit own = geometry;
+    put_clocks_right(runs, nominal, own);
+  } else {
+    for (JoinedRun& run : runs) put_right(run.tracked, fitted.front().rate);
+  }
+}
+
 Finding finding_of(const std::vector<ClockRate>& rates) {
   const Effect clocks = effects::clock_rate().front();
   Finding f;

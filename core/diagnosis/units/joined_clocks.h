@@ -22,6 +22,10 @@ void put_right(Track& tracked, double rate);
 // beyond chance; empty where they do not run apart.
 std::vector<ClockRate> put_clocks_right(std::vector<JoinedRun>& runs, const Vehicle& nominal, GeometryFit& geometry);
 
+// Those of other runs of the same vehicle, by what those said: by the one rate of all, or each by its own.
+void put_clocks_right_as(const std::vector<ClockRate>& fitted, std::vector<JoinedRun>& runs, const Vehicle& nominal,
+                         const GeometryFit& geometry);
+
 Finding finding_of(const std::vector<ClockRate>& put_right);
 
 }  // namespace odolab

@@ -62,7 +62,10 @@ GeometryFit told_geometry(const JoinedModel& model, const Vehicle& nominal) {
   }
   fit.drives.clear();
   for (const VehicleUnit& unit : units_of(model.vehicle())) fit.drives.push_back(unit.drive);
-  for (std::size_t r = 0; r < model.given().size(); ++r) fit.clock_s[r] = model.clock_s(r);
+  for (std::size_t r = 0; r < model.given().size(); ++r) {
+    fit.clock_s[r] = model.clock_s(r);
+    fit.clock_stderr_s[r] = model.stderr_of_clock_s(r);
+  }
   set_most_pivots_right(fit);
   take_asides(model, fit);
   return fit;

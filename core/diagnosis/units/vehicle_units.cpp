@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/calibration/finer_readings.h"
+#include "core/calibration/repeated_stamps.h"
 #include "core/odometry/differential_drive.h"
 
 namespace odolab {
@@ -169,7 +170,7 @@ std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& 
     for (const VehicleUnit& only : units_of(vehicle))
       for (const WheelSample& s : wheel_samples(recording, only.drive))
         samples.push_back({s.time_s, {{s.left_rad, s.right_rad}}, {}});
-  return samples;
+  return without_repeated(samples);
 }
 
 std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::size_t unit) {

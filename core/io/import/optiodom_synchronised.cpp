@@ -1,4 +1,5 @@
 // OptiOdom, synchronised: one CSV without a header, `t, x, y, heading, ticks right, ticks left`, ticks of each cycle.
+#include <cmath>
 #include <filesystem>
 
 #include "core/io/import/format.h"
@@ -30,6 +31,13 @@ Result<ImportedRecording> read_synchronised(const std::vector<std::string>& sour
       return Error{path + ":" + std::to_string(rows->lines[i]) + ": column 1",
                    number_text(recording.time_s[i]) + " after " + number_text(recording.time_s[i - 1]),
                    "times that never decrease"};
+  for (const std::size_t column : {4u, 5u})
+    for (std::size_t i = 0; i < rows->size(); ++i)
+      if (const double ticks = rows->columns[column][i]; ticks != std::round(ticks))
+        return Error{
+            path + ":" + std::to_string(rows->lines[i]) + ": column " + std::to_string(column + 1), number_text(ticks),
+            "whole ticks: six columns without a header are a synchronised OptiOdom file; a CSV of one's own has "
+            "one, as time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m"};
   // the counts of a cycle are those of the time up to its stamp: README.md
   std::vector<double> right = rows->columns[4], left = rows->columns[5];
   for (std::size_t i = 1; i < rows->size(); ++i) {

@@ -258,6 +258,33 @@ TEST(EvenedRecording, CalibrationOfReadingsThatArriveLateHoldsTheTrueValues) {
   }
 }
 
+// A reading that is missing, and the next row written twice: put between its neighbours the second of both would say
+// that the wheels jumped.
+TEST(EvenedRecording, ReadsARowThatStandsThereTwiceOnce) {
+  const test::GeneratorSettings g = seen_at_100_hz();
+  Random random(9);
+  const Recording once = test::generated(
+      g,
+      [](double t) {
+        return test::WheelSpeedsAt{6.0 + 3.0 * std::sin(t), 6.0 - 3.0 * std::sin(0.7 * t)};
+      },
+      random);
+  Recording twice = once;
+  const std::size_t missing = once.time_s.size() / 2, doubled = missing + 1;
+  const auto lose_and_double = [&](std::vector<double>& v) {
+    v.insert(v.begin() + static_cast<std::ptrdiff_t>(doubled), v[doubled]);
+    v.erase(v.begin() + static_cast<std::ptrdiff_t>(missing));
+  };
+  lose_and_double(twice.time_s);
+  for (Channel& c : twice.channels) lose_and_double(c.values);
+  const auto even = evened(twice, g.drive);
+  ASSERT_TRUE(even);
+  EXPECT_NE(even->said.front().find("1 of its rows stand there twice"), std::string::npos) << even->said.front();
+  EXPECT_EQ(even->recording.time_s.size(), once.time_s.size() - 1);
+  for (std::size_t i = 1; i < even->recording.time_s.size(); ++i)
+    EXPECT_GT(even->recording.time_s[i], even->recording.time_s[i - 1]);
+}
+
 TEST(EvenedRecording, IsNotEvenedAgainAndKeepsEveryReading) {
   Random random(8);
   const test::GeneratorSettings g = seen_at_100_hz();

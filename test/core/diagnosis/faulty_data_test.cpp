@@ -65,19 +65,20 @@ void expect_only_faults(const Diagnosis& d) {
   for (const Finding& f : d.findings) EXPECT_EQ(f.effect, "encoder_data_fault") << f.sentence;
 }
 
+// Counters go on while nobody reads them: nothing froze and nothing stepped back.
 TEST(FaultyData, SaysWhereTheEncodersWereNotReadAndMakesNothingOfIt) {
   for (double lasts_s : {0.5, 4.0}) {
     Case c = generated_case(short_case("", 0.0), 7503);
     const Diagnosis whole = diagnosed(c);
     lose_wheels(c.recordings[1], 12.01, 12.0 + lasts_s);
     const Diagnosis d = diagnosed(c);
-    ASSERT_EQ(d.findings.size(), 1u) << said(d);
-    expect_only_faults(d);
-    ASSERT_EQ(d.findings[0].where.time_s.size(), 1u);
-    // To a reading, which is 0.02 s here.
-    EXPECT_NEAR(d.findings[0].where.time_s[0].first, 12.0, 0.021);
-    EXPECT_NEAR(d.findings[0].where.time_s[0].second, 12.0 + lasts_s, 0.021);
-    EXPECT_EQ(d.findings[0].where.recording, "run_1");
+    EXPECT_TRUE(d.findings.empty()) << said(d);
+    EXPECT_EQ(d.verdict, Verdict::nothing_missing);
+    const std::string said_of_it = lasts_s < 1.0 ? "run_1 from 12.0 to 12.5 s: no encoder readings"
+                                                 : "run_1 from 12.0 to 16.0 s: no encoder readings";
+    EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(), [&](const std::string& w) {
+      return w.find(said_of_it) != std::string::npos;
+    })) << said_of_it;
     // The rest is as good as it was: a thirtieth of the drive is missing at most.
     EXPECT_LT(d.train.calibrated->position_rms_m, 1.15 * whole.train.calibrated->position_rms_m);
     EXPECT_LT(d.calibration.parameters[2].stderr_value, 1.3 * whole.calibration.parameters[2].stderr_value);

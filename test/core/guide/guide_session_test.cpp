@@ -152,6 +152,19 @@ TEST(GuideSession, BeginsTheSecondRoundOnceHoweverThePageIsReached) {
   EXPECT_EQ(session.page, 7);
 }
 
+TEST(GuideSession, TellsNothingOfAFirstRoundOfWhichOneDirectionIsLeftOutOnceTheSecondIsDriven) {
+  GuideSession session = at_runs();
+  for (const bool cw : {true, false}) enter_run(session, PageTask::runs, run_of({0.02, 0.01}, 4.0, cw, 0.34));
+  ASSERT_TRUE(compensate(session));
+  for (const bool cw : {true, false}) enter_run(session, PageTask::again, run_of({0.001, 0.0}, 4.0, cw, 0.34));
+  session.rounds.front().runs.front().left_out = true;
+  const GuideOutcome out = outcome_of(session);
+  EXPECT_TRUE(out.settings.empty());
+  EXPECT_TRUE(std::any_of(out.warnings.begin(), out.warnings.end(), [](const std::string& w) {
+    return w.find("The first round has no run in one of both directions") != std::string::npos;
+  }));
+}
+
 TEST(GuideSession, SaysWhereTheCalibrationDidNotHelp) {
   GuideSession session = at_runs();
   for (const PageTask task : {PageTask::runs, PageTask::again}) {

@@ -70,6 +70,10 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
             "c.csv:2: column 3: found 'zero', expected a number");
   EXPECT_EQ(complaint({folder.write("d.csv", "0.1,0,0,0,0,0\n0.05,0,0,0,1,1\n")}),
             "d.csv:2: column 1: found 0.05 after 0.1, expected times that never decrease");
+  // A CSV of one's own whose header is missing.
+  EXPECT_EQ(complaint({folder.write("f.csv", "0,0,0,0,0,0\n0.05,0.5,0.5,0.03,0.02,0.1\n")}),
+            "f.csv:2: column 5: found 0.02, expected whole ticks: six columns without a header are a synchronised "
+            "OptiOdom file; a CSV of one's own has one, as time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m");
   const std::string odometry = folder.write("a_run-01_odo.csv", "23.5,0,0\n23.55,1,2\n");
   EXPECT_EQ(complaint({odometry}),
             "a_run-01_odo.csv: found three columns as of OptiOdom's raw odometry, alone, expected its _opti.csv too, "

@@ -54,6 +54,18 @@ TEST_F(LessonFile, HoldsAScenarioOnTopOfAnother) {
   EXPECT_TRUE(s.expectations.empty());
 }
 
+TEST_F(LessonFile, OfScenariosThatIncludeEachOtherSaysSo) {
+  const std::string self = file("self.toml", "include = \"self.toml\"\n");
+  file("a.toml", "include = \"b.toml\"\n");
+  file("b.toml", "include = \"a.toml\"\n");
+  for (const std::string& path : {self, folder + "/a.toml"}) {
+    const Result<Scenario> scenario = read_scenario(path);
+    ASSERT_FALSE(scenario);
+    EXPECT_NE(scenario.error().message().find("include: found"), std::string::npos) << scenario.error().message();
+    EXPECT_NE(scenario.error().message().find("which includes itself"), std::string::npos);
+  }
+}
+
 TEST_F(LessonFile, SaysWhatIsWrongAndWhere) {
   const std::string head = "lesson = \"T\"\n[[step]]\ntitle = \"One\"\ntext = \"Words\"\n";
   EXPECT_NE(error_of("lesson = \"T\"\n").find("step"), std::string::npos);

@@ -5,6 +5,7 @@
 #include "core/recording/vehicle_samples.h"
 #include "physics/ground.h"
 #include "physics/planar_world.h"
+#include "physics/replay.h"
 #include "physics/simulation.h"
 
 namespace odolab {
@@ -149,6 +150,55 @@ TEST(Clapper, DrivingByInternalCorrectionDoesNotLoseItsHeadingOnABump) {
   const double lost_rad = simulation.state().estimated_pose.heading_rad - simulation.state().true_pose.heading_rad;
   // 0.59 degrees without. What is left is sideways travel on the bump, sampled each 18 mm: 18 mm 0.01 rad / 1 m.
   EXPECT_LT(std::abs(lost_rad), 0.02 * extra_roll_m(0.075, 0.010) / 0.340);
+}
+
+// The recording of a drive, on a clock that stood at so much when it began.
+std::shared_ptr<const Recording> driven_on_a_clock(Scenario scenario, double begin_s) {
+  Simulation simulation(scenario, 1);
+  run_to_end(simulation, 20.0);
+  Recording recording = simulation.recording();
+  for (double& t : recording.time_s) t += begin_s;
+  return std::make_shared<const Recording>(std::move(recording));
+}
+
+TEST(Clapper, IsPushedAtATimeOfTheRecordingThatItReplays) {
+  std::vector<Pose> ends;  // of truck B
+  for (const double begin_s : {0.0, 100.0}) {
+    const Scenario drive = clapper(StraightPath{2.0});
+    const auto recording = driven_on_a_clock(drive, begin_s);
+    Scenario scenario = replay_scenario(drive.vehicle, *recording);
+    scenario.effects = {{"collision", "truck_b", {{"at_s", begin_s + 4.0}, {"dx_m", 0.0}, {"dy_m", 0.2}}}};
+    Simulation simulation(scenario, 1, recording);
+    run_to_end(simulation, 20.0);
+    ends.push_back(simulation.state().other_bodies.front());
+  }
+  EXPECT_GT(std::abs(ends[0].y_m), 0.05);  // it was pushed
+  EXPECT_NEAR(ends[1].y_m, ends[0].y_m, 1e-6);
+}
+
+TEST(Clapper, BeginsItsReplayAsItsJointsStoodThen) {
+  const Scenario drive = clapper(RectanglePath{2.0, 1.0, 0.48, false});
+  const auto whole = driven_on_a_clock(drive, 0.0);
+  Recording late = *whole;
+  constexpr double kFirst_s = 8.0;
+  double truth_s = 0.0;
+  for (std::size_t i = 0; i < late.time_s.size(); ++i)
+    for (Channel& c : late.channels) {
+      if (c.name.rfind("truth", 0) != 0) continue;
+      if (late.time_s[i] < kFirst_s) c.values[i] = std::nan("");
+      if (!std::isnan(c.values[i]) && truth_s == 0.0) truth_s = late.time_s[i];
+    }
+  const auto recording = std::make_shared<const Recording>(late);
+  const Simulation simulation(replay_scenario(drive.vehicle, *recording), 1, recording);
+  // By the link's angles as they were read at that time: each is counted from its truck to the link.
+  const std::vector<LinkedSample> read = linked_samples(*whole);
+  const auto then = std::find_if(read.begin(), read.end(), [&](const LinkedSample& s) { return s.time_s >= truth_s; });
+  ASSERT_NE(then, read.end());
+  const double between_rad = then->link_angle_b_rad - then->link_angle_a_rad;
+  ASSERT_GT(std::abs(between_rad), 0.001);
+  EXPECT_NEAR(wrapped(simulation.state().other_bodies.front().heading_rad - simulation.state().true_pose.heading_rad -
+                      between_rad),
+              0.0, 1e-3);
 }
 
 TEST(Clapper, EncodersReadInStepsAndWithTheirOffsets) {

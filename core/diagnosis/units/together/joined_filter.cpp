@@ -205,12 +205,6 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
     has_acted = has_acted || acts_at(r);
     if (!has_acted) continue;
     const Step& step = steps_[r];
-    if (step.starts && r > 0) {
-      // The units are put anew where the first one and the joints say: what the first is off by, all are.
-      for (Index c = 0; c < count; ++c)
-        for (std::size_t u = 1; u < units(); ++u) off.col(c).segment<3>(3 * static_cast<Index>(u)).setZero();
-      continue;
-    }
     if (r > 0 && wanders_) off.bottomRows(3) *= kept_of_frame(r);
     if (r > 0)
       for (std::size_t u = 0; u < units(); ++u) {
@@ -228,6 +222,12 @@ MatrixXd JoinedFilter::carried(const std::vector<JoinedColumn>& columns) const {
           off(k + 2, c) += m[2];
         }
       }
+    if (step.starts && r > 0) {
+      // The units are put anew where the first one and the joints say: what the first is off by, all are.
+      for (Index c = 0; c < count; ++c)
+        for (std::size_t u = 1; u < units(); ++u) off.col(c).segment<3>(3 * static_cast<Index>(u)).setZero();
+      continue;
+    }
     if (step.count == 0) continue;
     auto here = out.middleRows(static_cast<Index>(r) * n + step.first_row, step.count);
     here.noalias() = step.out.lazyProduct(off);  // too small to be packed for

@@ -285,6 +285,11 @@ VectorXd JoinedModel::mean_of_radii() const {
 
 double JoinedModel::stderr_of_scale() const { return stderr_of(mean_of_radii()); }
 
+double JoinedModel::stderr_of_clock_s(std::size_t run) const {
+  if (!follows_truth_) return 0.0;
+  return stderr_of(VectorXd::Unit(z_.cols(), static_cast<Index>(lengths_.size() + 3 * units() + run)));
+}
+
 double JoinedModel::expected_stderr_of_scale() const {
   const VectorXd mean = mean_of_radii();
   return std::sqrt(mean.dot(gram_.solve(mean)));

@@ -52,6 +52,7 @@ class JoinedModel {
   bool follows_truth() const { return follows_truth_; }            // not by poses at the ends of a run alone
   bool has_headings() const { return has_headings_; }              // of the truth
   double clock_s(std::size_t run) const { return clock_s_[run]; }  // the truth's offset, on top of the vehicle's
+  double stderr_of_clock_s(std::size_t run) const;                 // 0 where it is not fitted, by ends alone
   const JoinedNoise& noise() const { return noise_; }
   const std::vector<DriveView>& views(std::size_t unit) const { return views_[unit]; }  // of each recording
   // What a length comes to, and how well it is known: the vehicle file's key. Unset where there is none of that name.

@@ -356,6 +356,7 @@ double JoinedFilter::run(const JoinedNoise& noise, Wanted wanted) {
     step->gain = turn.lazyProduct(gain);
     step->on = turn - step->gain.lazyProduct(h);
   }
+  if (!keeps_steps) return minus_two_log;
   for (Step& step : steps_) {
     step.room_R_corrected.clear();
     for (const Pose& at : step.corrected) step.room_R_corrected.push_back(turned(at.heading_rad));

@@ -273,5 +273,25 @@ TEST(DiagnoseUnits, MeasureWhereThePivotsLineMeetsTheAxleByPositionsAlone) {
   expect_asides(*d, actual);
 }
 
+// A radio that errs by six centimetres five times a second tells a clock to 30 ms, and is not off by what it errs.
+TEST(DiagnoseUnits, TakeNoClockForOffByWhatPositionsErr) {
+  const MultiCastor castors = three_castor_vehicle();
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    LinkedRunSettings s = under_a_total_station();
+    s.truth_m = 0.06;
+    std::vector<Recording> runs = positions_alone({castor_run(castors, s, seed)});
+    int sample = 0;
+    for (std::size_t i = 0; i < runs[0].time_s.size(); ++i) {
+      const bool is_seen = std::isfinite(runs[0].channel("truth_x_m")->values[i]) && sample++ % 5 == 0;
+      for (Channel& c : runs[0].channels)
+        if (c.name.rfind("truth", 0) == 0 && !is_seen) c.values[i] = std::nan("");
+    }
+    const Result<Diagnosis> d = diagnose(runs, {}, vehicle_of(castors));
+    ASSERT_TRUE(d) << d.error().message();
+    for (const Finding& f : d->findings)
+      EXPECT_NE(f.effect, "truth_time_offset") << seed << ": " << f.log_likelihood_gain;
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "test/support/crooked_vehicles.h"
+#include "test/support/linked_runs.h"
 
 namespace odolab::test {
 namespace {
@@ -67,6 +68,16 @@ TEST(VehicleUnits, StandWhereTheKinematicsPutThem) {
   const Pose moved = between(before, axle());
   EXPECT_GT(moved.x_m, 1e-5);
   EXPECT_NEAR(moved.y_m, 0.5 * moved.x_m * moved.heading_rad, 1e-9);  // the chord of an arc, and nothing sideways
+}
+
+TEST(UnitSamples, GoOnInTimeThoughAStampRepeatsTheOneBefore) {
+  const Clapper trucks = fine_clapper();
+  Recording read = linked_run(trucks, {}, 430);
+  read.time_s.push_back(read.time_s.back());
+  for (Channel& c : read.channels) c.values.push_back(c.values.back());
+  const std::vector<UnitSample> samples = unit_samples(read, vehicle_of(trucks));
+  ASSERT_GT(samples.size(), 2u);
+  for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_GT(samples[i].time_s, samples[i - 1].time_s);
 }
 
 }  // namespace
