@@ -2,6 +2,7 @@
 #include "app/cli/file_examples.h"
 #include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
+#include "core/calibration/recording_fault.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/obeyed_commands.h"
@@ -36,6 +37,9 @@ int execute_predict(const PredictOptions& options) {
       return bad_input({options.model + ": " + same.error().where, same.error().found, same.error().expected});
     model = std::move(*read);
   }
+  // What a calibration refuses is predicted all the same: a prediction claims nothing of the recording.
+  if (const std::optional<Error> fault = fault_in(loaded->recording, *vehicle))
+    print_message("warning: " + fault->message());
   const BridgedRecording sound = bridged_recording(loaded->recording, *vehicle, Looks::at_wheels_alone);
   for (const std::string& fault : sound.said) print_message("warning: " + fault);
   const Recording recording = with_obeyed_commands(sound.recording, *vehicle, model.vehicle);

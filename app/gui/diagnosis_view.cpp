@@ -206,13 +206,20 @@ ui::FloorScene diagnosis_scene(const ui::DiagnosisView& view, const ui::Diagnosi
     if (r != shown && view.runs[r].way && !view.runs[r].way->empty())
       scene.trails.push_back({view.runs[r].way, false, ui::faded(ui::run_colour(r, theme), 0.28f), {}, true});
   const ui::DiagnosedRun& run = view.runs[shown];
+  // What is simulated is the truth's point, which another unit's axle is not.
+  const bool is_of_a_unit = run.mismatch_trail && run.units.size() > 1;
+  if (is_of_a_unit) {
+    scene.reference_name = "recorded, " + (run.unit.empty() ? "towing" : part_words(run.unit));
+    if (run.way && !run.way->empty())
+      scene.trails.push_back({run.way, false, ui::faded(ui::run_colour(shown, theme), 0.5f), {}, true});
+  }
   if (run.mismatch_trail)
     scene.trails.push_back({run.mismatch_trail, true, 0, state.brush, false});
   else if (run.way && !run.way->empty())
     scene.trails.push_back({run.way, false, ui::run_colour(shown, theme), {}, false});
   if (run.simulated_track) {
     ui::TrackLine line;
-    line.label = "simulated";
+    line.label = is_of_a_unit ? "simulated, the truth's point" : "simulated";
     line.track = run.simulated_track;
     line.reference = run.truth_track;
     line.colour = view.simulated_now && view.findings_on() ? theme.blue : theme.orange;

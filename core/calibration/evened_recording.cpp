@@ -134,14 +134,19 @@ std::optional<std::vector<double>> new_times(const std::string& name, const char
   return spread->time_s;
 }
 
-// A row that says what the one before said, at the same time: a log that wrote it twice.
+// A row that says what the one before said of wheels or truth, at the same time: a log that wrote it twice.
 std::vector<std::size_t> rows_written_twice(const Recording& r) {
   std::vector<std::size_t> rows;
-  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  const auto is_same = [&](const Channel& c, std::size_t i) {
+    return c.values[i] == c.values[i - 1] || (std::isnan(c.values[i]) && std::isnan(c.values[i - 1]));
+  };
+  const auto is_read = [&](const Channel& c, std::size_t i) {
+    return !std::isnan(c.values[i]) && c.name.rfind("command_", 0) != 0;
+  };
   for (std::size_t i = 1; i < r.time_s.size(); ++i)
-    if (r.time_s[i] == r.time_s[i - 1] && std::all_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) {
-          return same(c.values[i], c.values[i - 1]);
-        }))
+    if (r.time_s[i] == r.time_s[i - 1] &&
+        std::all_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) { return is_same(c, i); }) &&
+        std::any_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) { return is_read(c, i); }))
       rows.push_back(i);
   return rows;
 }

@@ -29,6 +29,20 @@ Track at_commands(const Track& track, const Recording& obeying) {
   return kept;
 }
 
+// A pose for each reading, though a row that stands there twice was read once.
+Track for_each_reading(Track once, const std::vector<WheelSample>& readings) {
+  Track all;
+  std::size_t read = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const bool again = i > 0 && readings[i].time_s == readings[i - 1].time_s &&
+                       readings[i].left_rad == readings[i - 1].left_rad &&
+                       readings[i].right_rad == readings[i - 1].right_rad;
+    if (!again && read++ == once.size()) return once;
+    all.push_back(once[read - 1]);
+  }
+  return read == once.size() ? all : once;
+}
+
 }  // namespace
 
 Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle,
@@ -74,7 +88,9 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
     track = through(std::move(track), start);
   }
   track = as_tracked(std::move(track), mounting);
-  return within_bounds(from_commands ? at_commands(track, ready.recording) : std::move(track), recording);
+  return within_bounds(from_commands ? at_commands(track, ready.recording)
+                                     : for_each_reading(std::move(track), wheel_samples(recording, *drive)),
+                       recording);
 }
 
 }  // namespace odolab

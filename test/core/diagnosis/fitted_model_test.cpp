@@ -72,6 +72,29 @@ TEST(FittedModel, PredictsFromCommandsOfWhichOneIsWrittenTwice) {
   EXPECT_NEAR(once.y_m, twice.y_m, 1e-9);
 }
 
+TEST(FittedModel, PredictsAPoseForEachReadingThoughOneIsWrittenTwice) {
+  const auto predicted = [](bool twice) {
+    Recording r;
+    r.name = "read";
+    std::vector<double> left_rad, right_rad;
+    for (int i = 0; i < 100; ++i)
+      for (int times = twice && i == 40 ? 2 : 1; times > 0; --times) {
+        r.time_s.push_back(0.05 * i);
+        left_rad.push_back(0.2 * i);
+        right_rad.push_back(0.25 * i);
+      }
+    r.channels = {{"left_wheel_rad", left_rad}, {"right_wheel_rad", right_rad}};
+    const Result<Track> track = predicted_track(r, Vehicle{}, {{"turn_scrub", "vehicle", {{"amount", 0.05}}}});
+    EXPECT_TRUE(track);
+    EXPECT_EQ(track->size(), r.time_s.size());
+    return *track;
+  };
+  const Track once = predicted(false), twice = predicted(true);
+  EXPECT_NEAR(once.back().pose.x_m, twice.back().pose.x_m, 1e-9);
+  EXPECT_NEAR(once.back().pose.heading_rad, twice.back().pose.heading_rad, 1e-9);
+  EXPECT_EQ(twice[41].pose.x_m, twice[40].pose.x_m);
+}
+
 // A base without encoders whose wheels are 3 and 2 % larger than its file says, on a base 4 % wider, and that follows a
 // tenth of a second late: what is predicted from the model stays within the truth's noise over a minute.
 TEST(FittedModel, PredictsFromCommandsAsTheyWereObeyed) {
