@@ -48,8 +48,52 @@ bool hides_behind_counts(const std::vector<double>& push, const JointModel& join
   return displaced_m <= kCounts * largest_count_m(joint);
 }
 
-// A truth that is worse for a while, as a camera is of what is far from it, says as much less of what happens then: how
-// much wider than chi-square the moments about one scatter, by their median, which no burst moves.
+// A truth that is worse for a while, as a camera is of what is far from it, says as much less of what happens then. How
+// much worse its third differences tell, in which no motion shows, and no push but for a moment.
+class Tremble {
+ public:
+  explicit Tremble(const JointModel& joint) {
+    double sum = 0.0, windows = 0.0;
+    for (const InnovationRun& run : joint.runs()) {
+      std::vector<Third>& of_run = thirds_.emplace_back();
+      for (std::size_t i = 3; i < run.truth.size(); ++i) {
+        const auto at = [&](std::size_t back) { return run.truth[i - back].position; };
+        const Vec2 third = at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3);
+        of_run.push_back({0.5 * (run.truth[i].time_s + run.truth[i - 3].time_s), third});
+      }
+      for (double t = of_run.empty() ? 0.0 : of_run.front().time_s; !of_run.empty() && t < of_run.back().time_s;
+           t += kAbout_s)
+        if (const double variance = about(thirds_.size() - 1, t); variance > 0.0) sum += variance, ++windows;
+    }
+    if (windows > 0.0) usual_ = sum / windows;
+  }
+  // The variance about a moment, in times the mean of all.
+  double worse(int run, double time_s) const {
+    return usual_ > 0.0 ? about(static_cast<std::size_t>(run), time_s) / usual_ : 1.0;
+  }
+
+ private:
+  struct Third {
+    double time_s;
+    Vec2 value;
+  };
+  static constexpr double kAbout_s = 5.0;
+
+  double about(std::size_t run, double time_s) const {
+    const std::vector<Third>& all = thirds_[run];
+    const auto earlier = [](const Third& t, double at_s) { return t.time_s < at_s; };
+    std::vector<double> sizes;
+    for (auto t = std::lower_bound(all.begin(), all.end(), time_s - kAbout_s, earlier);
+         t != all.end() && t->time_s < time_s + kAbout_s; ++t)
+      sizes.insert(sizes.end(), {t->value.x_m, t->value.y_m});
+    return std::pow(scatter_about_zero(std::move(sizes)), 2);
+  }
+
+  std::vector<std::vector<Third>> thirds_;  // of each run
+  double usual_ = 0.0;
+};
+
+// How much wider than chi-square the moments about one scatter, by their median, which no burst moves.
 double scatter_about(const SearchedShapes& moments, std::size_t n) {
   constexpr double kAbout_s = 5.0, kMiddle = 2.366;  // the median of chi-square of kFreedom
   const std::vector<double>& at = moments.shapes[moments.of_shape[n]];
@@ -95,13 +139,17 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   const SearchedShapes moments = best_shape(joint.views(), scan, *push);
   if (moments.statistics.empty()) return std::nullopt;
   const double scatter = std::max(1.0, scatter_of_statistics(moments.statistics, kFreedom));
+  const Tremble tremble(joint);
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
     double statistic = moments.statistics[n] / scatter;
     if (statistic > kNinetySeven) {
       if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
-      statistic = moments.statistics[n] / std::max(scatter, scatter_about(moments, n));
+      // Both must say so: the moments about it are wide by what goes on for seconds, too, and a truth that trembles
+      // more need not make them wide.
+      const double wide = std::min(tremble.worse(static_cast<int>(shape[0]), shape[1]), scatter_about(moments, n));
+      statistic = moments.statistics[n] / std::max(scatter, wide);
     }
     all.push_back({static_cast<int>(shape[0]), shape[1], statistic});
   }
