@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/odometry/estimators.h"
+#include "core/recording/aligned_rows.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
@@ -44,35 +45,15 @@ double replay_begin_s(const Recording& replayed, const TruthMounting& mounting, 
   return truth.empty() ? without_truth_s : truth.front().time_s - mounting.time_offset_s;
 }
 
-// What a channel reads at a time, evenly between its samples; before the first and behind the last as there.
-std::optional<double> reading_at(const Recording& recording, const Channel& channel, double time_s) {
-  std::optional<std::size_t> before;
-  for (std::size_t row = 0; row < channel.values.size(); ++row) {
-    if (std::isnan(channel.values[row])) continue;
-    const double now_s = recording.time_s[row];
-    if (now_s >= time_s) {
-      if (!before) return channel.values[row];
-      const double share = (time_s - recording.time_s[*before]) / (now_s - recording.time_s[*before]);
-      return channel.values[*before] + share * (channel.values[row] - channel.values[*before]);
-    }
-    before = row;
-  }
-  if (!before) return std::nullopt;
-  return channel.values[*before];
-}
-
 // What the recording's encoders read where the replay begins; empty where it lacks one of them.
 std::vector<double> first_readings(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
-  std::vector<double> readings;
-  if (!replayed || replayed->time_s.empty()) return readings;
-  const double begin_s = replay_begin_s(*replayed, mounting, replayed->time_s.front());
-  for (const std::string& name : encoder_channels(scenario.vehicle.kind)) {
-    const Channel* channel = replayed->channel(name);
-    const std::optional<double> reading = channel ? reading_at(*replayed, *channel, begin_s) : std::nullopt;
-    if (!reading) return {};
-    readings.push_back(*reading);
-  }
-  return readings;
+  if (!replayed) return {};
+  std::vector<AlignedChannel> encoders;
+  for (const std::string& name : encoder_channels(scenario.vehicle.kind))
+    encoders.push_back({name, !name.ends_with("wheel_rad") && !name.ends_with("_m")});
+  const AlignedRows rows = aligned_rows(*replayed, encoders);
+  if (rows.time_s.empty()) return {};
+  return RecordedRotation(rows.time_s, rows.values).at(replay_begin_s(*replayed, mounting, rows.time_s.front()));
 }
 
 Scenario with_effects_built_in(Scenario scenario, const planar::Effects& effects) {

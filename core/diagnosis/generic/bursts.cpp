@@ -20,6 +20,7 @@ namespace {
 constexpr int kFreedom = 3;             // of a push: x, y, heading
 constexpr double kNinetySeven = 8.947;  // of that chi-square
 constexpr double kBurstsApart_s = 1.0;
+constexpr double kAbout_s = 5.0;  // to either side of a moment: what the truth is like about it
 // The mean excess of one moment is 2.16, and so is that of the largest of each second: 2.17 over 122 sets of five
 // programs in which nothing is missing. Noise with a heavier tail is noise still: with this mean the least likely of
 // them came to 0.03.
@@ -77,8 +78,6 @@ class Tremble {
     double time_s;
     Vec2 value;
   };
-  static constexpr double kAbout_s = 5.0;
-
   double about(std::size_t run, double time_s) const {
     const std::vector<Third>& all = thirds_[run];
     const auto earlier = [](const Third& t, double at_s) { return t.time_s < at_s; };
@@ -95,7 +94,7 @@ class Tremble {
 
 // How much wider than chi-square the moments about one scatter, by their median, which no burst moves.
 double scatter_about(const SearchedShapes& moments, std::size_t n) {
-  constexpr double kAbout_s = 5.0, kMiddle = 2.366;  // the median of chi-square of kFreedom
+  constexpr double kMiddle = 2.366;  // the median of chi-square of kFreedom
   const std::vector<double>& at = moments.shapes[moments.of_shape[n]];
   std::vector<double> about;
   for (std::size_t k = 0; k < moments.statistics.size(); ++k) {
