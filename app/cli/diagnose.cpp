@@ -143,7 +143,7 @@ int execute_diagnose(const DiagnoseOptions& options) {
   std::fflush(stdout);
   for (const std::string& warning : merged_warnings(diagnosis->warnings)) print_message("warning: " + warning);
   diagnosis->warnings.insert(diagnosis->warnings.end(), skipped.begin(), skipped.end());
-  if (Result<Done> written = write_diagnosis(options, *diagnosis, model_of(*diagnosis)); !written)
+  if (Result<Done> written = write_diagnosis(options, *diagnosis, model_of(*diagnosis, all)); !written)
     return bad_input(written.error());
   return kDone;
 }

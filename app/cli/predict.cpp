@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include "app/cli/command.h"
 #include "app/cli/file_examples.h"
 #include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
+#include "core/base/formatted.h"
 #include "core/calibration/recording_fault.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/given_recordings.h"
@@ -20,6 +23,26 @@ struct PredictOptions {
   std::string vehicle, model, recording, out;
 };
 
+// What the model knows of single recordings, of which this is none.
+void warn_of_what_others_had(const FittedModel& model, const std::string& path) {
+  std::string left_out;
+  for (const FittedEffect& effect : model.effects)
+    if (!effect.recording.empty())
+      left_out += (left_out.empty() ? "" : ", ") + effect.active.effect + " in " + effect.recording;
+  if (!left_out.empty())
+    print_message("warning: " + path + ": not what the model was fitted on; left out: " + left_out);
+  // A clock that is off by this much moves a robot that drives 1 m/s by a centimetre.
+  constexpr double kClocksDiffer_s = 0.01;
+  if (model.truth_clock_s.empty()) return;
+  const auto [least, most] = std::minmax_element(model.truth_clock_s.begin(), model.truth_clock_s.end(),
+                                                 [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most->second - least->second > kClocksDiffer_s)
+    print_message(
+        formatted("warning: %s: not what the model was fitted on, where truth was late by %.3f to %.3f s; "
+                  "taken to be late by %.3f s",
+                  path.c_str(), least->second, most->second, model.vehicle.truth.time_offset_s));
+}
+
 int execute_predict(const PredictOptions& options) {
   if (const std::optional<Error> lost = overwritten({options.out}, {options.recording, options.vehicle, options.model}))
     return bad_input(*lost);
@@ -29,7 +52,7 @@ int execute_predict(const PredictOptions& options) {
   if (!loaded) return bad_input(loaded.error());
   if (const std::optional<Error> unknown = ticks_of_unknown_size(loaded->recording, *vehicle, options.recording))
     return bad_input(*unknown);
-  FittedModel model{*vehicle, {}, {}};
+  FittedModel model{*vehicle, {}, {}, {}};
   if (!options.model.empty()) {
     Result<FittedModel> read = read_model(options.model);
     if (!read) return bad_input(read.error());
@@ -37,13 +60,17 @@ int execute_predict(const PredictOptions& options) {
       return bad_input({options.model + ": " + same.error().where, same.error().found, same.error().expected});
     model = std::move(*read);
   }
+  for (const std::string& warning : loaded->warnings) print_message("warning: " + options.recording + ": " + warning);
   // What a calibration refuses is predicted all the same: a prediction claims nothing of the recording.
   if (const std::optional<Error> fault = fault_in(loaded->recording, *vehicle))
     print_message("warning: " + fault->message());
   const BridgedRecording sound = bridged_recording(loaded->recording, *vehicle, Looks::at_wheels_alone);
   for (const std::string& fault : sound.said) print_message("warning: " + fault);
   const Recording recording = with_obeyed_commands(sound.recording, *vehicle, model.vehicle);
-  const Result<Track> track = predicted_track(recording, model.vehicle, model.effects_in(recording.name));
+  const std::optional<std::string> fitted_as = model.fitted_as(loaded->recording);
+  if (!fitted_as) warn_of_what_others_had(model, options.recording);
+  const std::string name = fitted_as.value_or("");
+  const Result<Track> track = predicted_track(recording, model.vehicle_in(name), model.effects_in(name));
   if (!track) return bad_input(track.error());
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
   if (const std::vector<TruthSample> truth = truth_samples(loaded->recording);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/base/quantile.h"
 #include "core/calibration/recording_fault.h"
@@ -216,10 +217,12 @@ void DiagnosisDesk::simulate_advice(Jobs& jobs) {
   const std::shared_ptr<const DrawnMystery> mystery = given_.mystery;
   const auto made = std::make_shared<Recording>();
   const Pose start = advice_start();
-  int before = 0;
-  for (const Run& run : given_.runs) before += run.recording->name.rfind("advised", 0) == 0;
-  const std::string name = "advised_" + std::to_string(before + 1) + ".csv";
-  const auto seed = static_cast<std::uint64_t>(1001 + before);
+  int last = 0;
+  for (const Run& run : given_.runs)
+    if (int number = 0; std::sscanf(run.recording->name.c_str(), "advised_%d", &number) == 1)
+      last = std::max(last, number);
+  const std::string name = "advised_" + std::to_string(last + 1) + ".csv";
+  const auto seed = static_cast<std::uint64_t>(1001 + last);
   const bool started = jobs.start(
       "driving what was advised",
       [answer, mystery, made, start, name, seed](const Progress&, const Jobs::Deliver&) {
@@ -255,7 +258,7 @@ Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
     case ui::DiagnosisExport::report:
       return write_report(what.path, diagnosis_report(answer_->diagnosis));
     case ui::DiagnosisExport::model:
-      return write_model(what.path, model_of(answer_->diagnosis));
+      return write_model(what.path, model_of(answer_->diagnosis, answer_->fitted()));
     case ui::DiagnosisExport::json:
       return write_json(what.path, diagnosis_json(answer_->diagnosis));
     case ui::DiagnosisExport::csv:

@@ -188,10 +188,7 @@ bool Session::open(const std::string& path) {
     default:
       opened = open_recording(path);  // says itself what it is missing in a file of no known kind
   }
-  if (opened) {
-    opened_files_.erase(std::remove(opened_files_.begin(), opened_files_.end(), path), opened_files_.end());
-    opened_files_.push_back(path);
-  }
+  if (opened) opened_files_.push_back(path);
   return opened;
 }
 

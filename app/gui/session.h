@@ -62,7 +62,7 @@ class Session {
   bool take_picture_wish();
   // Grows whenever another scenario or recording is loaded, so that views can fit themselves.
   int loads() const { return loads_; }
-  // The files opened so far, the newest last.
+  // The files opened so far, each time one was, the newest last.
   const std::vector<std::string>& opened_files() const { return opened_files_; }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/formatted.h"
+#include "core/recording/same_samples.h"
 
 namespace odolab {
 
@@ -17,6 +18,21 @@ bool has_parameter(const ActiveEffect& active, const std::string& name) {
 }
 
 }  // namespace
+
+std::optional<std::string> FittedModel::fitted_as(const Recording& recording) const {
+  if (!fingerprints.empty()) {
+    const std::string own = fingerprint(recording);
+    for (const auto& [name, of_it] : fingerprints)
+      if (of_it == own) return name;
+    return std::nullopt;
+  }
+  const auto is_own = [&](const std::string& name) { return name == recording.name; };
+  for (const auto& [name, offset_s] : truth_clock_s)
+    if (is_own(name)) return name;
+  for (const FittedEffect& effect : effects)
+    if (!effect.recording.empty() && is_own(effect.recording)) return effect.recording;
+  return std::nullopt;
+}
 
 std::vector<ActiveEffect> FittedModel::effects_in(const std::string& recording) const {
   const bool has_clock =
@@ -40,7 +56,7 @@ Vehicle FittedModel::vehicle_in(const std::string& recording) const {
 }
 
 FittedModel model_of(const Diagnosis& diagnosis) {
-  FittedModel model{diagnosis.fitted_vehicle.value_or(diagnosis.calibration.vehicle), {}, diagnosis.truth_clock_s};
+  FittedModel model{diagnosis.fitted_vehicle.value_or(diagnosis.calibration.vehicle), {}, diagnosis.truth_clock_s, {}};
   for (const Finding& finding : diagnosis.findings) {
     if (finding.effect == "unknown" || is_data_fault(finding.effect)) continue;
     FittedEffect effect{finding.as_active(), {}, ""};
@@ -104,8 +120,16 @@ FittedModel model_of(const Diagnosis& diagnosis) {
   return model;
 }
 
+FittedModel model_of(const Diagnosis& diagnosis, const std::vector<Recording>& given) {
+  FittedModel model = model_of(diagnosis);
+  for (const Recording& recording : given)
+    for (const auto& [name, offset_s] : diagnosis.truth_clock_s)
+      if (name == recording.name) model.fingerprints.emplace_back(name, fingerprint(recording));
+  return model;
+}
+
 FittedModel calibrated_model_of(const Diagnosis& diagnosis) {
-  FittedModel model{diagnosis.calibration_alone.vehicle, {}, {}};
+  FittedModel model{diagnosis.calibration_alone.vehicle, {}, {}, {}};
   const std::vector<double>& clocks = diagnosis.calibration_alone.time_offset_s;
   for (std::size_t r = 0; r < std::min(clocks.size(), diagnosis.truth_clock_s.size()); ++r)
     model.truth_clock_s.emplace_back(diagnosis.truth_clock_s[r].first, clocks[r]);

@@ -54,6 +54,17 @@ FittedEffect read_fitted_effect(TomlTable& table) {
   return effect;
 }
 
+void read_fitted_recording(TomlTable& table, FittedModel& model) {
+  std::string name, of_it;
+  std::optional<double> clock_s;
+  table.require("name");
+  table.field("name", name);
+  table.field("fingerprint", of_it);
+  table.field("truth_time_offset_s", clock_s);
+  if (!of_it.empty()) model.fingerprints.emplace_back(name, of_it);
+  if (clock_s) model.truth_clock_s.emplace_back(name, *clock_s);
+}
+
 // A form is the number of one that the effect has.
 bool has_its_form(const ActiveEffect& active) {
   const Effect* entry = catalogue_entry(active);
@@ -77,6 +88,7 @@ Result<FittedModel> read_model(const std::string& path) {
   if (!top.failure()) {
     TomlTable vehicle = top.table("vehicle");
     model.vehicle = vehicle_from(vehicle, "vehicle.");
+    for (TomlTable& element : top.tables("recording")) read_fitted_recording(element, model);
     for (TomlTable& element : top.tables("effect")) {
       model.effects.push_back(read_fitted_effect(element));
       if (has_its_form(model.effects.back().active)) continue;
@@ -95,6 +107,13 @@ std::string model_text(const FittedModel& model) {
   text.field("schema", kModelSchemas.front());
   text.table("vehicle");
   write_vehicle_to(text, model.vehicle, "vehicle.");
+  for (const auto& [name, clock_s] : model.truth_clock_s) {
+    text.table_element("recording");
+    text.field("name", name);
+    for (const auto& [known, of_it] : model.fingerprints)
+      if (known == name) text.field("fingerprint", of_it);
+    text.field("truth_time_offset_s", clock_s);
+  }
   for (const FittedEffect& effect : model.effects) {
     text.table_element("effect");
     text.field("effect", effect.active.effect);

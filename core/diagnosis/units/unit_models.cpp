@@ -24,7 +24,7 @@ std::vector<ActiveEffect> effects_of_unit(const std::vector<ActiveEffect>& effec
 
 FittedModel model_of_unit(const FittedModel& model, std::size_t unit) {
   const std::vector<VehicleUnit> units = units_of(model.vehicle);
-  FittedModel own{vehicle_of_unit(units[unit], model.vehicle), {}, {}};
+  FittedModel own{vehicle_of_unit(units[unit], model.vehicle), {}, {}, {}};
   if (units[unit].carries_truth) own.truth_clock_s = model.truth_clock_s;
   for (const FittedEffect& effect : model.effects)
     for (ActiveEffect& active : effects_of_unit({effect.active}, units[unit], units))

@@ -163,5 +163,25 @@ TEST(FittedModel, HasNoSizeThatCannotBeSwitchedOn) {
   }
 }
 
+// Every simulated run is a recording.csv; and who copies one calls it as he likes.
+TEST(FittedModel, KnowsARecordingByItsSamplesAndNotByItsName) {
+  Recording fitted, other;
+  fitted.name = other.name = "recording.csv";
+  fitted.time_s = other.time_s = {0.0, 1.0};
+  fitted.channels = {{"left_wheel_rad", {0.0, std::nan("")}}};
+  other.channels = {{"left_wheel_rad", {0.0, 1.0}}};
+  Diagnosis d = with_mounting_turned_by(0.0);
+  d.truth_clock_s = {{"recording.csv", 0.01}};
+  FittedModel model = model_of(d, {fitted});
+  EXPECT_EQ(model.fitted_as(fitted), "recording.csv");
+  EXPECT_EQ(model.fitted_as(other), std::nullopt);
+  Recording copy = fitted;
+  copy.name = "copy.csv";
+  EXPECT_EQ(model.fitted_as(copy), "recording.csv");
+  model.fingerprints.clear();
+  EXPECT_EQ(model.fitted_as(other), "recording.csv");  // all that is known
+  EXPECT_EQ(model.fitted_as(copy), std::nullopt);
+}
+
 }  // namespace
 }  // namespace odolab

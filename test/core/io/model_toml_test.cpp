@@ -22,6 +22,8 @@ FittedModel eccentric_robot() {
                            ""});
   model.effects.push_back(
       {{"slip_zone", "floor", {{"slip", 0.1}, {"x_m", 2.0}, {"y_m", -0.5}, {"radius_m", 0.7}}}, {{"slip", 0.002}}, ""});
+  model.truth_clock_s = {{"run_3.csv", 1.0 / 30.0}, {"run_4.csv", -0.02}};
+  model.fingerprints = {{"run_4.csv", "0123456789abcdef"}};
   model.effects.push_back({{"collision", "vehicle", {{"dx_m", 0.02}, {"at_s", 12.5}}}, {}, "run_3.csv"});
   return model;
 }
@@ -45,6 +47,8 @@ TEST(ModelToml, ReadsBackWhatItWroteToTheBit) {
     EXPECT_EQ(read->effects[i].recording, model.effects[i].recording);
     EXPECT_EQ(read->effects[i].stderr_values, model.effects[i].stderr_values);
   }
+  EXPECT_EQ(read->truth_clock_s, model.truth_clock_s);
+  EXPECT_EQ(read->fingerprints, model.fingerprints);
   EXPECT_EQ(model_text(*read), model_text(model));
 }
 
