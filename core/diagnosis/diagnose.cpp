@@ -14,6 +14,7 @@
 #include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/named.h"
+#include "core/diagnosis/parted.h"
 #include "core/diagnosis/place_response.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
@@ -140,6 +141,10 @@ void advise(Diagnosis& d, const Named& names, double family_wise_error) {
     d.next_drive = next.next_drive;
     d.next_legs = next.next_legs;
   }
+  if (names.joint.scalars_on_the_way() == 0) {
+    d.next_drive = "anything: in these recordings the wheels hardly turn while the truth looks on";
+    d.next_legs.clear();
+  }
 }
 
 // Calibration alone is the model, to the last digit.
@@ -185,10 +190,10 @@ struct Looked {
 
 Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                          const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                         bool truth_is_white) {
+                         bool truth_is_white, const std::vector<TimeStretches>& parted) {
   const Error stopped{"diagnosis", "stopped before its end", ""};
   Result<ReadyRecordings> ready = ready_recordings(
-      train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); }, truth_is_white);
+      train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); }, truth_is_white, parted);
   if (!ready) return ready.error();
   Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
   if (!calibrated_only) return calibrated_only.error();
@@ -207,16 +212,17 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
   return Looked{*std::move(ready), std::move(predictor), *std::move(sought)};
 }
 
-// `shows_beside_held_out`: whether what has no name shows only together with what was held out.
+// `shows_beside_held_out`: whether what has no name shows only together with what was held out. `parted`: where the
+// truth and the wheels are known to part, which is left out.
 Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                             const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                            bool* shows_beside_held_out = nullptr) {
-  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false);
+                            bool* shows_beside_held_out = nullptr, const std::vector<TimeStretches>& parted = {}) {
+  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted);
   if (!looked) return looked.error();
   // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
   // samples, and with names all of them are white, it was that.
   if (looked->ready.calibration.truth_apart_s > 0.0 && looked->names_explain_all()) {
-    Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true);
+    Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted);
     if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
     if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
   }
@@ -231,6 +237,10 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   const Adequacy adequacy =
       judged_adequacy(names, calibrated, predictor, of_calibration, kOfTheUnnamed * options.family_wise_error);
   if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
+  // One incident that has no name hides all else.
+  if (adequacy.unnamed && parted.empty())
+    if (const std::vector<TimeStretches> apart = parted_stretches(*ready, nominal); !apart.empty())
+      return diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, apart);
 
   Diagnosis d;
   d.calibration = d.calibration_alone = ready->calibration;
@@ -275,6 +285,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   if (found.empty() || !known) stand_by_calibration(d);
   draw(d, calibrated, said);
   name_recordings(d, train, held_out);
+  if (!parted.empty()) add_parted(d, parted, *ready);
   return d;
 }
 

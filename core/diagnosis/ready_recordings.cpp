@@ -163,7 +163,8 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
 }  // namespace
 
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white) {
+                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white,
+                                         const std::vector<TimeStretches>& also_left_out_s) {
   if (train.empty()) return Error{"recordings", "none", "one or more"};
   ReadyRecordings ready;
   std::uint64_t first_seed = 1;
@@ -186,6 +187,11 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   };
   if (const std::optional<Error> problem = check(train, ready.train)) return *problem;
   if (const std::optional<Error> problem = check(held_out, ready.held_out)) return *problem;
+  for (std::size_t r = 0; r < std::min(also_left_out_s.size(), ready.train.size()); ++r) {
+    TimeStretches& left_out_s = ready.train[r].left_out_s;
+    left_out_s.insert(left_out_s.end(), also_left_out_s[r].begin(), also_left_out_s[r].end());
+    left_out_s = joined(std::move(left_out_s));
+  }
   std::vector<CheckedRecording*> each;
   for (std::vector<CheckedRecording>* of : {&ready.train, &ready.held_out})
     for (CheckedRecording& c : *of) each.push_back(&c);

@@ -6,6 +6,7 @@
 
 #include "core/base/progress.h"
 #include "core/calibration/least_squares.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/model/joint_model.h"
 #include "core/diagnosis/quality/quality.h"
@@ -22,9 +23,11 @@ struct ReadyRecordings {
 };
 
 // Of a differential drive's recordings. An error where one is no recording, cannot be calibrated on, or `progress`
-// stops it. `truth_is_white`: as of LeastSquaresOptions.
+// stops it. `truth_is_white`: as of LeastSquaresOptions. `also_left_out_s`: of each that is fitted, on the wheels'
+// clock.
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
-                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white = false);
+                                         const Vehicle& nominal, const Progress& progress, bool truth_is_white = false,
+                                         const std::vector<TimeStretches>& also_left_out_s = {});
 
 // All that were fitted under their calibration, with their noise, and no effect yet. `truth_may_come_back`: whether it
 // is asked after how long the truth's frame does (JointModel::truth_may_come_back).

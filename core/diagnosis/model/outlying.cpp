@@ -24,7 +24,7 @@ std::vector<Refused> refused_in_a_row(const InnovationRun& run, const Innovation
     }
     const bool comes_back =
         j < aside.size() && !begins_anew && squared[j] < std::max(kBackOnItsWay * kGate, kOfTheJump * jump);
-    if (j > i) refused.push_back({i, j, comes_back});
+    if (j > i) refused.push_back({i, j, comes_back, jump, j < aside.size() ? squared[j] : jump});
     i = std::max(j, i + 1);
   }
   return refused;

@@ -12,6 +12,7 @@ namespace odolab {
 struct Refused {
   std::size_t first = 0, end = 0;
   bool comes_back = false;  // what is behind lies where the wheels went on from what was before
+  double least_squared = 0.0, squared_behind = 0.0;  // squared innovations: the least of these; of the sample behind
 };
 // All of a run, whose filter starts anew behind so many.
 std::vector<Refused> refused_in_a_row(const InnovationRun& run, const InnovationModel& model, int contradiction);

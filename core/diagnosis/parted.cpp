@@ -1,0 +1,91 @@
+#include "core/diagnosis/parted.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/diagnosis/model/ready_run.h"
+
+namespace odolab {
+
+namespace {
+
+constexpr double kAtOnce_s = 1.0;  // from where the filter starts anew to the next contradiction
+
+struct ComeApart {
+  double from_s = 0.0, to_s = 0.0;  // on the wheels' clock
+  int times = 0;                    // that the filter started anew
+};
+
+std::vector<ComeApart> apart_in(const InnovationRun& run, const InnovationModel& calibrated) {
+  const auto wheels_s = [&](int sample) {
+    return run.truth[static_cast<std::size_t>(sample)].time_s - calibrated.truth.time_offset_s;
+  };
+  const int last_sample = static_cast<int>(run.truth.size()) - 1;
+  std::vector<ComeApart> found;
+  for (const auto& [first, last] : contradictions(run, summed_up(run, calibrated), calibrated)) {
+    // From the last sample that agreed to the first that does so again.
+    const double from_s = wheels_s(std::max(first - 1, 0)), to_s = wheels_s(std::min(last + 1, last_sample));
+    if (!found.empty() && from_s - found.back().to_s < kAtOnce_s) {
+      found.back().to_s = to_s;
+      ++found.back().times;
+    } else {
+      found.push_back({from_s, to_s, 1});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
+  constexpr int kAgain = 2;               // times in one stretch
+  constexpr std::size_t kMostPlaces = 3;  // in all recordings
+  constexpr double kMostOfTheTime = 0.2;  // of a recording
+  std::vector<std::vector<ComeApart>> apart(ready.train.size());
+  std::vector<double> lasts_s(ready.train.size(), 0.0);
+  parallel_for(static_cast<int>(ready.train.size()), [&](int i) {
+    const auto r = static_cast<std::size_t>(i);
+    const Result<InnovationRun> run = ready_run(ready.train[r], nominal);
+    if (!run || run->truth.size() < 2) return;
+    apart[r] = apart_in(*run, model_of(ready.calibration, r));
+    lasts_s[r] = run->truth.back().time_s - run->truth.front().time_s;
+  });
+  std::vector<TimeStretches> parted(apart.size());
+  std::size_t places = 0;
+  bool any = false;
+  for (std::size_t r = 0; r < apart.size(); ++r) {
+    places += apart[r].size();
+    double sum_s = 0.0;
+    for (const ComeApart& a : apart[r]) {
+      sum_s += a.to_s - a.from_s;
+      if (a.times < kAgain) continue;
+      parted[r].emplace_back(a.from_s, a.to_s);
+      any = true;
+    }
+    if (sum_s > kMostOfTheTime * lasts_s[r]) return {};
+  }
+  return any && places <= kMostPlaces ? parted : std::vector<TimeStretches>{};
+}
+
+void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const ReadyRecordings& ready) {
+  std::vector<Finding> findings;
+  for (std::size_t r = 0; r < parted.size(); ++r) {
+    if (parted[r].empty()) continue;
+    Finding f;
+    f.effect = "unknown";
+    f.component = "vehicle";
+    f.where.recording = ready.train[r].recording.name;
+    f.where.time_s = parted[r];
+    f.where.regime =
+        "there the truth and the wheels part, and go on together from where it left them, as where a vehicle is "
+        "lifted, "
+        "carried or dragged, or a tracker takes something else for it; left out of all else";
+    f.sentence = "something that no entry of the catalogue describes: " + f.where.regime;
+    f.p_value = 0.0;
+    findings.push_back(std::move(f));
+  }
+  d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
+  d.verdict = Verdict::unknown_effect;
+}
+
+}  // namespace odolab
