@@ -139,10 +139,13 @@ std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackEr
   position /= windows;
   heading /= windows;
   FitFigures figures{std::sqrt(position), std::sqrt(heading), std::numeric_limits<double>::quiet_NaN()};
-  if (noise_floor && noise_floor->position_rms_m > 0.0 && noise_floor->heading_rms_rad > 0.0)
-    figures.normalised_chi2 = (2.0 * position / (noise_floor->position_rms_m * noise_floor->position_rms_m) +
-                               heading / (noise_floor->heading_rms_rad * noise_floor->heading_rms_rad)) /
-                              3.0;
+  if (noise_floor && noise_floor->position_rms_m > 0.0) {
+    figures.normalised_chi2 = position / (noise_floor->position_rms_m * noise_floor->position_rms_m);
+    if (noise_floor->heading_rms_rad > 0.0)
+      figures.normalised_chi2 =
+          (2.0 * figures.normalised_chi2 + heading / (noise_floor->heading_rms_rad * noise_floor->heading_rms_rad)) /
+          3.0;
+  }
   return figures;
 }
 

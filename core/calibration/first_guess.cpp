@@ -87,31 +87,42 @@ struct Plane {
   double left = 0.0, right = 0.0, explained = 0.0;
 };
 
-Plane fitted_plane(const std::vector<TurningStretch>& stretches, double TurningStretch::*y) {
+Plane weighted_plane(const std::vector<TurningStretch>& stretches, double TurningStretch::*y,
+                     const std::vector<double>& weights) {
   Plane plane;
-  std::vector<char> used(stretches.size(), 1);
-  for (int round = 0; round < 3; ++round) {
-    double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0;
-    for (std::size_t i = 0; i < stretches.size(); ++i) {
-      if (!used[i]) continue;
-      const TurningStretch& s = stretches[i];
-      ll += s.left_rad * s.left_rad, lr += s.left_rad * s.right_rad, rr += s.right_rad * s.right_rad;
-      ly += s.left_rad * s.*y, ry += s.right_rad * s.*y;
-    }
-    // A little stiffness for drives on which both wheels always do the same.
-    const double ridge = 1e-9 * (ll + rr), determinant = (ll + ridge) * (rr + ridge) - lr * lr;
-    plane.left = ((rr + ridge) * ly - lr * ry) / determinant;
-    plane.right = ((ll + ridge) * ry - lr * ly) / determinant;
+  double ll = 1e-12, lr = 0.0, rr = 1e-12, ly = 0.0, ry = 0.0;
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const TurningStretch& s = stretches[i];
+    const double w = weights[i];
+    ll += w * s.left_rad * s.left_rad, lr += w * s.left_rad * s.right_rad, rr += w * s.right_rad * s.right_rad;
+    ly += w * s.left_rad * s.*y, ry += w * s.right_rad * s.*y;
+  }
+  // A little stiffness for drives on which both wheels always do the same.
+  const double ridge = 1e-9 * (ll + rr), determinant = (ll + ridge) * (rr + ridge) - lr * lr;
+  plane.left = ((rr + ridge) * ly - lr * ry) / determinant;
+  plane.right = ((ll + ridge) * ry - lr * ly) / determinant;
+  return plane;
+}
+
+Plane fitted_plane(const std::vector<TurningStretch>& stretches, double TurningStretch::*y) {
+  // By least absolute deviations first, which a truth that is once metres away does not turn aside: each round weighs a
+  // stretch by how little it contradicts the one before.
+  constexpr int kAbsoluteRounds = 15, kSquareRounds = 3;
+  Plane plane;
+  std::vector<double> weights(stretches.size(), 1.0), misses(stretches.size());
+  for (int round = 0; round < kAbsoluteRounds + kSquareRounds; ++round) {
+    plane = weighted_plane(stretches, y, weights);
     double left_over = 0.0, total = 1e-12;
-    std::vector<double> misses(stretches.size());
     for (std::size_t i = 0; i < stretches.size(); ++i) {
       const TurningStretch& s = stretches[i];
       misses[i] = std::abs(s.*y - plane.left * s.left_rad - plane.right * s.right_rad);
-      if (used[i]) left_over += misses[i] * misses[i], total += s.*y * s.*y;
+      if (weights[i] > 0.0) left_over += misses[i] * misses[i], total += s.*y * s.*y;
     }
     plane.explained = 1.0 - left_over / total;
-    const double gate = 3.0 * scatter_about_zero(misses) + 1e-9;
-    for (std::size_t i = 0; i < stretches.size(); ++i) used[i] = misses[i] <= gate;
+    const double scatter = scatter_about_zero(misses), gate = 3.0 * scatter + 1e-9;
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+      weights[i] = round + 1 < kAbsoluteRounds ? 1.0 / std::max(misses[i], 0.1 * scatter + 1e-9)
+                                               : (misses[i] <= gate ? 1.0 : 0.0);
   }
   return plane;
 }
@@ -142,6 +153,27 @@ Planes planes_of(const std::vector<TurningStretch>& stretches) {
 
 constexpr double kExplained = 0.8;
 
+// Whether both turn a good deal in half a second, far beyond what a heading errs by, in many stretches.
+bool turn_apart(const std::vector<TurningStretch>& stretches, const DifferentialDrive& drive) {
+  constexpr double kTurns_rad = 0.15;
+  constexpr std::size_t kFewest = 30;
+  double truth2 = 0.0, wheels2 = 0.0;
+  for (const TurningStretch& s : stretches) {
+    const double by_wheels =
+        (drive.wheel_radius_right_m * s.right_rad - drive.wheel_radius_left_m * s.left_rad) / drive.wheelbase_m;
+    truth2 += s.turn_rad * s.turn_rad, wheels2 += by_wheels * by_wheels;
+  }
+  return stretches.size() >= kFewest &&
+         std::min(truth2, wheels2) > kTurns_rad * kTurns_rad * static_cast<double>(stretches.size());
+}
+
+// Whether what was left out lies between a reading and the one before.
+bool is_left_out(const InnovationRun& run, std::size_t reading) {
+  return std::any_of(run.left_out.begin(), run.left_out.end(), [&](const auto& s) {
+    return s.first < run.wheels[reading].time_s && s.second > run.wheels[reading - 1].time_s;
+  });
+}
+
 }  // namespace
 
 FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
@@ -164,7 +196,7 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
     for (double WheelSample::*wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
       std::vector<double> steps;
       for (std::size_t i = 1; i < run.wheels.size(); ++i)
-        steps.push_back(std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
+        steps.push_back(is_left_out(run, i) ? 0.0 : std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
       if (steps.empty()) continue;
       const std::size_t largest =
           static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
@@ -183,7 +215,8 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
 
 std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
   // A degree taken for a radian makes 57 of one.
-  const Planes p = planes_of(turning_stretches(runs));
+  const std::vector<TurningStretch> stretches = turning_stretches(runs);
+  const Planes p = planes_of(stretches);
   const double turning = turning_ratio(runs, nominal);
   if (turning > 20.0)
     return formatted("headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?",
@@ -219,7 +252,10 @@ std::string contradiction_in(const std::vector<InnovationRun>& runs, const Diffe
            "not cumulative, or "
            "another robot's truth";
   if (p.way.explained > kExplained && p.turn.explained < 0.3)
-    return "headings that do not follow the wheels, while the way does: headings in degrees?";
+    return "headings that do not follow the wheels, while the way does: headings in degrees, or another run's truth";
+  // A way that goes on forward is like any other; turns tell one drive from another.
+  if (p.turn.explained < 0.3 && turn_apart(stretches, nominal))
+    return "turns that do not follow the wheels': another run's truth, or another robot's";
   return "";
 }
 

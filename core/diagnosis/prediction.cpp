@@ -68,14 +68,12 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   const TimedPose start = predicted_start(recording, mounting, run.wheels.front().time_s);
   run.truth = {TruthSample{start.time_s, start.pose.position(), start.pose.heading_rad}};
 
-  // Effects of a place act where the track is, and the track is where they put it: twice is enough.
-  Track track;
-  for (int pass = 0; pass < 2; ++pass) {
-    const DriveView view = drive_view(0, run, *drive, from_commands, track);
+  Track track = settled([&](const Track& before) {
+    const DriveView view = drive_view(0, run, *drive, from_commands, before);
     const std::vector<BodyMotion> sum = motions_of(view, effects);
-    track.clear();
+    Track axle;
     Pose pose;
-    track.push_back({run.wheels[0].time_s, pose});
+    axle.push_back({run.wheels[0].time_s, pose});
     for (std::size_t i = 0; i < sum.size(); ++i) {
       const EffectStep& s = view.steps[i];
       const double turn = s.turn_rad + sum[i].turn_rad, middle = pose.heading_rad + 0.5 * turn;
@@ -83,10 +81,10 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
                    l = chord * sum[i].sideways_m;
       pose = {pose.x_m + f * std::cos(middle) - l * std::sin(middle),
               pose.y_m + f * std::sin(middle) + l * std::cos(middle), pose.heading_rad + turn};
-      track.push_back({run.wheels[i + 1].time_s, pose});
+      axle.push_back({run.wheels[i + 1].time_s, pose});
     }
-    track = through(std::move(track), start);
-  }
+    return through(std::move(axle), start);
+  });
   track = as_tracked(std::move(track), mounting);
   return within_bounds(from_commands ? at_commands(track, ready.recording)
                                      : for_each_reading(std::move(track), wheel_samples(recording, *drive)),

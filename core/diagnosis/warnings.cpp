@@ -20,7 +20,7 @@ std::string ripple_in_words(const Adequacy::Sway& sway) {
   return "the vehicle, or the truth by itself, comes and goes by " +
          formatted("%.2g mm to either side with ", 1e3 * sway.to_either_side_m) + sway.wave +
          ": no more than one sample of the truth errs, so which of both it is cannot be told; a stop of "
-         "two such waves would";
+         "two such waves would tell";
 }
 
 std::string lasting_in_words(const FittedNoise& noise) {

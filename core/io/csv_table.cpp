@@ -123,14 +123,15 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   return table;
 }
 
+std::string csv_name(const std::string& name) { return name.find(',') == std::string::npos ? name : '"' + name + '"'; }
+
 std::string csv_text(const CsvTable& table) {
   std::string text;
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().size();
   text.reserve(rows * table.columns.size() * 14);
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     if (i) text += ',';
-    const bool needs_quotes = table.names[i].find(',') != std::string::npos;
-    text += needs_quotes ? '"' + table.names[i] + '"' : table.names[i];
+    text += csv_name(table.names[i]);
   }
   text += '\n';
   for (std::size_t row = 0; row < rows; ++row) {

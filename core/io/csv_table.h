@@ -34,5 +34,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
 
 // The text of such a file; NaN becomes an empty cell, and numbers are exact.
 std::string csv_text(const CsvTable& table);
+// A column's name as it stands in a header: in quotes where it holds a comma.
+std::string csv_name(const std::string& name);
 
 }  // namespace odolab

@@ -273,7 +273,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
     BarGroup group{part, {}};
     const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
       if (!figures) return;
-      const std::string chi2 = number_text("%.2f", figures->normalised_chi2);
+      const std::string chi2 =
+          std::isnan(figures->normalised_chi2) ? "not measured" : number_text("%.2f", figures->normalised_chi2);
       if (!figures->gathered()) {
         table.push_back({part + ": " + name, "not measured", "not measured", chi2});
         return;
@@ -305,8 +306,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   report.paragraph(
       "The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, "
       "root mean "
-      "square. Held-out recordings gave no name and no number; all they may do is take a name away that they "
-      "contradict.");
+      "square. Held-out recordings gave no name and no number: they may take a name away that they contradict, or show "
+      "that something is missing.");
   if (!d.fitted_on.empty())
     report.paragraph("Fitted on " + list_of(d.fitted_on, "and") +
                      (d.held_out_runs.empty() ? "" : "; held out: " + list_of(d.held_out_runs, "and")) + ".");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/quantile.h"
+
 namespace odolab {
 
 namespace {
@@ -27,6 +29,35 @@ std::vector<double> unwrapped_counts(const std::vector<double>& raw, int counter
 bool sampled(const Channel* channel) {
   return channel &&
          std::any_of(channel->values.begin(), channel->values.end(), [](double v) { return !std::isnan(v); });
+}
+
+// How often one wheel is read, of rows in which the other may be read alone.
+struct Readings {
+  double usual_s = 0.0;        // from one to the next
+  std::vector<char> is_known;  // each row: read, or between two that say how the wheel went from one to the other
+};
+
+Readings readings_of(const std::vector<double>& time_s, const std::vector<double>& angle_rad) {
+  constexpr double kLeastGap_s = 0.2, kTimesUsual = 2.5, kUsualStep = 0.95;
+  std::vector<std::size_t> rows;
+  std::vector<double> lasts_s, turned_rad;
+  for (std::size_t i = 0; i < angle_rad.size(); ++i) {
+    if (std::isnan(angle_rad[i])) continue;
+    if (!rows.empty()) {
+      lasts_s.push_back(time_s[i] - time_s[rows.back()]);
+      turned_rad.push_back(std::abs(angle_rad[i] - angle_rad[rows.back()]));
+    }
+    rows.push_back(i);
+  }
+  Readings of{0.0, std::vector<char>(angle_rad.size(), 1)};
+  if (lasts_s.empty()) return of;
+  of.usual_s = quantile(lasts_s, 0.5);
+  // One that is read only as it moves rests in between.
+  const double step_rad = quantile(turned_rad, kUsualStep), gap_s = std::max(kLeastGap_s, kTimesUsual * of.usual_s);
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k)
+    if (lasts_s[k] > gap_s && turned_rad[k] > step_rad)
+      for (std::size_t i = rows[k] + 1; i < rows[k + 1]; ++i) of.is_known[i] = 0;
+  return of;
 }
 
 }  // namespace
@@ -101,8 +132,19 @@ std::vector<WheelSample> wheel_samples(const Recording& recording, const Differe
   } else {
     return {};
   }
+  // A wheel that is read far less often than the other did not go straight from one reading to the next.
+  constexpr double kFarLessOften = 3.0;
+  const Readings of_left = readings_of(recording.time_s, left), of_right = readings_of(recording.time_s, right);
+  const bool by_left = of_left.usual_s > kFarLessOften * of_right.usual_s,
+             by_right = of_right.usual_s > kFarLessOften * of_left.usual_s;
   std::vector<char> read(left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) read[i] = !std::isnan(left[i]) || !std::isnan(right[i]);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const bool is_left = !std::isnan(left[i]), is_right = !std::isnan(right[i]);
+    read[i] = (by_left    ? is_left
+               : by_right ? is_right
+                          : is_left || is_right) &&
+              of_left.is_known[i] && of_right.is_known[i];
+  }
   fill_between(recording.time_s, left);
   fill_between(recording.time_s, right);
   std::vector<WheelSample> samples;

@@ -59,7 +59,8 @@ struct TruthSample {
 void fill_between(const std::vector<double>& time_s, std::vector<double>& values);
 
 // From left_wheel_rad and right_wheel_rad, or from left_ticks and right_ticks with the vehicle's counts per turn and
-// wrap-around. Where one wheel was sampled at other times than the other, it is interpolated between its neighbours.
+// wrap-around. Where one wheel was sampled at other times than the other, it is interpolated between its neighbours;
+// not where it was read so seldom, or not for so long, that nobody knows how it went in between.
 std::vector<WheelSample> wheel_samples(const Recording& recording, const DifferentialDrive& drive);
 std::vector<CommandSample> command_samples(const Recording& recording);
 // Headings come unwrapped.

@@ -101,8 +101,9 @@ Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double l
 }
 
 Motions at_moment(const DriveView& view, Wheel wheel, double at_s, const Climb& climb) {
-  const Steps s = steps_about(view, wheel, std::min(view.step_at(at_s), view.steps.size() - 1),
-                              climb.length_m(radius_m(wheel, view)));
+  const std::size_t at = view.step_at(at_s);
+  if (at >= view.steps.size()) return Motions();  // the drive was over by then
+  const Steps s = steps_about(view, wheel, at, climb.length_m(radius_m(wheel, view)));
   Motions m(s.first, s.last + 1);
   spread(m, view, wheel, s.first, s.last, climb);
   return m;

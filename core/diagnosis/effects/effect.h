@@ -144,6 +144,8 @@ struct Effect {
   std::function<std::vector<FoundParameter>(const std::vector<double>& value, const std::vector<double>& stderr_value)>
       to_parameters;
   std::function<std::vector<double>(const ActiveEffect&)> from_parameters;
+  // And the estimated shapes, as a multiple of what they are beside such amplitudes; empty: as they are.
+  std::function<double(const std::vector<double>& value)> shapes_read_as;
 };
 
 // Whether a shape of that name is estimated: neither the number of a recording nor a time that is given.

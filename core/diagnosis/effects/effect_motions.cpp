@@ -106,6 +106,8 @@ std::vector<BodyMotion> motions_of(const DriveView& by_wheels, const std::vector
     else
       for (const Effect::Amplitude& p : e->amplitudes) one.value.push_back(a.parameter(p.name));
     for (const Effect::Amplitude& p : e->shapes) one.shape.push_back(p.name == "recording" ? 0.0 : a.parameter(p.name));
+    if (e->shapes_read_as)
+      for (double& shape : one.shape) shape /= e->shapes_read_as(one.value);
     if (e->forms.size() > 1) one.shape.push_back(a.parameter("form"));
     acting.push_back(std::move(one));
   }
@@ -120,6 +122,21 @@ std::vector<BodyMotion> motions_of(const DriveView& by_wheels, const std::vector
   };
   const DriveView view = as_it_goes(by_wheels, [&](const DriveView& v) { return sum_of(v, changes_speeds); });
   return sum_of(view, [](const Effect&) { return true; });
+}
+
+Track settled(const std::function<Track(const Track& before)>& reckoned) {
+  constexpr int kMostTimes = 200;  // as many crossings are right by then
+  constexpr double kMoved_m = 1e-4;
+  Track track = reckoned({});
+  for (int k = 1; k < kMostTimes; ++k) {
+    Track again = reckoned(track);
+    bool is_moved = false;
+    for (std::size_t i = 0; i < std::min(track.size(), again.size()) && !is_moved; ++i)
+      is_moved = length(again[i].pose.position() - track[i].pose.position()) > kMoved_m;
+    track = std::move(again);
+    if (!is_moved) break;
+  }
+  return track;
 }
 
 }  // namespace odolab

@@ -35,4 +35,8 @@ DriveView as_it_goes(DriveView by_wheels, const std::function<std::vector<BodyMo
 // nothing. The view is as the wheels say.
 std::vector<BodyMotion> motions_of(const DriveView& view, const std::vector<ActiveEffect>& effects);
 
+// Effects of a place act where the track is, and the track is where they put it: reckoned from the track before, none
+// at first, until no pose is moved any more. Each time at least one more crossing is right.
+Track settled(const std::function<Track(const Track& before)>& reckoned);
+
 }  // namespace odolab

@@ -62,7 +62,19 @@ Effect missed_counts_of(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
   e.component = component_of(wheel);
-  e.amplitudes = {{"fraction", "1", 0.01, 0.0, 0.99}};
+  // Amplitudes: what is missing of what was read. Of what there was, a share f of a / (1 + a) is lost; and where a
+  // wheel is read to turn at w, it turns (1 + a) times as fast.
+  static constexpr double kMostLost = 0.99;
+  e.amplitudes = {{"fraction", "1", 0.01, 0.0, kMostLost}};
+  e.to_parameters = [](const std::vector<double>& v, const std::vector<double>& se) {
+    const double kept = 1.0 / (1.0 + v[0]);
+    return std::vector<FoundParameter>{{"fraction", 1.0 - kept, se[0] * kept * kept, "1"}};
+  };
+  e.from_parameters = [](const ActiveEffect& active) {
+    const double lost = active.parameter("fraction");
+    return std::vector<double>{lost / (1.0 - std::min(lost, kMostLost))};
+  };
+  e.shapes_read_as = [](const std::vector<double>& v) { return 1.0 + v[0]; };
   e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
   e.tests_of_a_shape = 0.8;
   e.sentence = std::string("the encoder of ") +

@@ -48,10 +48,10 @@ Effect drift_of(Wheel wheel) {
   e.looks_like = {"one_sided_drag", "payload_radius_change", "clock_rate"};
   e.told_apart_by = "the same straight early and late in a long run";
   e.scan = [](const std::vector<DriveView>& views) {
-    double first_s = 0.0;
-    for (std::size_t r = 0; r < views.size(); ++r)
-      if (!views[r].steps.empty())
-        first_s = r == 0 ? views[r].steps[0].time_s : std::min(first_s, views[r].steps[0].time_s);
+    double first_s = kUnbounded;
+    for (const DriveView& view : views)
+      if (!view.steps.empty()) first_s = std::min(first_s, view.steps[0].time_s);
+    if (first_s == kUnbounded) first_s = 0.0;
     return std::vector<std::vector<double>>{{first_s}};
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {

@@ -58,6 +58,7 @@ struct Moment {
 Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
   const int run = static_cast<int>(a.shape[0]);
   const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
+  if (view.steps.empty()) return {run, a.shape[1], {}, std::nullopt};
   const std::size_t step = std::min(view.step_at(a.shape[1]), view.steps.size() - 1);
   const EffectStep& s = view.steps[step];
   Moment moment{run, a.shape[1], s.position, std::nullopt};

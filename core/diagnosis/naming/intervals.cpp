@@ -248,10 +248,12 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
     for (FoundParameter& p : out) p.value *= at_mps, p.stderr_value *= at_mps;
     out.push_back({kStatedAt, at_mps, 0.0, "m/s"});
   }
+  const double times = a.effect->shapes_read_as ? a.effect->shapes_read_as(a.value) : 1.0;
   Eigen::Index k = n;
   for (int s : free_shapes(*a.effect)) {
     const double se = k < covariance.rows() ? std::sqrt(std::max(0.0, covariance(k, k))) : 0.0;
-    out.push_back({a.effect->shapes[s].name, a.shape[s], std::hypot(se, known_to(a, s)), a.effect->shapes[s].unit});
+    out.push_back({a.effect->shapes[s].name, times * a.shape[s], times * std::hypot(se, known_to(a, s)),
+                   a.effect->shapes[s].unit});
     ++k;
   }
   for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)

@@ -9,6 +9,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/repeated_stamps.h"
 #include "core/diagnosis/quality/quality.h"
+#include "core/diagnosis/quality/unmeasured_heading.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
@@ -31,6 +32,9 @@ BridgedRecording bridged_recording(const Recording& recording, const Vehicle& ve
   CheckedRecording ready = checked(looks == Looks::at_truth_too ? recording : without_truth(recording), as_drive);
   for (const DataFault& fault : ready.faults)
     if (fault.effect == "encoder_data_fault" || fault.effect == kEncoderGap) out.said.push_back(in_words(fault));
+  if (looks == Looks::at_truth_too)
+    if (const auto said = unmeasured_heading(truth_samples(recording), wheel_samples(recording, *drive), *drive))
+      out.said.push_back(recording.name + ": " + *said);
   if (out.said.empty()) return out;
   out.left_out_s = ready.left_out_s;
   const std::vector<WheelSample> wheels = bridged(without_repeated(wheel_samples(ready.recording, *drive)),

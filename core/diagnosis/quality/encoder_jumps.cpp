@@ -10,11 +10,16 @@ namespace odolab {
 
 namespace {
 
+constexpr std::size_t kAround = 3;  // readings before and behind
+
+bool has_readings_around(const std::vector<double>& of, std::size_t i) {
+  return i >= kAround && i + kAround < of.size();
+}
+
 // By how much one stands out from those before and behind it, on the same side of both, with its sign: a wheel that
 // stops or sets off is like one of them.
 double standing_out(const std::vector<double>& of, std::size_t i) {
-  constexpr std::size_t kAround = 3;
-  if (i < kAround || i + kAround >= of.size()) return 0.0;
+  if (!has_readings_around(of, i)) return 0.0;
   const auto at = of.begin() + static_cast<std::ptrdiff_t>(i);
   const double before = median({at - kAround, at}), behind = median({at + 1, at + 1 + kAround});
   return of[i] - std::clamp(of[i], std::min(before, behind), std::max(before, behind));
@@ -24,7 +29,8 @@ double standing_out(const std::vector<double>& of, std::size_t i) {
 struct Rates {
   std::vector<double> each, out_by;
   std::vector<double> step_rad, step_out_by_rad;
-  double usual = 0.0, trembles = 0.0;  // how large rates are, and by how much they stand out, but for a few
+  // How large rates are, and by how much they stand out, but for a few, while the wheel turns.
+  double usual = 0.0, trembles = 0.0;
   double usual_step_rad = 0.0;
 
   // Where the step is like its neighbours and only the rate is not, the stamp of a reading is wrong, and not its count.
@@ -47,9 +53,17 @@ Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& ang
     rates.out_by.push_back(standing_out(rates.each, i));
     rates.step_out_by_rad.push_back(standing_out(rates.step_rad, i));
   }
-  const auto size = [&](std::vector<double> of) {
-    for (double& v : of) v = std::abs(v);
-    return quantile(std::move(of), kNearlyAll);
+  // A robot that waits all day drives as it does in the minute in which it drives.
+  std::vector<bool> rests(rates.each.size());
+  for (std::size_t i = 0, still = 0; i < rests.size(); ++i) {
+    still = rates.step_rad[i] == 0.0 ? still + 1 : 0;
+    if (still > 2 * kAround) rests[i - kAround] = true;
+  }
+  const auto size = [&](const std::vector<double>& of) {
+    std::vector<double> sizes;
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (!rests[i]) sizes.push_back(std::abs(of[i]));
+    return sizes.empty() ? 0.0 : quantile(std::move(sizes), kNearlyAll);
   };
   rates.usual = size(rates.each);
   rates.trembles = size(rates.out_by);
@@ -116,6 +130,7 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
   constexpr double kGap_s = 0.5;  // a step over more is no step
   constexpr double kLeast_m = 0.02;
   constexpr double kTyre_mps2 = 20.0;  // twice what a tyre can push
+  constexpr double kOfItself = 0.5;    // by which a jump stands out: a wheel that goes fast for long does not
   const Rates rates = rates_of(time_s, angle_rad);
   TimeStretches jumps;
   const std::vector<double>& each = rates.each;
@@ -124,7 +139,9 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
     if (gap >= kGap_s) continue;
     const bool back_and_on =
         i > 0 && i + 1 < each.size() && each[i] * each[i - 1] < 0.0 && each[i] * each[i + 1] < 0.0;
-    const bool too_fast = std::abs(by) * radius_m > kLeast_m && std::abs(by) > 1.5 * count_rad &&
+    const bool is_like_others =
+        has_readings_around(each, i) && std::abs(rates.out_by[i]) < kOfItself * std::abs(each[i]);
+    const bool too_fast = (back_and_on || !is_like_others) && std::abs(by) * radius_m > kLeast_m && std::abs(by) > 1.5 * count_rad &&
                           std::abs(each[i]) > (back_and_on ? 1.0 : 4.0) * rates.usual &&
                           std::abs(by) > (back_and_on ? 0.0 : 2.0) * rates.usual_step_rad;
     // One reading off the pace that the wheel had before and has behind it, where no tyre could have pushed it.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/formatted.h"
+#include "core/base/quantile.h"
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/frozen_truth.h"
@@ -15,6 +16,7 @@
 #include "core/diagnosis/quality/obeying_wheels.h"
 #include "core/diagnosis/quality/standing_encoder.h"
 #include "core/diagnosis/quality/unheard_commands.h"
+#include "core/diagnosis/quality/unmeasured_heading.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
@@ -44,6 +46,52 @@ std::vector<char> rows_within(const TimeStretches& stretches, const std::vector<
 constexpr double kFollows_s = 1.0;
 bool is_on_its_way(const CommandSample& first) { return first.speed_mps != 0.0 || first.yaw_rate_radps != 0.0; }
 
+// For how long nobody looked while the vehicle drove, within the truth or at either end of it.
+TimeStretches silent_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels) {
+  constexpr std::size_t kFewest = 20;
+  constexpr double kLeast_s = 5.0, kTimesUsual = 20.0, kTurned_rad = 1.0;
+  if (truth.size() < kFewest) return {};
+  std::vector<double> apart_s;
+  for (std::size_t i = 1; i < truth.size(); ++i) apart_s.push_back(truth[i].time_s - truth[i - 1].time_s);
+  const double long_s = std::max(kLeast_s, kTimesUsual * median(apart_s));
+  const auto at = [&](double time_s) {
+    return std::lower_bound(wheels.begin(), wheels.end() - 1, time_s,
+                            [](const WheelSample& w, double t) { return w.time_s < t; });
+  };
+  TimeStretches silent;
+  const auto look_at = [&](double from_s, double to_s) {
+    if (to_s - from_s < long_s) return;
+    double turned_rad = 0.0;
+    for (auto w = at(from_s); w != at(to_s); ++w)
+      turned_rad += std::abs((w + 1)->left_rad - w->left_rad) + std::abs((w + 1)->right_rad - w->right_rad);
+    if (turned_rad > kTurned_rad) silent.emplace_back(from_s, to_s);
+  };
+  look_at(wheels.front().time_s, truth.front().time_s);
+  for (std::size_t i = 1; i < truth.size(); ++i) look_at(truth[i - 1].time_s, truth[i].time_s);
+  look_at(truth.back().time_s, wheels.back().time_s);
+  return silent;
+}
+
+// Where two encoders err at the same time, of which neither is hardly at fault by itself.
+TimeStretches both_at_once(const std::vector<DataFault>& faults) {
+  constexpr double kMost = 0.5;
+  const auto of = [&](const char* component) {
+    return std::find_if(faults.begin(), faults.end(), [&](const DataFault& f) {
+      return f.effect == "encoder_data_fault" && f.component == component;
+    });
+  };
+  const auto left = of("left_wheel"), right = of("right_wheel");
+  TimeStretches both;
+  if (left == faults.end() || right == faults.end()) return both;
+  for (const auto& a : left->time_s)
+    for (const auto& b : right->time_s) {
+      const std::pair<double, double> common{std::max(a.first, b.first), std::min(a.second, b.second)};
+      if (common.second - common.first > kMost * std::max(a.second - a.first, b.second - b.first))
+        both.push_back(common);
+    }
+  return both;
+}
+
 }  // namespace
 
 std::string in_words(const DataFault& fault) {
@@ -63,10 +111,17 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     out.recording = with_obeying_wheels(recording, drive);
     wheels = without_repeated(obeying_wheels(command_samples(recording), drive));
   }
-  const std::vector<TruthSample> truth = truth_samples(recording);
+  std::vector<TruthSample> truth = truth_samples(recording);
   constexpr std::size_t kFewest = 4;
   if (wheels.size() < kFewest) return out;
+  if (const std::optional<std::string> said = unmeasured_heading(truth, wheels, drive)) {
+    out.warnings.push_back(recording.name + ": " + *said);
+    std::erase_if(out.recording.channels, [](const Channel& c) { return c.name == "truth_heading_rad"; });
+    truth = truth_samples(out.recording);
+  }
 
+  if (const TimeStretches silent = silent_truth(truth, wheels); !silent.empty())
+    out.warnings.push_back(recording.name + ": no truth " + times_text(silent) + ", while the wheels turn");
   const bool is_followed = truth.size() >= kFewest, is_measured = is_followed && !vehicle.truth.is_reckoned;
   if (const TimeStretches drawn = is_measured ? drawn_truth(truth) : TimeStretches{}; !drawn.empty()) {
     leave_truth_out(out.recording, rows_within(drawn, out.recording.time_s, true));
@@ -111,8 +166,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     DataFault fault{"encoder_data_fault", wheel == 0 ? "left_wheel" : "right_wheel", recording.name, {}, ""};
     const Wheel which = wheel == 0 ? Wheel::left : Wheel::right;
     if (is_followed) fault.time_s = standing_encoder(wheels, which, truth, vehicle);
-    for (const TimeStretches& more :
-         {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive), moved_at_rest(wheels, which)})
+    for (const TimeStretches& more : {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive)})
       fault.time_s.insert(fault.time_s.end(), more.begin(), more.end());
     std::vector<double> time_s, angle_rad;
     for (std::size_t i = 0; i < wheels.size(); ++i) {
@@ -121,14 +175,21 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     }
     for (const auto& jump : encoder_jumps(time_s, angle_rad, radius, least_count_rad(wheels, which)))
       fault.time_s.push_back(jump);
+    std::string does = fault.time_s.empty() ? "" : "stands still or jumps while the vehicle drives on";
+    if (const TimeStretches moved = moved_at_rest(wheels, which); !moved.empty()) {
+      does += std::string(does.empty() ? "" : ", and ") + "moves while both wheels rest";
+      fault.time_s.insert(fault.time_s.end(), moved.begin(), moved.end());
+    }
     if (fault.time_s.empty()) continue;
     fault.time_s = joined(std::move(fault.time_s));
     for (const auto& t : fault.time_s) out.left_out_s.push_back(t);
-    fault.sentence = std::string("the ") + (wheel == 0 ? "left" : "right") +
-                     " encoder stands still or jumps while the vehicle drives on, " +
+    fault.sentence = std::string("the ") + (wheel == 0 ? "left" : "right") + " encoder " + does + ", " +
                      std::to_string(fault.time_s.size()) + " time(s); left out";
     out.faults.push_back(fault);
   }
+  if (const TimeStretches both = both_at_once(out.faults); !both.empty())
+    out.warnings.push_back(recording.name + ": both encoders err at once " + times_text(both) +
+                           ": a vehicle that was carried or pushed, or a link that was silent");
   out.left_out_s = joined(std::move(out.left_out_s));
   return out;
 }

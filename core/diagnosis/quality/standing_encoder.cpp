@@ -61,12 +61,15 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
                                const std::vector<TruthSample>& truth, const Vehicle& vehicle) {
   constexpr double kLeast_m = 0.03, kTimesTheNoise = 8.0, kLeast_s = 0.15, kBefore_s = 0.3;
   constexpr double kScale = 0.08;  // error of a length in the file
+  // By so much of the wheelbase a tracked point may sit elsewhere than the file says; it moves as a vehicle turns.
+  constexpr double kMarkerOff = 0.25;
   constexpr double kFar_rad = 1.0;
   constexpr double kBraked = 0.5, kRunsOn_s = 1.0, kOnItsWay_s = 2.0;
   constexpr double kOfThePaceBefore = 0.4, kInTheMiddle = 0.25;  // of the whole way, in the middle half of the time
   TimeStretches stands;
   if (truth.size() < 4) return stands;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
+  const Pose tracked_T_axle = inverse(vehicle.truth.axle_T_tracked);
   const SteadyTruth steady(truth, vehicle.truth.time_offset_s);
   const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
@@ -97,16 +100,16 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
     // headings are known better than places: the other wheel's, and the base times the turn. Else that of the centre,
     // and half the base times the turn; of the centre alone where nothing is known of the turn and both wheels hold.
     const auto way_m = [&](std::size_t begin, std::size_t end) {
-      const std::optional<Pose> a = steady.at(wheels[begin].time_s), b = steady.at(wheels[end].time_s);
-      if (!a || !b) return 0.0;
-      const Vec2 by = b->position() - a->position();
-      if (!steady.has_heading()) return both_hold ? length(by) : 0.0;
-      const double turn = b->heading_rad - a->heading_rad,
-                   heading = a->heading_rad - vehicle.truth.axle_T_tracked.heading_rad + 0.5 * turn;
-      const double by_centre_m = dot(by, Vec2{std::cos(heading), std::sin(heading)});
+      const std::optional<Pose> from = steady.at(wheels[begin].time_s), to = steady.at(wheels[end].time_s);
+      if (!from || !to) return 0.0;
+      if (!steady.has_heading()) return both_hold ? length(to->position() - from->position()) : 0.0;
+      const Pose a = *from * tracked_T_axle, b = *to * tracked_T_axle;
+      const double turn = b.heading_rad - a.heading_rad, heading = a.heading_rad + 0.5 * turn;
+      const double by_centre_m = dot(b.position() - a.position(), Vec2{std::cos(heading), std::sin(heading)});
       const double across_m = (by_turn ? 1.0 : 0.5) * base_m * turn;
-      return std::max(
-          0.0, std::abs((by_turn ? of_other_m(begin, end) : by_centre_m) + across_m) - kScale * std::abs(across_m));
+      const double unsure_m =
+          kScale * std::abs(across_m) + (by_turn ? 0.0 : kMarkerOff * drive.wheelbase_m * std::abs(turn));
+      return std::max(0.0, std::abs((by_turn ? of_other_m(begin, end) : by_centre_m) + across_m) - unsure_m);
     };
     if (j > i + 3 && span_s > std::max(kLeast_s, 1.5 * steady.period_s())) {
       const double all_m = way_m(i, j);

@@ -118,13 +118,9 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
   for (UnitSample& s : samples) s.time_s = begin_s + (s.time_s - begin_s) / (1.0 + rate);
   const TimedPose start = predicted_start(recording, with.truth, begin_s);
   const std::vector<VehicleUnit> units = units_of(with);
-  std::vector<std::vector<BodyMotion>> motions(units.size());
-  Track track;
-  // Effects of a place act where the units are, and the units are where they put them: twice is enough.
-  for (int pass = 0; pass < 3; ++pass) {
-    Track axle_a = std::visit(Reckoned{without_effects(samples, units, motions)}, with.kind);
-    track = as_tracked(through(std::move(axle_a), start), with.truth);
-    for (std::size_t u = 0; u < units.size() && pass < 2; ++u) {
+  const auto motions_on = [&](const Track& track) {
+    std::vector<std::vector<BodyMotion>> motions(units.size());
+    for (std::size_t u = 0; u < units.size() && !track.empty(); ++u) {
       InnovationRun run;
       Track axle;
       for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -137,7 +133,12 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
       motions[u] =
           motions_of(drive_view(0, run, units[u].drive, false, axle), effects_of_unit(effects, units[u], units));
     }
-  }
+    return motions;
+  };
+  Track track = settled([&](const Track& before) {
+    Track axle_a = std::visit(Reckoned{without_effects(samples, units, motions_on(before))}, with.kind);
+    return as_tracked(through(std::move(axle_a), start), with.truth);
+  });
   return within_bounds(std::move(track), recording);
 }
 

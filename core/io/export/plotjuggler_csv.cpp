@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/io/csv_table.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -24,7 +25,7 @@ Result<Done> write_plotjuggler_csv(const std::string& path, const Recording& rec
   Result<GrowingFile> file = GrowingFile::create(path);
   if (!file) return file.error();
   std::string text = "time_s";
-  for (const Channel& channel : recording.channels) text += ',' + plotjuggler_name(channel.name);
+  for (const Channel& channel : recording.channels) text += ',' + csv_name(plotjuggler_name(channel.name));
   for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
     text += '\n';
     text += decimal_text(recording.time_s[i]);

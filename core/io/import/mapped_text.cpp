@@ -133,6 +133,9 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
   const bool has_quaternion = layout.quaternion[3].cell != kNowhere || layout.quaternion[2].cell != kNowhere;
   if (has_quaternion) layout.channels.push_back("truth_heading_rad");
   SampleSpool& spool = streams.add_stream(layout.channels);
+  for (std::size_t i = 0; i < layout.sources.size(); ++i)
+    if (layout.sources[i].mapped->kind == ColumnKind::total && layout.channels[i].ends_with("wheel_rad"))
+      spool.unwrap(i);
 
   RowsLeftOut left_out;
   std::vector<double> values(layout.channels.size());
@@ -158,7 +161,14 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
                                           : layout.time.mapped->unit));
       continue;
     }
+    // A wheel turned by what its cell says, whatever else is wrong with the row.
+    const auto add_increments = [&] {
+      for (Source& source : layout.sources)
+        if (source.mapped->kind == ColumnKind::increment)
+          source.sum += rows->number(cell_of(source)).value_or(0.0) * source.factor;
+    };
     if (*time_ns < last_ns) {
+      add_increments();
       left_out.add(rows->line(), "time goes back");
       ++out_of_order;
       continue;
@@ -182,6 +192,7 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       values.back() = planar_pose(pose, wishes.axes.value_or(SpaceAxes::z_up)).floor_T_body.heading_rad;
     }
     if (!problem.empty()) {
+      add_increments();
       left_out.add(rows->line(), problem);
       continue;
     }

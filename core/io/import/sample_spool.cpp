@@ -120,7 +120,9 @@ Result<Done> SampleSpool::finish() {
 
 bool SampleSpool::wraps(std::size_t channel) const {
   const Angle& angle = angles_[channel];
-  return angle.asked && angle.jumps && angle.highest - angle.lowest <= 2.0 * kPi + 1e-3;
+  const double span = angle.highest - angle.lowest;
+  constexpr double kMostOfATurn = 1.5 * kPi;  // which an angle has seen that comes by its end
+  return angle.asked && angle.jumps && span >= kMostOfATurn && span <= 2.0 * kPi + 1e-3;
 }
 
 bool SampleSpool::refill() {

@@ -93,5 +93,41 @@ TEST(FirstGuess, ExplainsADriveThatCrawlsMostOfTheTime) {
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
 }
 
+// By least squares a place that is 30 m away for one sample outweighs all other stretches together.
+TEST(FirstGuess, IsNotLedAstrayByOnePlaceFarAway) {
+  for (const std::size_t at : {300u, 700u, 1000u, 1025u, 1500u}) {
+    InnovationRun run = winding_arcs(0.05, 0.2);
+    run.truth[at].position.x_m += 30.0;
+    EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "") << at;
+    const FirstGuess guess = first_guess({run}, drive_with(0.05, 0.2));
+    ASSERT_TRUE(guess.trusted) << at;
+    EXPECT_NEAR(guess.drive.wheel_radius_left_m, 0.05, 0.0005) << at;
+  }
+}
+
+// Whether the way tells nothing, as both go forward evenly, or a little: the turns are another's.
+TEST(FirstGuess, SaysThatTheTruthIsAnotherRuns) {
+  for (const double faster_mps : {0.0, 0.12}) {
+    InnovationRun run = winding_arcs(0.05, 0.2), other = run;
+    Pose pose;
+    for (std::size_t i = 0; i < other.truth.size(); ++i) {
+      const double t = other.truth[i].time_s;
+      other.truth[i] = {t, pose.position(), pose.heading_rad};
+      pose = advanced(pose, (0.3 + faster_mps * std::sin(0.7 * t)) * 0.02,
+                      0.9 * std::cos(0.83 * t + 0.4 * std::sin(0.31 * t)) * 0.02);
+    }
+    const std::string said = contradiction_in({other}, drive_with(0.05, 0.2));
+    EXPECT_NE(said.find("another run's truth"), std::string::npos) << said;
+  }
+}
+
+TEST(CounterJumps, AreNoneWhereReadingsWereLeftOut) {
+  InnovationRun run = winding_arcs(0.05, 0.2);
+  for (std::size_t i = 700; i < run.wheels.size(); ++i) run.wheels[i].left_rad += 1e4;
+  EXPECT_EQ(counter_jumps_in({run}).size(), 1u);
+  run.left_out = {{run.wheels[699].time_s, run.wheels[700].time_s}};
+  EXPECT_TRUE(counter_jumps_in({run}).empty());
+}
+
 }  // namespace
 }  // namespace odolab

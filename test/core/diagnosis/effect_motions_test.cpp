@@ -48,5 +48,36 @@ TEST(EffectMotions, ChangeNoSpeedByMoreThanHalfOfARims) {
   for (const EffectStep& s : view.steps) EXPECT_LE(s.speed_mps, 0.4 + 0.5 * (0.4 + 0.15 * 1.0) + 1e-12);
 }
 
+// Of a wheel that turns at 5 rad/s above 4 a fifth of the counts is lost: it is read at 4 rad/s, and what is missing is
+// a quarter of that.
+TEST(EffectMotions, AddWhatAnEncoderLostOfWhatThereWas) {
+  DriveView view;
+  view.drive = {0.05, 0.05, 0.3};
+  for (const double read_radps : {3.1, 3.3}) {
+    EffectStep s;
+    s.duration_s = 0.02;
+    s.left_radps = read_radps;
+    s.left_m = 0.05 * read_radps * s.duration_s;
+    view.steps.assign(50, s);
+    const std::vector<BodyMotion> sum =
+        motions_of(view, {{"encoder_missed_counts", "left_wheel", {{"fraction", 0.2}, {"above_radps", 4.0}}}});
+    const double missing_m = read_radps > 0.8 * 4.0 ? 0.25 * s.left_m : 0.0;
+    for (const BodyMotion& m : sum) EXPECT_NEAR(m.forward_m, 0.5 * missing_m, 1e-15) << read_radps;
+  }
+}
+
+TEST(EffectMotions, OfABumpAreNoneOnceTheDriveIsOver) {
+  DriveView view = turning_at(0.0);
+  for (EffectStep& s : view.steps) s.left_m = s.right_m = 0.008;
+  const auto turned = [&](double at_s) {
+    double sum_rad = 0.0;
+    for (const BodyMotion& m : motions_of(view, {{"bump", "left_wheel", {{"extra_distance_m", 0.01}, {"at_s", at_s}}}}))
+      sum_rad += m.turn_rad;
+    return sum_rad;
+  };
+  EXPECT_GT(std::abs(turned(2.0)), 0.01);
+  EXPECT_EQ(turned(500.0), 0.0);
+}
+
 }  // namespace
 }  // namespace odolab

@@ -192,5 +192,22 @@ TEST(EncoderJumps, AreNotWhereAWheelSlowsAndSpeedsUpAgain) {
   EXPECT_TRUE(jumps_against_truth(run, model).left.empty());
 }
 
+// 12 of 400 s of a day on which it drives as any robot does; and fast for so long after it crept.
+TEST(EncoderJumps, AreNotWhereARobotDrivesInAThirtiethOfTheTime) {
+  for (const double creeps_radps : {0.0, 0.5}) {
+    Read r;
+    double angle_rad = 0.0;
+    for (int i = 0; i < 8000; ++i) {
+      const double t = 0.05 * i, since_s = t - 380.0, wanted = 4.0 * std::clamp(since_s, 0.0, 1.0);
+      r.time_s.push_back(t);
+      r.angle_rad.push_back(kCount_rad * std::floor(angle_rad / kCount_rad));
+      angle_rad += 0.05 * std::max(creeps_radps, since_s < 12.0 ? wanted : 0.0);
+    }
+    EXPECT_TRUE(jumps_of(r).empty()) << creeps_radps;
+    for (std::size_t i = 7700; i < r.angle_rad.size(); ++i) r.angle_rad[i] += 3.0;
+    EXPECT_EQ(jumps_of(r).size(), 1u) << creeps_radps;
+  }
+}
+
 }  // namespace
 }  // namespace odolab

@@ -256,5 +256,72 @@ TEST(Diagnosis, SaysWhatIsWrongWithARecordingThatIsHeldOut) {
   }));
 }
 
+// The file has the marker where it is, 0.3 m beside the axle: it swings around a wheel that is pivoted about.
+TEST(Checked, TakesAWheelForSoundThatIsPivotedAboutUnderAMarkerThatSitsAside) {
+  for (const bool is_known : {true, false}) {
+    test::GeneratorSettings g;
+    g.drive.wheel_radius_left_m = g.drive.wheel_radius_right_m = 0.03;
+    g.drive.wheelbase_m = 0.15;
+    g.truth.axle_T_tracked = {0.0, is_known ? 0.3 : 0.03, 0.0};
+    g.truth_position_noise_m = 0.001;
+    g.truth_heading_noise_rad = 0.02;
+    Random random(6);
+    const Recording r = generated(
+        g,
+        [](double t) {
+          return test::WheelSpeedsAt{t > 10.0 && t < 14.0 ? 0.0 : 4.0, 6.0};
+        },
+        random);
+    Vehicle vehicle = small_robot();
+    if (is_known) vehicle.truth.axle_T_tracked = g.truth.axle_T_tracked;
+    EXPECT_TRUE(checked(r, vehicle).faults.empty()) << is_known;
+  }
+}
+
+TEST(Checked, TakesOneHeadingThroughoutForNoneWhereTheWheelsTurn) {
+  Recording r = with_a_rest();
+  for (Channel& c : r.channels)
+    if (c.name == "truth_heading_rad")
+      for (double& v : c.values)
+        if (!std::isnan(v)) v = 0.0;
+  const CheckedRecording c = checked(r, Vehicle{});
+  EXPECT_FALSE(c.recording.channel("truth_heading_rad"));
+  ASSERT_FALSE(c.warnings.empty());
+  EXPECT_NE(c.warnings.front().find("truth_heading_rad is 0 throughout"), std::string::npos) << c.warnings.front();
+  EXPECT_TRUE(checked(with_a_rest(), Vehicle{}).recording.channel("truth_heading_rad"));
+}
+
+TEST(Checked, SaysForHowLongNobodyLooked) {
+  Recording r = with_a_rest();
+  for (Channel& c : r.channels)
+    for (std::size_t i = 0; i < r.time_s.size(); ++i)
+      if (c.name.rfind("truth_", 0) == 0 && (std::abs(r.time_s[i] - 5.0) < 3.0 || std::abs(r.time_s[i] - 15.0) < 3.5))
+        c.values[i] = std::nan("");
+  const CheckedRecording c = checked(r, Vehicle{});
+  ASSERT_EQ(c.warnings.size(), 1u);  // it rests from 10 to 20 s
+  EXPECT_NE(c.warnings[0].find("no truth from 2.0 to 8.0 s, while the wheels turn"), std::string::npos)
+      << c.warnings[0];
+  EXPECT_TRUE(checked(with_a_rest(), Vehicle{}).warnings.empty());
+}
+
+// Both encoders hold while the truth goes on by 1.5 m: that is no encoder's doing.
+TEST(Checked, SaysThatBothEncodersStandAtOnce) {
+  Recording r = with_a_rest();
+  for (Channel& c : r.channels)
+    if (c.name.find("wheel") != std::string::npos) {
+      double held = 0.0, lost = 0.0;
+      for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+        if (std::isnan(c.values[i])) continue;
+        if (r.time_s[i] < 4.0) held = c.values[i];
+        if (r.time_s[i] < 8.0) lost = c.values[i] - held;
+        c.values[i] = r.time_s[i] < 4.0 ? c.values[i] : r.time_s[i] < 8.0 ? held : c.values[i] - lost;
+      }
+    }
+  const CheckedRecording c = checked(r, Vehicle{});
+  ASSERT_EQ(c.faults.size(), 2u);
+  ASSERT_EQ(c.warnings.size(), 1u);
+  EXPECT_NE(c.warnings[0].find("both encoders err at once"), std::string::npos) << c.warnings[0];
+}
+
 }  // namespace
 }  // namespace odolab

@@ -87,5 +87,41 @@ TEST(CommandSamples, NeedBothOfTheirChannels) {
   EXPECT_TRUE(command_samples(r).empty());
 }
 
+// A link that was silent for one wheel says nothing of how it went meanwhile; a wheel that is read only as it moves
+// does.
+TEST(WheelSamples, AreLeftOutWhereNobodyKnowsHowAWheelWent) {
+  const auto samples_with = [](bool rests) {
+    Recording r;
+    r.channels = {{"left_wheel_rad", {}}, {"right_wheel_rad", {}}};
+    for (int i = 0; i < 200; ++i) {
+      const double t = 0.02 * i, gap_from_s = 1.0, gap_to_s = 3.0;
+      const bool is_silent = t > gap_from_s && t < gap_to_s;
+      const double turned = !rests ? 5.0 * t : 5.0 * (t < gap_to_s ? std::min(t, gap_from_s) : t - 2.0);
+      r.time_s.push_back(t);
+      r.channels[0].values.push_back(is_silent ? kEmpty : turned);
+      r.channels[1].values.push_back(5.0 * t);
+    }
+    return wheel_samples(r, {});
+  };
+  const std::vector<WheelSample> silent = samples_with(false);
+  for (const WheelSample& w : silent) EXPECT_FALSE(w.time_s > 1.01 && w.time_s < 2.99) << w.time_s;
+  EXPECT_EQ(silent.size(), 101u);
+  EXPECT_EQ(samples_with(true).size(), 200u);
+}
+
+// Between readings 0.2 s apart a wheel sets off and stops; on a straight line from one to the next it did not go.
+TEST(WheelSamples, ComeAsOftenAsTheWheelThatIsReadFarLessOften) {
+  Recording r;
+  r.channels = {{"left_wheel_rad", {}}, {"right_wheel_rad", {}}};
+  for (int i = 0; i <= 100; ++i) {
+    r.time_s.push_back(0.02 * i);
+    r.channels[0].values.push_back(i % 10 == 0 ? 0.1 * i * i : kEmpty);
+    r.channels[1].values.push_back(0.1 * i * i);
+  }
+  const std::vector<WheelSample> w = wheel_samples(r, {});
+  ASSERT_EQ(w.size(), 11u);
+  for (const WheelSample& s : w) EXPECT_DOUBLE_EQ(s.left_rad, s.right_rad);
+}
+
 }  // namespace
 }  // namespace odolab

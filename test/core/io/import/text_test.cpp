@@ -138,6 +138,31 @@ TEST(MappedText, AddsUpRatesOverIrregularTimesAndIncrementsOverRows) {
   }
 }
 
+// A truth that was not there, or a row that came late, takes nothing from the way that the wheel went.
+TEST(MappedText, AddsUpIncrementsOfRowsThatItLeavesOut) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.txt", "# t step x\n0 1 0\n1 2 gone\n2 4 0\n1.5 8 0\n3 16 0\n");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "left_wheel_rad=step,increment", "right_wheel_rad=x"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_EQ(imported->recording.channel("left_wheel_rad")->values, (std::vector<double>{1.0, 7.0, 31.0}));
+}
+
+// An encoder that is read within a turn, from 0 to 360 degrees.
+TEST(MappedText, MakesWheelsContinuousThatWereWrittenWithinATurn) {
+  ScratchFolder folder;
+  std::string text = "# t deg\n";
+  for (int i = 0; i < 50; ++i) text += std::to_string(i) + " " + std::to_string((i * 50) % 360) + "\n";
+  const std::string path = folder.write("log.txt", text);
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "left_wheel_rad=deg,deg", "right_wheel_rad=2,deg"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  const std::vector<double>& left = imported->recording.channel("left_wheel_rad")->values;
+  for (int i = 0; i < 50; ++i) EXPECT_NEAR(left[static_cast<std::size_t>(i)], i * 50.0 * kPi / 180.0, 1e-9) << i;
+  ASSERT_FALSE(imported->warnings.empty());
+  EXPECT_NE(imported->warnings.front().find("wrapped into one turn"), std::string::npos) << imported->warnings.front();
+}
+
 TEST(MappedText, MakesAHeadingOfAQuaternion) {
   ScratchFolder folder;
   const std::string path =
