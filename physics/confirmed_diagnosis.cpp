@@ -31,7 +31,8 @@ Recording with_even_stamps(const Recording& recording, const Vehicle& nominal) {
   return even ? std::move(even->recording) : recording;
 }
 
-// Where encoders are at fault, or nobody read them: on the truth's clock, and a reading wider at either end.
+// Where encoders are at fault, or nobody read them, or the truth and the wheels part: on the truth's clock, and a
+// reading wider at either end.
 WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnosis& diagnosis,
                          const FittedModel& model) {
   constexpr double kWider_s = 0.1;
@@ -42,7 +43,7 @@ WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnos
       unknown[recording].emplace_back(from_s + late_s - kWider_s, to_s + late_s + kWider_s);
   };
   for (const Finding& f : diagnosis.findings)
-    if (f.effect == "encoder_data_fault") add(f.where.recording, f.where.time_s);
+    if (f.effect == "encoder_data_fault" || f.is_parted) add(f.where.recording, f.where.time_s);
   for (const Recording& r : recordings) {
     std::vector<WheelSample> first;  // all units are read together
     for (const UnitSample& s : unit_samples(r, model.vehicle))

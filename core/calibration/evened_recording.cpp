@@ -134,9 +134,12 @@ std::optional<std::vector<double>> new_times(const std::string& name, const char
   return spread->time_s;
 }
 
-// A row that says what the one before said of wheels or truth, at the same time: a log that wrote it twice.
+// A row that says what the one before said of wheels or truth, at the same time: a log that wrote it twice. None where
+// others at one time say something else: then stamps are rounded, and of slow wheels two readings are alike.
 std::vector<std::size_t> rows_written_twice(const Recording& r) {
+  constexpr double kFew = 0.02;  // of those at one time
   std::vector<std::size_t> rows;
+  std::size_t say_otherwise = 0;
   const auto is_same = [&](const Channel& c, std::size_t i) {
     return c.values[i] == c.values[i - 1] || (std::isnan(c.values[i]) && std::isnan(c.values[i - 1]));
   };
@@ -148,6 +151,11 @@ std::vector<std::size_t> rows_written_twice(const Recording& r) {
         std::all_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) { return is_same(c, i); }) &&
         std::any_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) { return is_read(c, i); }))
       rows.push_back(i);
+    else if (r.time_s[i] == r.time_s[i - 1] && std::any_of(r.channels.begin(), r.channels.end(), [&](const Channel& c) {
+               return is_read(c, i) && is_read(c, i - 1) && !is_same(c, i);
+             }))
+      ++say_otherwise;
+  if (static_cast<double>(say_otherwise) > kFew * static_cast<double>(rows.size() + say_otherwise)) rows.clear();
   return rows;
 }
 

@@ -73,6 +73,7 @@ struct Finding {
   std::optional<MovedTrack> moves;
   GatheredEvidence gathered;  // empty where it is none of the motion
   std::string sentence;       // the finding in plain words
+  bool is_parted = false;     // of what has no name: its times were left out of all else (parted.h)
   int form = 0;               // which of the ways in which the effect shows, and in words where there are several
   std::string form_in_words;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/model/ready_run.h"
 
@@ -35,55 +36,72 @@ std::vector<ComeApart> apart_in(const InnovationRun& run, const InnovationModel&
   return found;
 }
 
-}  // namespace
-
-std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
+// `first`: the number of the first of them among all recordings.
+std::vector<TimeStretches> parted_in(const std::vector<CheckedRecording>& recordings, std::size_t first,
+                                     const LeastSquaresCalibration& calibration, const Vehicle& nominal) {
   constexpr int kAgain = 2;               // times in one stretch
-  constexpr std::size_t kMostPlaces = 3;  // in all recordings
+  constexpr std::size_t kMostPlaces = 3;  // in all these recordings
   constexpr double kMostOfTheTime = 0.2;  // of a recording
-  std::vector<std::vector<ComeApart>> apart(ready.train.size());
-  std::vector<double> lasts_s(ready.train.size(), 0.0);
-  parallel_for(static_cast<int>(ready.train.size()), [&](int i) {
+  std::vector<std::vector<ComeApart>> apart(recordings.size());
+  std::vector<double> lasts_s(recordings.size(), 0.0);
+  parallel_for(static_cast<int>(recordings.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    const Result<InnovationRun> run = ready_run(ready.train[r], nominal);
+    const Result<InnovationRun> run = ready_run(recordings[r], nominal);
     if (!run || run->truth.size() < 2) return;
-    apart[r] = apart_in(*run, model_of(ready.calibration, r));
+    apart[r] = apart_in(*run, model_of(calibration, first + r));
     lasts_s[r] = run->truth.back().time_s - run->truth.front().time_s;
   });
-  std::vector<TimeStretches> parted(apart.size());
+  const std::vector<TimeStretches> none(recordings.size());
+  std::vector<TimeStretches> parted = none;
   std::size_t places = 0;
-  bool any = false;
   for (std::size_t r = 0; r < apart.size(); ++r) {
     places += apart[r].size();
     double sum_s = 0.0;
     for (const ComeApart& a : apart[r]) {
       sum_s += a.to_s - a.from_s;
-      if (a.times < kAgain) continue;
-      parted[r].emplace_back(a.from_s, a.to_s);
-      any = true;
+      if (a.times >= kAgain) parted[r].emplace_back(a.from_s, a.to_s);
     }
-    if (sum_s > kMostOfTheTime * lasts_s[r]) return {};
+    if (sum_s > kMostOfTheTime * lasts_s[r]) return none;
   }
-  return any && places <= kMostPlaces ? parted : std::vector<TimeStretches>{};
+  return places <= kMostPlaces ? parted : none;
+}
+
+}  // namespace
+
+std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
+  std::vector<TimeStretches> all = parted_in(ready.train, 0, ready.calibration, nominal);
+  const std::vector<TimeStretches> unseen = parted_in(ready.held_out, ready.train.size(), ready.calibration, nominal);
+  all.insert(all.end(), unseen.begin(), unseen.end());
+  const bool none = std::all_of(all.begin(), all.end(), [](const TimeStretches& of) { return of.empty(); });
+  return none ? std::vector<TimeStretches>{} : all;
 }
 
 void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const ReadyRecordings& ready) {
+  const std::string what =
+      "the truth and the wheels part, and go on together from where it left them, as where a vehicle is lifted, "
+      "carried "
+      "or dragged, or a tracker takes something else for it; left out of all else";
   std::vector<Finding> findings;
   for (std::size_t r = 0; r < parted.size(); ++r) {
     if (parted[r].empty()) continue;
+    if (r >= ready.train.size()) {
+      d.warnings.push_back(ready.held_out[r - ready.train.size()].recording.name +
+                           formatted(": from %.1f to %.1f s ", parted[r].front().first, parted[r].front().second) +
+                           what);
+      continue;
+    }
     Finding f;
     f.effect = "unknown";
+    f.is_parted = true;
     f.component = "vehicle";
     f.where.recording = ready.train[r].recording.name;
     f.where.time_s = parted[r];
-    f.where.regime =
-        "there the truth and the wheels part, and go on together from where it left them, as where a vehicle is "
-        "lifted, "
-        "carried or dragged, or a tracker takes something else for it; left out of all else";
+    f.where.regime = "there " + what;
     f.sentence = "something that no entry of the catalogue describes: " + f.where.regime;
     f.p_value = 0.0;
     findings.push_back(std::move(f));
   }
+  if (findings.empty()) return;
   d.findings.insert(d.findings.begin(), findings.begin(), findings.end());
   d.verdict = Verdict::unknown_effect;
 }

@@ -10,12 +10,12 @@
 
 namespace odolab {
 
-// In each recording that is fitted, on the wheels' clock: where the truth contradicts the calibration again as soon as
-// the filter has started anew. Empty where there is none, or where it contradicts it at so many places, or for so
-// long, that it is no incident.
+// In each recording, those that are fitted first, on the wheels' clock: where the truth contradicts the calibration
+// again as soon as the filter has started anew. Empty where there is none, or where it contradicts it at so many
+// places, or for so long, that it is no incident.
 std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal);
 
-// Says of each that it is in no list, before all other findings.
+// Says of each that it is in no list, before all other findings; of those held out in a warning.
 void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const ReadyRecordings& ready);
 
 }  // namespace odolab

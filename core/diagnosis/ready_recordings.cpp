@@ -187,14 +187,14 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   };
   if (const std::optional<Error> problem = check(train, ready.train)) return *problem;
   if (const std::optional<Error> problem = check(held_out, ready.held_out)) return *problem;
-  for (std::size_t r = 0; r < std::min(also_left_out_s.size(), ready.train.size()); ++r) {
-    TimeStretches& left_out_s = ready.train[r].left_out_s;
-    left_out_s.insert(left_out_s.end(), also_left_out_s[r].begin(), also_left_out_s[r].end());
-    left_out_s = joined(std::move(left_out_s));
-  }
   std::vector<CheckedRecording*> each;
   for (std::vector<CheckedRecording>* of : {&ready.train, &ready.held_out})
     for (CheckedRecording& c : *of) each.push_back(&c);
+  for (std::size_t r = 0; r < std::min(also_left_out_s.size(), each.size()); ++r) {
+    TimeStretches& left_out_s = each[r]->left_out_s;
+    left_out_s.insert(left_out_s.end(), also_left_out_s[r].begin(), also_left_out_s[r].end());
+    left_out_s = joined(std::move(left_out_s));
+  }
   std::vector<Recording> all;
   for (const CheckedRecording* c : each) all.push_back(c->recording);
   for (const std::optional<Error>& fault : faults_in(all, nominal))

@@ -23,8 +23,8 @@ struct ReadyRecordings {
 };
 
 // Of a differential drive's recordings. An error where one is no recording, cannot be calibrated on, or `progress`
-// stops it. `truth_is_white`: as of LeastSquaresOptions. `also_left_out_s`: of each that is fitted, on the wheels'
-// clock.
+// stops it. `truth_is_white`: as of LeastSquaresOptions. `also_left_out_s`: of each, those that are fitted first, on
+// the wheels' clock.
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress, bool truth_is_white = false,
                                          const std::vector<TimeStretches>& also_left_out_s = {});

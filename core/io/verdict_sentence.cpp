@@ -33,6 +33,16 @@ std::string little_sentence(const Diagnosis& d) {
          (d.train.noise_floor ? ", in noise of " + figures_text(*d.train.noise_floor) : "") + ".";
 }
 
+// Whether all that has no name is where the truth and the wheels part, in one stretch.
+bool is_one_incident(const Diagnosis& d) {
+  std::size_t stretches = 0;
+  for (const Finding& f : d.findings) {
+    if (f.effect == "unknown" && !f.is_parted) return false;
+    if (f.is_parted) stretches += f.where.time_s.size();
+  }
+  return stretches == 1;
+}
+
 }  // namespace
 
 std::string verdict_sentence(const Diagnosis& diagnosis) {
@@ -88,7 +98,9 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
                        "to their noise.";
       break;
     case Verdict::unknown_effect:
-      sentence = "Something is missing that no known effect describes.";
+      sentence = is_one_incident(diagnosis)
+                     ? "Once, something happened that no known effect describes; all else is judged without it."
+                     : "Something is missing that no known effect describes.";
       for (const auto* also : {&physics, &measured}) open.insert(open.begin(), also->begin(), also->end());
       if (!open.empty()) sentence += " Beside it: " + list_of(open, "and") + ".";
       break;

@@ -33,8 +33,8 @@ namespace odolab {
 
 const char* name_of_channel(int channel) {
   static const char* const kNames[] = {
-      "forward per metre [1]",    "sideways per metre [1]",    "turn per metre [rad/m]",         "turn per turn [1]",
-      "left wheel per metre [1]", "right wheel per metre [1]", "turn per metre forwards [rad/m]"};
+      "forward per metre [1]",    "sideways per metre [1]",    "turn per metre [rad/m]",          "turn per turn [1]",
+      "left wheel per metre [1]", "right wheel per metre [1]", "turn per metre forwards [rad/m]", "way per metre [1]"};
   return kNames[channel];
 }
 
@@ -42,6 +42,7 @@ BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int chann
   if (channel == kLeftWheelAlone) return by_wheel(Wheel::left, step.left_m, wheelbase_m);
   if (channel == kRightWheelAlone) return by_wheel(Wheel::right, step.right_m, wheelbase_m);
   if (channel == kTurnForwards) return {0.0, 0.0, step.forward_m()};
+  if (channel == kWayItself) return {step.forward_m(), 0.0, 0.0};
   // Turning on the spot counts as way too, by the way of the wheels.
   const double way = std::abs(step.forward_m()) + (channel == 0 ? 0.0 : 0.5 * wheelbase_m * std::abs(step.turn_rad));
   BodyMotion m;
@@ -94,6 +95,15 @@ void hold_tests_against_readings(const JointModel& joint, std::vector<GenericTes
     t.sway->test.widen(by_readings);
     t.sway->p_value = t.p_value_of(t.sway->test);
   });
+}
+
+// Whether so much is driven in reverse that the way itself is another channel than forward.
+bool are_driven_both_ways(const std::vector<DriveView>& views) {
+  constexpr double kLeast = 0.05;  // of the way
+  double forwards_m = 0.0, back_m = 0.0;
+  for (const DriveView& view : views)
+    for (const EffectStep& s : view.steps) (s.forward_m() > 0.0 ? forwards_m : back_m) += std::abs(s.forward_m());
+  return std::min(forwards_m, back_m) > kLeast * (forwards_m + back_m);
 }
 
 // What is asked beside groups of values. `count`: of how many tests each is one; none of those that count their own, or
@@ -155,6 +165,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     std::vector<int> channels;
   };
   std::vector<Asked> asked;
+  const bool both_ways = are_driven_both_ways(views);
   for (const Group& g : groups) {
     if (g.of_wheel != 0) {
       asked.push_back({&g, {g.of_wheel}});
@@ -162,6 +173,7 @@ std::vector<GenericTest> generic_tests(const JointModel& joint) {
     }
     for (int channel = 0; channel < (g.of_turns ? kGenericChannels : kTurnOfItself); ++channel)
       asked.push_back({&g, {channel}});
+    if (g.of_turns && both_ways) asked.push_back({&g, {kWayItself}});
     if (!g.is_memory) continue;
     asked.push_back({&g, {0, 1, 2}});
     for (const int channel : {kLeftWheelAlone, kRightWheelAlone, kTurnForwards}) asked.push_back({&g, {channel}});

@@ -63,6 +63,9 @@ constexpr int kGenericChannels = 4, kTurnOfItself = 3;
 constexpr int kLeftWheelAlone = 4, kRightWheelAlone = 5;
 // And the turn for each metre forwards, which in reverse is to the other side, as where one wheel drags.
 constexpr int kTurnForwards = 6;
+// And the way itself, for each metre forwards and less for each back: of a wheel that slips, or a carpet that gives
+// way.
+constexpr int kWayItself = 7;
 const char* name_of_channel(int channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 

@@ -141,7 +141,8 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
         i > 0 && i + 1 < each.size() && each[i] * each[i - 1] < 0.0 && each[i] * each[i + 1] < 0.0;
     const bool is_like_others =
         has_readings_around(each, i) && std::abs(rates.out_by[i]) < kOfItself * std::abs(each[i]);
-    const bool too_fast = (back_and_on || !is_like_others) && std::abs(by) * radius_m > kLeast_m && std::abs(by) > 1.5 * count_rad &&
+    const bool too_fast = (back_and_on || !is_like_others) && std::abs(by) * radius_m > kLeast_m &&
+                          std::abs(by) > 1.5 * count_rad &&
                           std::abs(each[i]) > (back_and_on ? 1.0 : 4.0) * rates.usual &&
                           std::abs(by) > (back_and_on ? 0.0 : 2.0) * rates.usual_step_rad;
     // One reading off the pace that the wheel had before and has behind it, where no tyre could have pushed it.
@@ -152,6 +153,31 @@ TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector
     if (too_fast || off_its_pace) jumps.push_back({time_s[i], time_s[i + 1]});
   }
   return jumps;
+}
+
+TimeStretches without_lost_rows(const TimeStretches& jumps, const std::vector<WheelSample>& wheels) {
+  constexpr double kNearly = 0.25;  // of a step
+  const auto steps_in = [&](std::size_t i, double WheelSample::*rad) {
+    const auto step_rad = [&](std::size_t k) { return wheels[k + 1].*rad - wheels[k].*rad; };
+    std::vector<double> about_rad;  // another row may be lost nearby
+    for (std::size_t k = i - kAround; k <= i + kAround; ++k)
+      if (k != i) about_rad.push_back(step_rad(k));
+    const double pace_rad = median(std::move(about_rad));
+    return pace_rad != 0.0 ? step_rad(i) / pace_rad : 0.0;
+  };
+  TimeStretches kept;
+  for (const auto& jump : jumps) {
+    const auto at = std::lower_bound(wheels.begin(), wheels.end(), jump.first,
+                                     [](const WheelSample& w, double t) { return w.time_s < t; });
+    const auto i = static_cast<std::size_t>(at - wheels.begin());
+    if (i >= kAround && i + kAround + 1 < wheels.size()) {
+      const double left = steps_in(i, &WheelSample::left_rad), right = steps_in(i, &WheelSample::right_rad);
+      if (left > 1.5 && std::abs(left - std::round(left)) < kNearly && std::abs(right - std::round(left)) < kNearly)
+        continue;
+    }
+    kept.push_back(jump);
+  }
+  return kept;
 }
 
 JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated) {

@@ -14,6 +14,10 @@ namespace odolab {
 TimeStretches encoder_jumps(const std::vector<double>& time_s, const std::vector<double>& angle_rad, double radius_m,
                             double count_rad);
 
+// Without those in which both wheels make the same whole number of their steps before and behind at once: there a
+// log lost rows, and the stamps of the others were too coarse to show it.
+TimeStretches without_lost_rows(const TimeStretches& jumps, const std::vector<WheelSample>& wheels);
+
 struct JumpsOfWheels {
   TimeStretches left, right, both;  // of one alone, and of both at once
 };

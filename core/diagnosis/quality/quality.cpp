@@ -157,8 +157,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
 
   if (const TimeStretches gaps = encoder_gaps(wheels); !gaps.empty()) {
     out.left_out_s = gaps;
-    out.faults.push_back(
-        {kEncoderGap, "both_wheels", recording.name, gaps, "no encoder readings " + times_text(gaps) + ", left out"});
+    out.faults.push_back({kEncoderGap, "both_wheels", recording.name, gaps, "no encoder readings, left out"});
   }
 
   for (int wheel = 0; wheel < 2; ++wheel) {
@@ -173,8 +172,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       time_s.push_back(wheels[i].time_s);
       angle_rad.push_back(rotation(wheels[i], which));
     }
-    for (const auto& jump : encoder_jumps(time_s, angle_rad, radius, least_count_rad(wheels, which)))
-      fault.time_s.push_back(jump);
+    const TimeStretches jumps = encoder_jumps(time_s, angle_rad, radius, least_count_rad(wheels, which));
+    for (const auto& jump : without_lost_rows(jumps, wheels)) fault.time_s.push_back(jump);
     std::string does = fault.time_s.empty() ? "" : "stands still or jumps while the vehicle drives on";
     if (const TimeStretches moved = moved_at_rest(wheels, which); !moved.empty()) {
       does += std::string(does.empty() ? "" : ", and ") + "moves while both wheels rest";

@@ -285,6 +285,25 @@ TEST(EvenedRecording, ReadsARowThatStandsThereTwiceOnce) {
     EXPECT_GT(even->recording.time_s[i], even->recording.time_s[i - 1]);
 }
 
+// 200 readings a second, stamped to a hundredth of one: each stamp stands there twice, and while the wheels are slow or
+// rest so does what was read.
+TEST(EvenedRecording, KeepsReadingsOfSlowWheelsWhoseStampsAreRounded) {
+  const double counts = 2500.0, count_rad = 2.0 * kPi / counts;
+  Recording r;
+  r.channels = {{"left_wheel_rad", {}}, {"right_wheel_rad", {}}};
+  for (int i = 0; i < 4000; ++i) {
+    const double t = 0.005 * i, turned = t < 10.0 ? 0.0 : 0.25 * (t - 10.0) * (t - 10.0);
+    r.time_s.push_back(0.01 * std::floor(0.5 * i));
+    r.channels[0].values.push_back(count_rad * std::floor(turned / count_rad));
+    r.channels[1].values.push_back(count_rad * std::floor(1.1 * turned / count_rad));
+  }
+  const auto even = evened(r, DifferentialDrive{});
+  ASSERT_TRUE(even);
+  ASSERT_EQ(even->recording.time_s.size(), r.time_s.size());
+  for (std::size_t i = 1; i < r.time_s.size(); ++i)
+    EXPECT_NEAR(even->recording.time_s[i] - even->recording.time_s[i - 1], 0.005, 0.001) << i;
+}
+
 TEST(EvenedRecording, IsNotEvenedAgainAndKeepsEveryReading) {
   Random random(8);
   const test::GeneratorSettings g = seen_at_100_hz();

@@ -209,5 +209,25 @@ TEST(EncoderJumps, AreNotWhereARobotDrivesInAThirtiethOfTheTime) {
   }
 }
 
+// One row of fifty is missing, and the readings are taken to be as far apart as all others. One wheel alone that makes
+// two steps at once jumps.
+TEST(EncoderJumps, AreNotWhereALogLostARow) {
+  std::vector<WheelSample> wheels, one_jumps;
+  double left_rad = 0.0, right_rad = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double pace = 6.0 + 2.0 * std::sin(0.02 * i);
+    for (int lost = i % 50 == 49 ? 1 : 0; lost >= 0; --lost)
+      left_rad += pace * kReading_s, right_rad += 0.7 * pace * kReading_s;
+    wheels.push_back({kReading_s * i, left_rad, right_rad});
+    one_jumps.push_back({kReading_s * i, left_rad, 0.7 * pace * kReading_s * i});
+  }
+  Read left;
+  for (const WheelSample& w : wheels) left.time_s.push_back(w.time_s), left.angle_rad.push_back(w.left_rad);
+  const TimeStretches jumps = jumps_of(left);
+  EXPECT_EQ(jumps.size(), 7u);  // the last is at the end
+  EXPECT_TRUE(without_lost_rows(jumps, wheels).empty());
+  EXPECT_EQ(without_lost_rows(jumps, one_jumps).size(), jumps.size());
+}
+
 }  // namespace
 }  // namespace odolab

@@ -53,6 +53,24 @@ TEST(Parted, AreTheTruthAndTheWheelsWhereAVehicleIsLiftedAndNowhereElse) {
       if (p.name == q.name && p.determined) EXPECT_NEAR(p.value, q.value, q.stderr_value + p.stderr_value) << p.name;
 }
 
+// The run that was held out, and not those that were fitted.
+TEST(Parted, TakeNothingFromWhatOthersSayWhereTheyDoSoInARunThatIsHeldOut) {
+  CaseSettings settings;
+  settings.runs = 3;
+  Case c = generated_case(settings, 43);
+  Recording held_out = c.recordings.back();
+  c.recordings.pop_back();
+  carry_truth(held_out, 20.0, [&](double t) {
+    const double u = std::min(1.0, (t - 20.0) / 6.0), swing = std::sin(4.0 * kPi * u);
+    return Pose{1.3 * u + 0.3 * swing, -0.8 * u, 0.6 * u + 0.5 * swing};
+  });
+  const Diagnosis d = diagnose(c.recordings, {held_out}, c.nominal).value();
+  EXPECT_EQ(d.verdict, Verdict::nothing_missing);
+  bool is_said = false;
+  for (const std::string& w : d.warnings) is_said = is_said || w.find("the wheels part") != std::string::npos;
+  EXPECT_TRUE(is_said);
+}
+
 // Two markers change places for so long and are themselves again.
 TEST(Parted, IsNoTruthThatIsElsewhereForSecondsAndThenBackWhereTheWheelsWent) {
   for (const double lasts_s : {1.0, 3.0, 6.0}) {
