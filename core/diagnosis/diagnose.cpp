@@ -4,6 +4,7 @@
 #include "core/base/formatted.h"
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/asked_effects.h"
+#include "core/diagnosis/by_names.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/findings_of.h"
 #include "core/diagnosis/generic/adequacy.h"
@@ -213,10 +214,11 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
 }
 
 // `shows_beside_held_out`: whether what has no name shows only together with what was held out. `parted`: where the
-// truth and the wheels are known to part, which is left out.
+// truth and the wheels are known to part, which is left out. `by_names`: what these leave has no say.
 Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                             const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                            bool* shows_beside_held_out = nullptr, const std::vector<TimeStretches>& parted = {}) {
+                            bool* shows_beside_held_out = nullptr, const std::vector<TimeStretches>& parted = {},
+                            bool by_names = false) {
   Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted);
   if (!looked) return looked.error();
   // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
@@ -234,8 +236,12 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   const JointModel& joint = names.joint;
   FittedNoise of_calibration = ready->calibration.noise;
   of_calibration.command_timing_s = joint.model.noise.command_timing_s;  // which calibration does not know
-  const Adequacy adequacy =
+  Adequacy adequacy =
       judged_adequacy(names, calibrated, predictor, of_calibration, kOfTheUnnamed * options.family_wise_error);
+  if (by_names) {
+    adequacy.unnamed.reset();
+    adequacy.as_likely.reset();
+  }
   if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
   // One incident that has no name hides all else.
   if (adequacy.unnamed && parted.empty())
@@ -326,6 +332,11 @@ ActiveEffect Finding::as_active() const {
   for (const FoundParameter& p : parameters) a.parameters.push_back({p.name, p.value});
   if (form > 0) a.parameters.push_back({"form", static_cast<double>(form)});
   return a;
+}
+
+Result<Diagnosis> diagnose_by_names(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                                    const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress) {
+  return diagnosed(train, held_out, nominal, options, progress, nullptr, {}, true);
 }
 
 Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vector<Recording>& held_out,

@@ -6,6 +6,7 @@
 
 #include "core/base/formatted.h"
 #include "core/calibration/frozen_truth.h"
+#include "core/diagnosis/by_names.h"
 #include "core/diagnosis/units/errors_of_lengths.h"
 #include "core/diagnosis/units/geometry_fit.h"
 #include "core/diagnosis/units/heading_of_way.h"
@@ -233,6 +234,15 @@ class BesideTruth {
     of_one.truth_errors = joint_errors(samples_, names_, fitted, unit);
     Result<Diagnosis> one = diagnose(own, own_held_out, vehicle_of_unit(units_[unit], nominal_), of_one, part);
     if (!one) return Error{units_[unit].name + ": " + one.error().where, one.error().found, one.error().expected};
+    const bool castor = std::holds_alternative<MultiCastor>(nominal_.kind);
+    if (!units_[unit].carries_truth && has_a_name_beside_a_trace(*one, castor)) {
+      Result<Diagnosis> named =
+          diagnose_by_names(own, own_held_out, vehicle_of_unit(units_[unit], nominal_), of_one, part);
+      if (named && !named->findings.empty()) {
+        one = std::move(named);
+        one->warnings.push_back(kTraceBesideAName);
+      }
+    }
     if (!units_[unit].carries_truth) {
       const bool is_carried = carries_truth(units_) && !diagnoses_.empty();
       const UncertainLengths lengths =
@@ -241,7 +251,7 @@ class BesideTruth {
         add_errors_of_lengths(own, read, fitted, unit, lengths, (*one).*which);
     }
     leave_out_standing(*one, own, units_[unit].drive);
-    if (!units_[unit].carries_truth) leave_out_traces(*one, std::holds_alternative<MultiCastor>(nominal_.kind));
+    if (!units_[unit].carries_truth) leave_out_traces(*one, castor);
     return one;
   }
 

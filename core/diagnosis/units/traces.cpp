@@ -84,19 +84,11 @@ namespace {
 // Lengths that are wrong by 0.3 % make castors on one frame slip so that a spline takes up to a third off what is
 // left (planar simulator, five sets).
 constexpr double kMaterialOfCastors = 0.5;
-}  // namespace
 
-void leave_out_traces(Diagnosis& d, bool castor) {
-  const double least_gain = castor ? 60.0 : 15.0;  // set on cases with nothing missing, README.md
-  // The truth's heading swings a unit at the end of a joint to and fro, and as one with its own heading: the likelihood
-  // takes the two for independent, and sees pushes in it.
-  constexpr double kLeastOfAMoment = 25.0;
-  const auto least_of = [&](const Finding& f) {
-    const bool of_a_moment =
-        std::any_of(f.parameters.begin(), f.parameters.end(), [](const FoundParameter& p) { return p.name == "at_s"; });
-    return of_a_moment ? std::max(least_gain, kLeastOfAMoment) : least_gain;
-  };
-  if (!d.held_out.calibrated || d.findings.empty()) return;
+double least_gain_of(bool castor) { return castor ? 60.0 : 15.0; }  // set on cases with nothing missing, README.md
+
+// Of a diagnosis that has figures of runs that were left out.
+bool rest_is_a_trace(const Diagnosis& d, bool castor) {
   const auto predicts = [&](const std::optional<FitFigures>& with) {
     const FitFigures& without = *d.held_out.calibrated;
     if (!with || !(without.position_rms_m > 0.0) || !(without.heading_rms_rad > 0.0)) return true;
@@ -111,7 +103,34 @@ void leave_out_traces(Diagnosis& d, bool castor) {
     return !floor || (d.held_out.calibrated->position_rms_m < kSmall * floor->position_rms_m &&
                       d.held_out.calibrated->heading_rms_rad < kSmall * floor->heading_rms_rad);
   };
-  const bool rest_counts = predicts(d.held_out.spline) || !is_small();
+  return !predicts(d.held_out.spline) && is_small();
+}
+}  // namespace
+
+bool has_a_name_beside_a_trace(const Diagnosis& d, bool castor) {
+  constexpr double kMostOfIt = 0.6, kTimesTheLeast = 2.0;
+  if (!d.held_out.calibrated || !rest_is_a_trace(d, castor)) return false;
+  return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
+    return f.effect == "unknown" &&
+           std::any_of(f.alternatives.begin(), f.alternatives.end(), [&](const Alternative& a) {
+             return a.log_likelihood_gain >
+                    std::max(kMostOfIt * f.log_likelihood_gain, kTimesTheLeast * least_gain_of(castor));
+           });
+  });
+}
+
+void leave_out_traces(Diagnosis& d, bool castor) {
+  const double least_gain = least_gain_of(castor);
+  // The truth's heading swings a unit at the end of a joint to and fro, and as one with its own heading: the likelihood
+  // takes the two for independent, and sees pushes in it.
+  constexpr double kLeastOfAMoment = 25.0;
+  const auto least_of = [&](const Finding& f) {
+    const bool of_a_moment =
+        std::any_of(f.parameters.begin(), f.parameters.end(), [](const FoundParameter& p) { return p.name == "at_s"; });
+    return of_a_moment ? std::max(least_gain, kLeastOfAMoment) : least_gain;
+  };
+  if (!d.held_out.calibrated || d.findings.empty()) return;
+  const bool rest_counts = !rest_is_a_trace(d, castor);
   const std::size_t before = d.findings.size();
   d.findings.erase(std::remove_if(d.findings.begin(), d.findings.end(),
                                   [&](const Finding& f) {

@@ -25,4 +25,11 @@ void leave_out_standing(Diagnosis& d, const std::vector<Recording>& recordings, 
 // wheels of castors that share a frame slip wherever their lengths are not quite the file's.
 void leave_out_traces(Diagnosis& d, bool castor);
 
+// Whether that would take out names, too: what has none predicts nothing, and is most of it what one name explains.
+bool has_a_name_beside_a_trace(const Diagnosis& d, bool castor);
+inline constexpr const char* kTraceBesideAName =
+    "beside what was named something is left that is as small as the rounding of the joints or the slip of wheels on "
+    "one "
+    "frame, and that predicts no run it was not fitted on";
+
 }  // namespace odolab
