@@ -28,6 +28,28 @@ TEST(LeaveOutTraces, TakesOnlyForATraceWhatLeavesLittle) {
   }
 }
 
+// A wheel that is out of round shows beside the trace of its joint, which goes where that name stands.
+TEST(LeaveOutTraces, IsNotDoneWhereANameExplainsMostOfThem) {
+  const auto is_kept = [](double gain, double of_its_name, double times_the_noise, bool castor) {
+    Diagnosis d;
+    d.held_out.noise_floor = FitFigures{0.008, 0.010, 1.0};
+    d.held_out.calibrated = FitFigures{0.008, 0.010 * times_the_noise, 1.4};
+    d.held_out.spline = d.held_out.calibrated;
+    Finding f;
+    f.effect = "unknown";
+    f.component = "vehicle";
+    f.log_likelihood_gain = gain;
+    f.alternatives = {{"wheel_eccentricity", "left_wheel", of_its_name, ""}};
+    d.findings = {f};
+    return has_a_name_beside_a_trace(d, castor);
+  };
+  EXPECT_TRUE(is_kept(88.0, 64.0, 1.2, false));
+  EXPECT_FALSE(is_kept(88.0, 40.0, 1.2, false));  // less than half of it
+  EXPECT_FALSE(is_kept(28.0, 24.0, 1.2, false));  // hardly any evidence
+  EXPECT_FALSE(is_kept(88.0, 64.0, 2.5, false));  // too large for a trace
+  EXPECT_FALSE(is_kept(88.0, 64.0, 1.2, true));   // castors on a frame make as much
+}
+
 TEST(RoundingFromInside, HidesAPushThatOneCountOfTheOtherTruckMakesThroughTheLink) {
   const Clapper trucks = fine_clapper();  // 0.24 mm a count, 0.7 mrad of its truck, 0.7 mm at the far end of a metre
   const Vehicle vehicle = vehicle_of(trucks);
