@@ -50,7 +50,9 @@ TEST(Parted, AreTheTruthAndTheWheelsWhereAVehicleIsLiftedAndNowhereElse) {
   // The calibration is that of the rest: 5 % of the time are gone.
   for (const ParameterEstimate& p : d.calibration.parameters)
     for (const ParameterEstimate& q : before.calibration.parameters)
-      if (p.name == q.name && p.determined) EXPECT_NEAR(p.value, q.value, q.stderr_value + p.stderr_value) << p.name;
+      if (p.name == q.name && p.determined) {
+        EXPECT_NEAR(p.value, q.value, q.stderr_value + p.stderr_value) << p.name;
+      }
 }
 
 // The run that was held out, and not those that were fitted.
