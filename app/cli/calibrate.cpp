@@ -8,6 +8,7 @@
 #include "app/cli/terminal.h"
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality/bridged_recording.h"
@@ -25,15 +26,26 @@ struct CalibrateOptions {
   std::string out;
 };
 
-// Root mean square over recordings of the pose error gathered over a metre.
+// Of each pose of the truth, whether what was left out (on the wheels' clock) lies between it and the one before.
+std::vector<char> begin_anew(const Track& truth, const TimeStretches& left_out, double late_s) {
+  std::vector<char> anew(truth.size(), 0);
+  for (std::size_t k = 1; k < truth.size(); ++k)
+    anew[k] = std::any_of(left_out.begin(), left_out.end(), [&](const auto& s) {
+      return s.first + late_s < truth[k].time_s && s.second + late_s > truth[k - 1].time_s;
+    });
+  return anew;
+}
+
+// Root mean square over recordings of the pose error gathered over a metre, but for what was left out of each.
 struct PerMetre {
   double position_sum = 0.0, heading_sum = 0.0;
   int recordings = 0;
 
-  void add(const Recording& recording, const Vehicle& vehicle) {
+  void add(const Recording& recording, const Vehicle& vehicle, const TimeStretches& left_out) {
     const Result<Track> track = predicted_track(recording, vehicle);
     if (!track) return;
-    const auto error = track_error(*track, truth_track(recording));
+    const Track truth = truth_track(recording);
+    const auto error = track_error(*track, truth, begin_anew(truth, left_out, vehicle.truth.time_offset_s));
     if (!error) return;
     position_sum += error->position_rms_m * error->position_rms_m;
     heading_sum += error->heading_rms_rad * error->heading_rms_rad;
@@ -58,7 +70,8 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
     LeastSquaresOptions of_others = how;
     of_others.left_out = without(how.left_out);
     const Result<ExternalCalibration> fitted = calibrate_externally(without(recordings), nominal, {}, of_others);
-    if (fitted) held_out.add(recordings[left_out], fitted->vehicle);
+    if (fitted)
+      held_out.add(recordings[left_out], fitted->vehicle, how.left_out_of(left_out).value_or(TimeStretches{}));
   }
   return interrupted() ? "stopped" : held_out.text();
 }
@@ -141,9 +154,10 @@ int execute_calibrate(const CalibrateOptions& options) {
     return kDone;
   }
   PerMetre before, after;
-  for (const Recording& recording : recordings) {
-    before.add(recording, *nominal);
-    after.add(recording, calibration->vehicle);
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
+    const TimeStretches left_out = how.left_out_of(i).value_or(TimeStretches{});
+    before.add(recordings[i], *nominal, left_out);
+    after.add(recordings[i], calibration->vehicle, left_out);
   }
   std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
