@@ -72,7 +72,7 @@ TimeStretches silent_truth(const std::vector<TruthSample>& truth, const std::vec
   return silent;
 }
 
-// Where two encoders err at the same time, of which neither is hardly at fault by itself.
+// Where both encoders err at the same time: hardly each by a fault of its own.
 TimeStretches both_at_once(const std::vector<DataFault>& faults) {
   constexpr double kMost = 0.5;
   const auto of = [&](const char* component) {
