@@ -11,6 +11,7 @@
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/obeyed_commands.h"
 #include "core/diagnosis/units/unit_models.h"
+#include "core/geometry/begins_anew.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/replay.h"
 
@@ -82,11 +83,7 @@ std::optional<TrackError> error_of(const Replay& replay, const WaysUnknown& unkn
   if (!replay.truth_has_headings) return std::nullopt;
   const auto of_recording = unknown.find(name);
   if (of_recording == unknown.end()) return replay.simulated_error;
-  std::vector<char> anew(replay.truth.size(), 0);
-  for (const auto& [from_s, to_s] : of_recording->second)
-    for (std::size_t i = 1; i < replay.truth.size(); ++i)
-      if (replay.truth[i].time_s > from_s && replay.truth[i - 1].time_s < to_s) anew[i] = 1;
-  return track_error(replay.simulated, replay.truth, anew);
+  return track_error(replay.simulated, replay.truth, begins_anew(replay.truth, of_recording->second));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality/bridged_recording.h"
+#include "core/geometry/begins_anew.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
 #include "core/odometry/prediction.h"
@@ -26,16 +27,6 @@ struct CalibrateOptions {
   std::string out;
 };
 
-// Of each pose of the truth, whether what was left out (on the wheels' clock) lies between it and the one before.
-std::vector<char> begin_anew(const Track& truth, const TimeStretches& left_out, double late_s) {
-  std::vector<char> anew(truth.size(), 0);
-  for (std::size_t k = 1; k < truth.size(); ++k)
-    anew[k] = std::any_of(left_out.begin(), left_out.end(), [&](const auto& s) {
-      return s.first + late_s < truth[k].time_s && s.second + late_s > truth[k - 1].time_s;
-    });
-  return anew;
-}
-
 // Root mean square over recordings of the pose error gathered over a metre, but for what was left out of each.
 struct PerMetre {
   double position_sum = 0.0, heading_sum = 0.0;
@@ -45,7 +36,10 @@ struct PerMetre {
     const Result<Track> track = predicted_track(recording, vehicle);
     if (!track) return;
     const Track truth = truth_track(recording);
-    const auto error = track_error(*track, truth, begin_anew(truth, left_out, vehicle.truth.time_offset_s));
+    TimeStretches on_its_clock = left_out;
+    for (auto& [from_s, to_s] : on_its_clock)
+      from_s += vehicle.truth.time_offset_s, to_s += vehicle.truth.time_offset_s;
+    const auto error = track_error(*track, truth, begins_anew(truth, on_its_clock));
     if (!error) return;
     position_sum += error->position_rms_m * error->position_rms_m;
     heading_sum += error->heading_rms_rad * error->heading_rms_rad;

@@ -79,8 +79,7 @@ std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const 
 void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const ReadyRecordings& ready) {
   const std::string what =
       "the truth and the wheels part, and go on together from where it left them, as where a vehicle is lifted, "
-      "carried "
-      "or dragged, or a tracker takes something else for it; left out of all else";
+      "carried or dragged, or a tracker takes something else for it; left out of all else";
   std::vector<Finding> findings;
   for (std::size_t r = 0; r < parted.size(); ++r) {
     if (parted[r].empty()) continue;
