@@ -236,8 +236,8 @@ struct Simulation::Parts {
     estimated.push_back({state.time_s, state.estimated_pose});
     exact.push_back({state.time_s, state.true_pose});
     command_before = command_next;
-    if (by_route) command_next = given_now = by_the_route();
-    if (std::holds_alternative<HandPath>(scenario.path)) command_next = given_now = by_hand();
+    if (by_route) command_next = by_the_route();
+    if (std::holds_alternative<HandPath>(scenario.path)) command_next = by_hand();
     if (scenario.sensors.record_commands) record_command();
   }
 
@@ -257,19 +257,22 @@ struct Simulation::Parts {
     }
   }
 
-  // What the driver asks of the base from now until the next sample; of a path that knows wheel speeds alone, what they
-  // are for the nominal base in the middle of that time.
+  // What the driver asks of the base from now until the next sample, as commands are held until the next: their mean,
+  // that is in the middle of that time. Of a path that knows wheel speeds alone, what they are for the nominal base.
   void record_command() {
+    BaseCommand given{0.5 * (command_before.speed_mps + command_next.speed_mps),
+                      0.5 * (command_before.yaw_rate_radps + command_next.yaw_rate_radps),
+                      0.5 * (command_before.sideways_mps + command_next.sideways_mps)};
     if (std::holds_alternative<WheelSpeedPath>(scenario.path)) {
       const WheelPair speeds = tabled_speeds(state.time_s + 0.5 * scenario.sensors.encoder_period_s);
-      given_now = vehicle->by_wheels()->motion_of(speeds);
+      given = vehicle->by_wheels()->motion_of(speeds);
     } else if (!commands.empty()) {
       const CommandSample c = commands.at(recorded_s(static_cast<double>(steps)));
-      given_now = {c.speed_mps, c.yaw_rate_radps};
+      given = {c.speed_mps, c.yaw_rate_radps};
     } else if (!rotation.empty()) {
-      given_now = {kNone, kNone};  // nobody commands wheels that are turned by a recording
+      given = {kNone, kNone};  // nobody commands wheels that are turned by a recording
     }
-    run.commands.push_back(given_now);
+    run.commands.push_back(given);
   }
 
   // A hand's command, reached at no more than the driver's accelerations.
@@ -325,7 +328,7 @@ struct Simulation::Parts {
   std::optional<double> arrived_s;  // at the end of its route
   BaseCommand command_before, command_next;
   std::vector<double> rotation_now;  // of the motors that a recording turns
-  BaseCommand hand, hand_now, given_now;
+  BaseCommand hand, hand_now;
   SimulationState state;
   SampledRun run;  // but for what was taken
   std::size_t samples_taken = 0;
