@@ -275,12 +275,14 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
         lay_line(time_s, numbers, from, end, even.period_s, even.time_s);
       for (int i = from; i < end; ++i) stretch[i] = i > from && numbers[i] - numbers[i - 1] == 1 ? stretch[i - 1] : i;
       laid += end - from;
-      // Where whole blocks stay off the line the readings were not taken at one period: those of an encoder that speaks
-      // at each count, for one.
+      // Where whole blocks stay off the line, further than stamps tremble within, the readings were not taken at one
+      // period: those of an encoder that speaks at each count, for one.
       for (int i = from; i + look <= end; i += look, ++blocks) {
         Series off;
         for (int k = i; k < i + look; ++k) off.push_back(time_s[k] - even.time_s[k]);
-        wandering += std::abs(quantile(std::move(off), 0.5)) > 0.6 * even.period_s;
+        const double middle_s = quantile(off, 0.5);
+        for (double& by : off) by -= middle_s;
+        wandering += std::abs(middle_s) > std::max(0.6 * even.period_s, scatter_about_zero(std::move(off)));
       }
     }
     from = end;
