@@ -52,9 +52,16 @@ struct PerMetre {
   }
 };
 
-// Calibrates without each recording in turn and predicts the one left out.
+// Of a recording of which the truth's clock was fitted by itself.
+Vehicle by_its_own_clock(Vehicle vehicle, const ExternalCalibration& fitted, std::size_t recording) {
+  const std::vector<double>& clocks = fitted.parts.front().calibration.time_offset_s;
+  if (fitted.parts.size() == 1 && recording < clocks.size()) vehicle.truth.time_offset_s = clocks[recording];
+  return vehicle;
+}
+
+// Calibrates without each recording in turn and predicts the one left out, by the clock that it has `of_all`.
 std::string held_out_text(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                          const LeastSquaresOptions& how) {
+                          const LeastSquaresOptions& how, const ExternalCalibration& of_all) {
   PerMetre held_out;
   for (std::size_t left_out = 0; left_out < recordings.size() && !interrupted(); ++left_out) {
     const auto without = [left_out](auto all) {
@@ -65,7 +72,8 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
     of_others.left_out = without(how.left_out);
     const Result<ExternalCalibration> fitted = calibrate_externally(without(recordings), nominal, {}, of_others);
     if (fitted)
-      held_out.add(recordings[left_out], fitted->vehicle, how.left_out_of(left_out).value_or(TimeStretches{}));
+      held_out.add(recordings[left_out], by_its_own_clock(fitted->vehicle, of_all, left_out),
+                   how.left_out_of(left_out).value_or(TimeStretches{}));
   }
   return interrupted() ? "stopped" : held_out.text();
 }
@@ -151,12 +159,13 @@ int execute_calibrate(const CalibrateOptions& options) {
   for (std::size_t i = 0; i < recordings.size(); ++i) {
     const TimeStretches left_out = how.left_out_of(i).value_or(TimeStretches{});
     before.add(recordings[i], *nominal, left_out);
-    after.add(recordings[i], calibration->vehicle, left_out);
+    after.add(recordings[i], by_its_own_clock(calibration->vehicle, *calibration, i), left_out);
   }
   std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
   if (recordings.size() > 1)
-    rows.push_back({"after, each recording predicted from the others", held_out_text(recordings, *nominal, how)});
+    rows.push_back(
+        {"after, each recording predicted from the others", held_out_text(recordings, *nominal, how, *calibration)});
   print_table(rows);
   for (const CalibratedPart& part : calibration->parts)
     for (const auto* warnings : {&part.calibration.warnings, &part.calibration.of_misfit})

@@ -63,7 +63,7 @@ EstimatorLook estimator_look(std::size_t index, const Theme& theme) {
 }
 
 void estimator_panel(const Estimators& e, EstimatorState& state, const Theme& theme) {
-  heading(e.finished ? "Return errors of the estimators" : "Estimators side by side", theme);
+  heading(e.finished ? "Errors of the estimators at the end" : "Estimators side by side", theme);
   if (!ImGui::BeginTable("estimators", 3)) return;
   for (const float width : {2.6f, 0.75f, 0.8f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
   ImGui::TableNextRow();

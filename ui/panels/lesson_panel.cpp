@@ -12,7 +12,7 @@ namespace {
 Actions list(const LessonView& view, const Theme& theme) {
   Actions actions;
   heading("Lessons", theme);
-  note("Ten minutes each: something to watch, a question, and why.", theme);
+  note("Six to ten minutes each: something to watch, a question, and why.", theme);
   const float width = ImGui::GetContentRegionAvail().x;
   for (const LessonEntry& entry : view.lessons) {
     ImGui::Dummy({1, theme.px(3)});

@@ -152,24 +152,38 @@ std::vector<Visible> unseen(const std::vector<Visible>& visible) {
   return dark;
 }
 
+namespace {
+
+// So many times the medium size of the number that shows least, as findings have it.
+FoundParameter as_found(const Visible& v, double times_medium) {
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  const double value = times_medium * a.medium;
+  if (v.effect->to_parameters && v.effect->amplitudes.size() == 1) {
+    const std::vector<FoundParameter> found = v.effect->to_parameters({value}, {0.0});
+    if (found.size() == 1) return found.front();
+  }
+  return {a.name, value, 0.0, a.unit};
+}
+
+}  // namespace
+
 std::optional<FoundParameter> least_seen(const Visible& v) {
   constexpr double kNoSize = 1e4;  // of the medium one: none of any size
   if (!v.excited || v.needed >= kNoSize) return std::nullopt;
-  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  return FoundParameter{a.name, v.needed * a.medium, 0.0, a.unit};
+  return as_found(v, v.needed);
 }
 
 std::string because_of(const Visible& v) {
   if (!v.excited) return "these drives hold nothing that would show it";
-  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
-  const auto [factor, unit] = as_people_read(a.unit);
+  const FoundParameter least = as_found(v, v.needed), medium = as_found(v, 1.0);
+  const auto [factor, unit] = as_people_read(least.unit);
   const bool absorbed = v.survives < 0.05;
   const std::string share = absorbed ? formatted("on these drives calibration absorbs %.3g %% of what it would do: ",
                                                  100.0 * (1.0 - v.survives))
                                      : "";
   if (v.needed > 1e4) return share + "none of any size would have shown";
-  return share + formatted("less than %.2g", v.needed * a.medium * factor) + unit + " would not have shown here" +
-         formatted(", and %.2g", a.medium * factor) + unit + " is of importance";
+  return share + formatted("less than %.2g", least.value * factor) + unit + " would not have shown here" +
+         formatted(", and %.2g", medium.value * factor) + unit + " is of importance";
 }
 
 }  // namespace odolab

@@ -143,8 +143,6 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
   std::vector<std::string> channels;
   for (const SampleSpool& stream : streams.streams)
     channels.insert(channels.end(), stream.channels().begin(), stream.channels().end());
-  if (const auto lonely = without_partner(channels))
-    return Error{sources.front(), lonely->first + " alone", lonely->second + " with it"};
   // with several sources each column of a mapping may be in any, and must be in one
   for (const MappedColumn& column : wishes.mapping.columns) {
     const std::string channel = column.becomes.substr(0, 7) == "truth_q" ? "truth_heading_rad" : column.becomes;
@@ -152,6 +150,8 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
     if (!there)
       return Error{"--map", "no column " + in_quotes(column.column) + " in any source", "one for " + column.becomes};
   }
+  if (const auto lonely = without_partner(channels))
+    return Error{sources.front(), lonely->first + " alone", lonely->second + " with it"};
   return streams;
 }
 

@@ -89,8 +89,14 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
   if (layout.channels.empty() && layout.quaternion[2].cell == kNowhere && layout.quaternion[3].cell == kNowhere)
     return Error{path + ":" + std::to_string(line), "the columns " + listed_in_quotes(header),
                  "one that the mapping names for wheels, commands or truth, as in left_wheel_rad=COLUMN"};
-  if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0))
+  if (layout.time.cell == kNowhere && !(mapping.period_s > 0.0)) {
+    const auto time = std::find_if(mapping.columns.begin(), mapping.columns.end(),
+                                   [](const MappedColumn& c) { return c.becomes == "time_s"; });
+    if (time != mapping.columns.end())
+      return Error{path + ":" + std::to_string(line), "the columns " + listed_in_quotes(header),
+                   "a column " + in_quotes(time->column) + " for time_s"};
     return Error{path, "no column for time_s", "time_s=COLUMN, or a period between rows"};
+  }
   return std::nullopt;
 }
 
