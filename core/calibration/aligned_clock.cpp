@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStep_s = 0.01;      // from one lag to the next
 constexpr int kLags = 50;             // to each side
+constexpr int kMostLags = 200;        // where the best lie at the end
 constexpr double kSpan_s = 0.1;       // of what is compared: short beside the turns of a path, long beside rounding
 constexpr double kWindow_s = 8.0;     // in which a lag is taken as constant
 constexpr double kSparsest_s = 0.25;  // truth, from sample to sample
@@ -52,10 +53,11 @@ struct Increment {
 // A stretch of the run.
 struct Window {
   double share = 0.0;        // of the run before its middle
-  std::vector<double> chi2;  // at each lag
+  std::vector<double> chi2;  // at each lag, as many to either side
 
   double at(double lag) const {
-    const double k = std::clamp(lag + kLags, 0.0, static_cast<double>(chi2.size() - 1) - 1e-9);
+    const double middle = 0.5 * static_cast<double>(chi2.size() - 1);
+    const double k = std::clamp(lag + middle, 0.0, 2.0 * middle - 1e-9);
     const auto below = static_cast<std::size_t>(k);
     return chi2[below] + (k - static_cast<double>(below)) * (chi2[below + 1] - chi2[below]);
   }
@@ -124,30 +126,35 @@ std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const Innova
   // Each increment holds the errors of two samples, each sample is in two increments for every stride.
   const double per_m2 = 1.0 / (2.0 * p * p * static_cast<double>(stride)),
                per_rad2 = 1.0 / (2.0 * h * h * static_cast<double>(stride));
-  std::vector<Window> lagged;
-  for (std::size_t w = 0; w < windows; ++w) {
-    if (of[w].size() < kFewestIncrements) continue;
-    Window window{(static_cast<double>(w) + 0.5) / static_cast<double>(windows), {}};
-    for (int lag = -kLags; lag <= kLags; ++lag) window.chi2.push_back(chi2_at(of[w], way, lag, per_m2, per_rad2));
-    lagged.push_back(std::move(window));
-  }
-  if (lagged.size() < 2) return std::nullopt;
-
-  const auto total = [&](int first, int last) {
-    double sum = 0.0;
-    for (const Window& w : lagged) sum += w.at(first + w.share * (last - first));
-    return sum;
-  };
-  const double as_they_are = total(0, 0);
-  double best = as_they_are;
   int best_first = 0, best_last = 0;
-  for (int first = -kLags; first <= kLags; ++first)
-    for (int last = -kLags; last <= kLags; ++last) {
-      const double chi2 = total(first, last);
-      if (chi2 < best) best = chi2, best_first = first, best_last = last;
+  double gain = 0.0;
+  for (int lags = kLags; lags <= kMostLags; lags *= 2) {
+    std::vector<Window> lagged;
+    for (std::size_t w = 0; w < windows; ++w) {
+      if (of[w].size() < kFewestIncrements) continue;
+      Window window{(static_cast<double>(w) + 0.5) / static_cast<double>(windows), {}};
+      for (int lag = -lags; lag <= lags; ++lag) window.chi2.push_back(chi2_at(of[w], way, lag, per_m2, per_rad2));
+      lagged.push_back(std::move(window));
     }
+    if (lagged.size() < 2) return std::nullopt;
+
+    const auto total = [&](int first, int last) {
+      double sum = 0.0;
+      for (const Window& w : lagged) sum += w.at(first + w.share * (last - first));
+      return sum;
+    };
+    const double as_they_are = total(0, 0);
+    double best = as_they_are;
+    for (int first = -lags; first <= lags; ++first)
+      for (int last = -lags; last <= lags; ++last) {
+        const double chi2 = total(first, last);
+        if (chi2 < best) best = chi2, best_first = first, best_last = last;
+      }
+    gain = as_they_are - best;
+    if (std::max(std::abs(best_first), std::abs(best_last)) < lags) break;
+  }
   return AlignedClock{model.truth.time_offset_s + best_first * kStep_s, (best_first - best_last) * kStep_s / duration_s,
-                      as_they_are - best};
+                      gain};
 }
 
 std::vector<std::optional<AlignedClock>> aligned_clocks(const std::vector<InnovationRun>& runs,

@@ -16,7 +16,8 @@ struct AlignedClock {
   double gain = 0.0;  // of chi-square beside the clock as it was; samples taken as independent
 };
 
-// The best of all offsets within half a second of the model's and all rates that stay there: a robot's jitter fits the
+// The best of all offsets within half a second of the model's and all rates that stay there, or within two where it lies
+// at the end: a robot's jitter fits the
 // truth's only where the clocks agree, so the likelihood has many summits and a descent finds the nearest. None where
 // the truth is too sparse to tell or gives no headings.
 std::optional<AlignedClock> aligned_clock(const InnovationRun& run, const InnovationModel& model);

@@ -70,10 +70,14 @@ bool is_beyond_belief(double ratio) {
   return !(ratio > 1.0 / kMost && ratio < kMost);
 }
 
-// For those who know nothing of clocks: the truth's stamps as they are by the vehicle's file.
-std::vector<InnovationRun> by_the_wheels_clock(std::vector<InnovationRun> runs, double truth_late_s) {
+// For those who know nothing of clocks and of how a tracked body is turned: stamps and headings as they are by the
+// vehicle's file.
+std::vector<InnovationRun> as_the_wheels_have_it(std::vector<InnovationRun> runs, const TruthMounting& mounting) {
   for (InnovationRun& run : runs)
-    for (TruthSample& t : run.truth) t.time_s -= truth_late_s;
+    for (TruthSample& t : run.truth) {
+      t.time_s -= mounting.time_offset_s;
+      if (t.heading_rad) *t.heading_rad -= mounting.axle_T_tracked.heading_rad;
+    }
   return runs;
 }
 
@@ -394,11 +398,12 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   Result<ReadRuns> read = read_runs(recordings, nominal, options);
   if (!read) return read.error();
   std::vector<InnovationRun> moved;
-  if (nominal.truth.time_offset_s != 0.0) moved = by_the_wheels_clock(read->runs, nominal.truth.time_offset_s);
-  const std::vector<InnovationRun>& on_one_clock = moved.empty() ? read->runs : moved;
-  if (const std::string contradiction = contradiction_in(on_one_clock, *drive); !contradiction.empty())
+  if (nominal.truth.time_offset_s != 0.0 || nominal.truth.axle_T_tracked.heading_rad != 0.0)
+    moved = as_the_wheels_have_it(read->runs, nominal.truth);
+  const std::vector<InnovationRun>& as_wheels_have_it = moved.empty() ? read->runs : moved;
+  if (const std::string contradiction = contradiction_in(as_wheels_have_it, *drive); !contradiction.empty())
     return Error{named, contradiction, "wheels and truth of one robot, in the units that the columns are named after"};
-  const FirstGuess guess = first_guess(on_one_clock, *drive);
+  const FirstGuess guess = first_guess(as_wheels_have_it, *drive);
 
   FitOfAll fit(std::move(*read), nominal, options);
   fit.begin_at(guess);

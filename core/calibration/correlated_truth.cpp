@@ -81,14 +81,14 @@ Recording with_truth_apart(const Recording& recording, double apart_s) {
 }
 
 std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive,
-                                          bool by_commands) {
+                                          double truth_late_s, bool by_commands) {
   Neighbours positions, headings;
   for (const Recording& recording : recordings) {
     const std::vector<TruthSample> truth = truth_samples(recording);
     for (const auto& [from_s, to_s] : long_rests(wheel_samples(recording, drive), !by_commands)) {
       std::vector<double> x_m, y_m, heading_rad;
       for (const TruthSample& t : truth) {
-        if (t.time_s < from_s || t.time_s > to_s) continue;
+        if (t.time_s - truth_late_s < from_s || t.time_s - truth_late_s > to_s) continue;
         x_m.push_back(t.position.x_m);
         y_m.push_back(t.position.y_m);
         if (t.heading_rad)

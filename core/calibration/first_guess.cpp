@@ -6,6 +6,7 @@
 #include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/calibration/late_truth.h"
+#include "core/calibration/left_out.h"
 #include "core/calibration/wheels_at.h"
 
 namespace odolab {
@@ -62,14 +63,20 @@ std::vector<TurningStretch> turning_stretches(const std::vector<InnovationRun>& 
   return stretches;
 }
 
-// How many times further the truth turns than the wheels say, from half-second to half-second.
+// How many times further the truth turns than the wheels say, from half-second to half-second in which a wheel turns:
+// noise of the truth's headings adds up while it stands, for hours if need be.
 double turning_ratio(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
   double truth_rad = 0.0, wheels_rad = 0.0;
   for (const InnovationRun& run : runs) {
     std::size_t from = 0;
+    const auto stands = [&](double from_s, double to_s) {
+      const WheelSample a = wheels_at(run.wheels, from_s), b = wheels_at(run.wheels, to_s);
+      return a.left_rad == b.left_rad && a.right_rad == b.right_rad;
+    };
     for (std::size_t i = 1; i < run.truth.size(); ++i) {
       if (run.truth[i].time_s - run.truth[from].time_s < kShortestGuess_s) continue;
-      if (run.truth[i].heading_rad && run.truth[from].heading_rad)
+      if (run.truth[i].heading_rad && run.truth[from].heading_rad &&
+          !stands(run.truth[from].time_s, run.truth[i].time_s))
         truth_rad += std::abs(*run.truth[i].heading_rad - *run.truth[from].heading_rad);
       from = i;
     }
@@ -167,13 +174,6 @@ bool turn_apart(const std::vector<TurningStretch>& stretches, const Differential
          std::min(truth2, wheels2) > kTurns_rad * kTurns_rad * static_cast<double>(stretches.size());
 }
 
-// Whether what was left out lies between a reading and the one before.
-bool is_left_out(const InnovationRun& run, std::size_t reading) {
-  return std::any_of(run.left_out.begin(), run.left_out.end(), [&](const auto& s) {
-    return s.first < run.wheels[reading].time_s && s.second > run.wheels[reading - 1].time_s;
-  });
-}
-
 }  // namespace
 
 FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
@@ -196,7 +196,9 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
     for (double WheelSample::*wheel : {&WheelSample::left_rad, &WheelSample::right_rad}) {
       std::vector<double> steps;
       for (std::size_t i = 1; i < run.wheels.size(); ++i)
-        steps.push_back(is_left_out(run, i) ? 0.0 : std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
+        steps.push_back(leaves_out(run, run.wheels[i - 1].time_s, run.wheels[i].time_s)
+                            ? 0.0
+                            : std::abs(run.wheels[i].*wheel - run.wheels[i - 1].*wheel));
       if (steps.empty()) continue;
       const std::size_t largest =
           static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());

@@ -6,14 +6,14 @@
 namespace odolab {
 
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
-                           const DifferentialDrive& drive) {
+                           const DifferentialDrive& drive, double truth_late_s) {
   std::vector<double> rolled_m{0.0};
   for (std::size_t i = 1; i < wheels.size(); ++i)
     rolled_m.push_back(rolled_m.back() +
                        0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
                        0.5 * drive.wheel_radius_right_m * std::abs(wheels[i].right_rad - wheels[i - 1].right_rad));
-  const auto rolled_by = [&](double time_s) {
-    const auto it = std::lower_bound(wheels.begin(), wheels.end() - 1, time_s,
+  const auto rolled_by = [&](double truth_stamp_s) {
+    const auto it = std::lower_bound(wheels.begin(), wheels.end() - 1, truth_stamp_s - truth_late_s,
                                      [](const WheelSample& w, double t) { return w.time_s < t; });
     return rolled_m[static_cast<std::size_t>(it - wheels.begin())];
   };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/formatted.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/frozen_truth.h"
 #include "core/calibration/innovations.h"
@@ -31,8 +32,8 @@ bool lie_on_counts(const std::vector<WheelSample>& wheels, const DifferentialDri
 
 // Truth that repeats itself to the last bit while the wheels drive on is not a measurement.
 int leave_out_frozen(std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
-                     const DifferentialDrive& drive) {
-  const TimeStretches frozen = frozen_truth(truth, wheels, drive);
+                     const DifferentialDrive& drive, double truth_late_s) {
+  const TimeStretches frozen = frozen_truth(truth, wheels, drive, truth_late_s);
   return static_cast<int>(std::erase_if(truth, [&](const TruthSample& t) {
     return std::any_of(frozen.begin(), frozen.end(),
                        [&](const auto& stretch) { return t.time_s > stretch.first && t.time_s <= stretch.second; });
@@ -106,7 +107,7 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     if (time_s < first_s || time_s > last_s) continue;
     if (truth.empty() || t.time_s > truth.back().time_s) truth.push_back(t);
   }
-  run.frozen = leave_out_frozen(truth, run.wheels, drive);
+  run.frozen = leave_out_frozen(truth, run.wheels, drive, vehicle.truth.time_offset_s);
   const auto with_heading =
       std::count_if(truth.begin(), truth.end(), [](const TruthSample& t) { return t.heading_rad.has_value(); });
   run.truth_has_heading = 2 * with_heading > static_cast<std::ptrdiff_t>(truth.size());
@@ -116,6 +117,16 @@ Result<InnovationRun> innovation_run(const Recording& as_logged, const Vehicle& 
     run.truth.push_back(t);
     if (!run.truth_has_heading) run.truth.back().heading_rad.reset();
   }
+  if (run.truth.empty() && all_truth.size() > 1 &&
+      (all_truth.front().time_s - vehicle.truth.time_offset_s > last_s ||
+       all_truth.back().time_s - vehicle.truth.time_offset_s < first_s))
+    return Error{
+        where,
+        formatted("truth from %.1f to %.1f s, where the wheels were read from %.1f to %.1f s", all_truth.front().time_s,
+                  all_truth.back().time_s, run.wheels.front().time_s, run.wheels.back().time_s),
+        formatted("both by one clock, or in the vehicle's file how late the truth's is: "
+                  "truth_mounting.time_offset_s = %.1f if both began together",
+                  all_truth.front().time_s - run.wheels.front().time_s)};
   if (run.truth.size() < 2)
     return Error{where, std::to_string(run.truth.size()) + " truth samples within the time of the wheels",
                  "two or more of truth_x_m and truth_y_m"};

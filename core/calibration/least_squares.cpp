@@ -8,7 +8,9 @@
 #include "core/base/parallel.h"
 #include "core/calibration/calibrated_by_all.h"
 #include "core/calibration/carried_truth.h"
+#include "core/calibration/column_names.h"
 #include "core/calibration/correlated_truth.h"
+#include "core/calibration/turned_mounting.h"
 
 namespace odolab {
 
@@ -56,7 +58,8 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   // What the base, or the mast that carries its marker, does late or swings with correlates them as a tracker that
   // smooths does, but not where it stands.
   if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind)) {
-    const std::optional<double> at_rest = correlation_at_rest(recordings, *drive, options.by_commands);
+    const std::optional<double> at_rest =
+        correlation_at_rest(recordings, *drive, nominal.truth.time_offset_s, options.by_commands);
     if (at_rest && *at_rest <= kLasting) return all;
   }
   // Clocks that run apart correlate them just so, and that is no noise.
@@ -119,11 +122,15 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
       r = std::move(corrections->recording);
     }
   }
+  const Vehicle turned = options.fit_truth_mounting ? turned_as_driven(measured, nominal) : nominal;
   // A truth without noise has none that lasts.
   Result<LeastSquaresCalibration> result = all_are_computed || options.truth_is_white
-                                               ? calibrated_by_all(measured, nominal, options, progress)
-                                               : calibrated_by_white_truth(measured, nominal, options, progress);
-  if (result) result->warnings.insert(result->warnings.begin(), said.begin(), said.end());
+                                               ? calibrated_by_all(measured, turned, options, progress)
+                                               : calibrated_by_white_truth(measured, turned, options, progress);
+  if (!result) return result;
+  result->warnings.insert(result->warnings.begin(), said.begin(), said.end());
+  for (ParameterEstimate& p : result->parameters)
+    if (column::of_key(p.name) == column::mounting_heading) p.nominal = nominal.truth.axle_T_tracked.heading_rad;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/calibration/restamped.h"
 
 namespace odolab {
 
@@ -112,18 +113,23 @@ std::vector<WheelSample> bridged(std::vector<WheelSample> readings, const TimeSt
   return readings;
 }
 
-void cut_where_left_out(InnovationRun& run, double offset_s) {
+bool leaves_out(const InnovationRun& run, double from_s, double to_s) {
+  const auto behind = std::upper_bound(run.left_out.begin(), run.left_out.end(), from_s,
+                                       [](double t, const auto& stretch) { return t < stretch.second; });
+  return behind != run.left_out.end() && behind->first < to_s;
+}
+
+void cut_where_left_out(InnovationRun& run, double offset_s, double rate) {
   const std::vector<WheelSample>& wheels = run.wheels;
   const double usual_s = (wheels.back().time_s - wheels.front().time_s) / static_cast<double>(wheels.size() - 1);
   const double from_s = wheels.front().time_s - reach_s(wheels, 0, usual_s);
   const double to_s = wheels.back().time_s + reach_s(wheels, wheels.size() - 2, usual_s);
   run.cut.assign(run.truth.size(), 0);
-  std::size_t s = 0;
+  const TwoClocks clocks{run.truth.empty() ? 0.0 : run.truth.front().time_s, offset_s, rate};
+  const auto wheels_s = [&](std::size_t k) { return clocks.wheels_stamp_s(run.truth[k].time_s); };
   for (std::size_t k = 1; k < run.truth.size(); ++k) {
-    const double before_s = run.truth[k - 1].time_s - offset_s, here_s = run.truth[k].time_s - offset_s;
-    while (s < run.left_out.size() && run.left_out[s].second <= before_s) ++s;
-    const bool across = s < run.left_out.size() && run.left_out[s].first < here_s;
-    if (across || before_s < from_s || here_s > to_s) run.cut[k] = 1;
+    const double before_s = wheels_s(k - 1), here_s = wheels_s(k);
+    if (before_s < from_s || here_s > to_s || leaves_out(run, before_s, here_s)) run.cut[k] = 1;
   }
 }
 

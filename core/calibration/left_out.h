@@ -26,10 +26,13 @@ TimeStretches joined(TimeStretches stretches);
 // whole counts, so that it goes on as before. Angles and speeds near by are then right; the way across stays unknown.
 std::vector<WheelSample> bridged(std::vector<WheelSample> readings, const TimeStretches& left_out, double count_rad);
 
-// Writes into `cut` between which truth samples the way is not known, where the truth's clock is late by `offset_s`:
-// across what the run leaves out, and further beyond the first and the last reading than the wheels can be taken to go
+// Whether what a run leaves out lies between two times of its wheels.
+bool leaves_out(const InnovationRun& run, double from_s, double to_s);
+
+// Writes into `cut` between which truth samples the way is not known, where the truth's clock is late by `offset_s` and
+// the wheels' is fast by `rate`: across what the run leaves out, and further beyond the first and the last reading than the wheels can be taken to go
 // on as they did, which is a tenth of an interval where they turn and one interval where they rest. To be asked again
 // when the clock is known better, but not within a fit: a sample more would look like a worse one.
-void cut_where_left_out(InnovationRun& run, double offset_s);
+void cut_where_left_out(InnovationRun& run, double offset_s, double rate = 0.0);
 
 }  // namespace odolab

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/base/parallel.h"
+#include "core/base/quantile.h"
 #include "core/calibration/raw_columns.h"
 #include "core/calibration/run_fit.h"
 
@@ -127,7 +128,8 @@ std::string name_of_recording(const Recording& r) { return r.name.empty() ? "rec
 
 // A wheel that never turns though the truth carries it away from where it stood: no pivot does that.
 std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nominal) {
-  constexpr double kCarried_m = 0.5;
+  constexpr double kCarried_m = 0.5, kAllButOutliers = 0.9;
+  constexpr std::size_t kFirst = 5;  // their median is where it stood, though one of them be an outlier
   const auto& drive = std::get<DifferentialDrive>(nominal.kind);
   const std::vector<WheelSample> wheels = wheel_samples(recording, drive);
   const std::vector<TruthSample> truth = truth_samples(recording);
@@ -137,16 +139,21 @@ std::optional<Error> dead_encoder(const Recording& recording, const Vehicle& nom
   };
   const auto carried_m = [&](double to_the_left_m) {
     const Pose tracked_T_axle = inverse(nominal.truth.axle_T_tracked);
-    double furthest_m = 0.0;
-    std::optional<Vec2> first;
+    std::vector<double> x_m, y_m, away_m;
     for (const TruthSample& t : truth) {
       if (!t.heading_rad) continue;
       const Pose tracked{t.position.x_m, t.position.y_m, *t.heading_rad};
       const Vec2 at = tracked * tracked_T_axle * Vec2{0.0, to_the_left_m};
-      if (!first) first = at;
-      furthest_m = std::max(furthest_m, length(at - *first));
+      x_m.push_back(at.x_m), y_m.push_back(at.y_m);
     }
-    return furthest_m;
+    if (x_m.empty()) return 0.0;
+    const auto first = [](const std::vector<double>& of) {
+      if (of.size() < kFirst) return of.front();
+      return median(std::vector<double>(of.begin(), of.begin() + kFirst));
+    };
+    const Vec2 stood{first(x_m), first(y_m)};
+    for (std::size_t i = 0; i < x_m.size(); ++i) away_m.push_back(length(Vec2{x_m[i], y_m[i]} - stood));
+    return quantile(away_m, kAllButOutliers);
   };
   const double half_m = 0.5 * drive.wheelbase_m;
   for (const auto& [rad, to_the_left_m, name] :

@@ -9,6 +9,15 @@ namespace odolab {
 // sample, `offset_s` being how late the truth is.
 void put_clock_right(InnovationRun& run, double rate, double offset_s);
 
+// Two clocks: the truth's, late by `offset_s` at its first sample, and that of the wheels, which is fast by `rate`.
+struct TwoClocks {
+  double first_sample_s = 0.0;  // the truth's stamp
+  double offset_s = 0.0, rate = 0.0;
+  // What one shows where the other shows that.
+  double wheels_stamp_s(double truth_stamp_s) const;
+  double truth_stamp_s(double wheels_stamp_s) const;
+};
+
 // That much later.
 void put_later(InnovationRun& run, double delay_s);
 

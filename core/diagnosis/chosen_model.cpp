@@ -79,8 +79,14 @@ Result<FittedModel> model_with(const Diagnosis& diagnosis, const std::vector<boo
   joint.fit_noise_and_all();
   model.vehicle.kind = joint.model.drive;
   model.vehicle.truth = joint.model.truth;
+  // The fit knows a base that follows late as a truth that is late.
+  double delay_s = 0.0;
+  for (const FittedEffect& e : model.effects)
+    if (e.active.effect == "actuator_delay") delay_s += e.active.parameter("delay_s");
+  model.vehicle.truth.time_offset_s -= delay_s;
   model.truth_clock_s.clear();
-  for (std::size_t r = 0; r < train.size(); ++r) model.truth_clock_s.emplace_back(train[r].name, joint.clock_s[r]);
+  for (std::size_t r = 0; r < train.size(); ++r)
+    model.truth_clock_s.emplace_back(train[r].name, joint.clock_s[r] - delay_s);
   return model;
 }
 

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "core/base/formatted.h"
+#include "core/calibration/column_names.h"
+#include "core/calibration/turned_mounting.h"
 #include "core/diagnosis/advice/advice.h"
 #include "core/diagnosis/asked_effects.h"
 #include "core/diagnosis/by_names.h"
@@ -17,6 +19,7 @@
 #include "core/diagnosis/named.h"
 #include "core/diagnosis/parted.h"
 #include "core/diagnosis/place_response.h"
+#include "core/diagnosis/quality/obeying_wheels.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -164,8 +167,10 @@ void draw(Diagnosis& d, const JointModel& calibrated, const JointModel& said) {
   d.residuals_after = residuals_of(said.under(between));
   if (d.findings.empty() || !d.findings.front().where.zone) return;
   const Finding& first = d.findings.front();
-  Response about = zone_response(*first.where.zone, first.effect == "bump" ? "bump" : "patch", d.residuals_before,
-                                 d.residuals_after);
+  const char* const what = first.effect == "bump"        ? "bump"
+                           : first.effect == "slip_zone" ? "patch"
+                                                         : "place where it happened";
+  Response about = zone_response(*first.where.zone, what, d.residuals_before, d.residuals_after);
   if (!about.at.empty()) d.responses.insert(d.responses.begin(), std::move(about));
 }
 
@@ -173,6 +178,18 @@ void draw(Diagnosis& d, const JointModel& calibrated, const JointModel& said) {
 void name_recordings(Diagnosis& d, const std::vector<Recording>& train, const std::vector<Recording>& held_out) {
   for (const Recording& r : train) d.fitted_on.push_back(r.name);
   for (const Recording& r : held_out) d.held_out_runs.push_back(r.name);
+}
+
+// As read, or as they obey commands where these are all there is.
+std::vector<Recording> with_wheels(const std::vector<Recording>& recordings, const Vehicle& nominal) {
+  const DifferentialDrive& drive = std::get<DifferentialDrive>(nominal.kind);
+  std::vector<Recording> all;
+  for (const Recording& r : recordings)
+    all.push_back(r.channel("command_speed_mps") && r.channel("command_yaw_rate_radps") &&
+                          wheel_samples(r, drive).size() < 2
+                      ? with_obeying_wheels(r, drive)
+                      : r);
+  return all;
 }
 
 // Recordings made ready and calibrated, and the names that were sought beside.
@@ -200,7 +217,8 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
   if (!calibrated_only) return calibrated_only.error();
   if (!goes_on(progress, 0.3)) return stopped;
 
-  Predictor predictor(ready->held_out, ready->calibration, nominal);
+  Predictor predictor(ready->held_out, ready->by_right_clocks(), nominal,
+                      ready->clocks_put_right ? ready->clocks_put_right->held_out_clocks : std::vector<AlignedClock>{});
   std::optional<SoughtNames> sought = sought_beside(*calibrated_only, *ready, predictor, nominal, options, progress);
   if (!sought) return stopped;
   // What seemed a truth that comes back has names now: they are sought as if it never did.
@@ -219,12 +237,13 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
                             const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
                             bool* shows_beside_held_out = nullptr, const std::vector<TimeStretches>& parted = {},
                             bool by_names = false) {
-  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted);
+  const Vehicle as_mounted = turned_as_driven(with_wheels(train, nominal), nominal);
+  Result<Looked> looked = looked_at(train, held_out, as_mounted, options, progress, false, parted);
   if (!looked) return looked.error();
   // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
   // samples, and with names all of them are white, it was that.
-  if (looked->ready.calibration.truth_apart_s > 0.0 && looked->names_explain_all()) {
-    Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted);
+  if (looked->ready.told().truth_apart_s > 0.0 && looked->names_explain_all()) {
+    Result<Looked> by_all = looked_at(train, held_out, as_mounted, options, progress, true, parted);
     if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
     if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
   }
@@ -245,7 +264,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
   // One incident that has no name hides all else.
   if (adequacy.unnamed && parted.empty())
-    if (const std::vector<TimeStretches> apart = parted_stretches(*ready, nominal); !apart.empty())
+    if (const std::vector<TimeStretches> apart = parted_stretches(*ready, as_mounted); !apart.empty())
       return diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, apart);
 
   Diagnosis d;
@@ -253,8 +272,12 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   // An error of the truth that lasts is what calibration found correlated, where nothing of that is left.
   if (joint.noise_as_recorded().wander_lasts_s > 0.0 && joint.distrust() == 0.0)
     d.calibration_alone.innovations_are_correlated = false;
+  // And so are clocks that run apart.
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                  [](const AcceptedEffect& a) { return a.effect->clock_rate; }))
+    d.calibration_alone.innovations_are_correlated = ready->told().innovations_are_correlated;
   append(d.warnings, ready->warnings);
-  if (!looked->names_explain_all()) append(d.warnings, ready->calibration.of_misfit);
+  if (!looked->names_explain_all()) append(d.warnings, ready->told().of_misfit);
   append(d.warnings, sought->of_undone);
   append(d.warnings, names.warnings);
   append(d.warnings, warnings_beside(joint, adequacy));
@@ -277,11 +300,14 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   d.verdict = verdict_of(d, found, adequacy.unnamed.has_value());
   advise(d, names, options.family_wise_error);
 
-  if (!adequacy.unnamed) d.calibration = calibration_with(joint, names.intervals, d.calibration_alone, nominal);
+  if (!adequacy.unnamed) d.calibration = calibration_with(joint, names.intervals, ready->told(), nominal);
   if (train.size() == 1 && held_out.empty() && !joint.accepted.empty())
     d.warnings.push_back(
         "what was found rests on one recording alone: hold out another of the same vehicle, and it is borne out or "
         "taken away");
+  for (LeastSquaresCalibration* c : {&d.calibration, &d.calibration_alone})
+    for (ParameterEstimate& p : c->parameters)
+      if (column::of_key(p.name) == column::mounting_heading) p.nominal = nominal.truth.axle_T_tracked.heading_rad;
   const JointModel& said = known ? *known : calibrated;
   const Predicted by_said = !adequacy.unnamed ? names.by_joint
                             : known           ? predictor.of(*known, joint.model.noise)

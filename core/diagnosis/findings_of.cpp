@@ -108,8 +108,8 @@ std::vector<Finding> findings_of(const Named& names, const Adequacy& adequacy, c
     }
     findings.push_back(std::move(f));
   }
-  add_mounting(findings, joint, names.intervals, ready.calibration, nominal);
-  add_clock(findings, joint, names.intervals, ready.calibration, nominal, ready.from_commands);
+  add_mounting(findings, joint, names.intervals, ready.told(), nominal);
+  add_clock(findings, joint, names.intervals, ready.told(), nominal, ready.from_commands);
   std::sort(findings.begin(), findings.end(), comes_first);
   if (adequacy.as_likely && !findings.empty())
     findings.front().alternatives.push_back(
@@ -135,8 +135,8 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
   std::copy_if(named.begin(), named.end(), std::back_inserter(findings), is_known_clock);
   const Intervals of_it = refined(without, std::vector<double>(without.accepted.size(), 1.0));
   if (calibration_moved_the_mounting(ready.calibration, nominal))
-    add_mounting(findings, without, of_it, ready.calibration, nominal);
-  add_clock(findings, without, of_it, ready.calibration, nominal, ready.from_commands);
+    add_mounting(findings, without, of_it, ready.told(), nominal);
+  add_clock(findings, without, of_it, ready.told(), nominal, ready.from_commands);
   Finding unknown = unknown_of(more, names);
   if (more.where.zone)
     for (const Finding& f : named)

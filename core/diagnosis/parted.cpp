@@ -1,6 +1,7 @@
 #include "core/diagnosis/parted.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
@@ -38,7 +39,7 @@ std::vector<ComeApart> apart_in(const InnovationRun& run, const InnovationModel&
 
 // `first`: the number of the first of them among all recordings.
 std::vector<TimeStretches> parted_in(const std::vector<CheckedRecording>& recordings, std::size_t first,
-                                     const LeastSquaresCalibration& calibration, const Vehicle& nominal) {
+                                     const ReadyRecordings& ready, const Vehicle& nominal) {
   constexpr int kAgain = 2;               // times in one stretch
   constexpr std::size_t kMostPlaces = 3;  // in all these recordings
   constexpr double kMostOfTheTime = 0.2;  // of a recording
@@ -46,10 +47,11 @@ std::vector<TimeStretches> parted_in(const std::vector<CheckedRecording>& record
   std::vector<double> lasts_s(recordings.size(), 0.0);
   parallel_for(static_cast<int>(recordings.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    const Result<InnovationRun> run = ready_run(recordings[r], nominal);
-    if (!run || run->truth.size() < 2) return;
-    apart[r] = apart_in(*run, model_of(calibration, first + r));
-    lasts_s[r] = run->truth.back().time_s - run->truth.front().time_s;
+    const std::optional<KnownRun> known = known_run(ready, recordings[r], first + r, nominal);
+    if (!known || known->run.truth.size() < 2) return;
+    apart[r] = apart_in(known->run, known->model);
+    for (ComeApart& a : apart[r]) std::tie(a.from_s, a.to_s) = known->as_stamped({{a.from_s, a.to_s}}).front();
+    lasts_s[r] = known->run.truth.back().time_s - known->run.truth.front().time_s;
   });
   const std::vector<TimeStretches> none(recordings.size());
   std::vector<TimeStretches> parted = none;
@@ -69,8 +71,8 @@ std::vector<TimeStretches> parted_in(const std::vector<CheckedRecording>& record
 }  // namespace
 
 std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
-  std::vector<TimeStretches> all = parted_in(ready.train, 0, ready.calibration, nominal);
-  const std::vector<TimeStretches> unseen = parted_in(ready.held_out, ready.train.size(), ready.calibration, nominal);
+  std::vector<TimeStretches> all = parted_in(ready.train, 0, ready, nominal);
+  const std::vector<TimeStretches> unseen = parted_in(ready.held_out, ready.train.size(), ready, nominal);
   all.insert(all.end(), unseen.begin(), unseen.end());
   const bool none = std::all_of(all.begin(), all.end(), [](const TimeStretches& of) { return of.empty(); });
   return none ? std::vector<TimeStretches>{} : all;

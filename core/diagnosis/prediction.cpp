@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/calibration/restamped.h"
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effects/effect_motions.h"
@@ -62,11 +63,11 @@ Result<Track> predicted_track(const Recording& recording, const Vehicle& vehicle
   InnovationRun run;
   run.wheels = wheel_samples(ready.recording, *drive);
   if (run.wheels.size() < 2) return predicted_track(recording, vehicle);
-  const double t0 = run.wheels.front().time_s;
-  for (WheelSample& w : run.wheels) w.time_s = t0 + (w.time_s - t0) / (1.0 + rate) + delay_s;
-  if (!from_commands) run.smooth = smoothed(run.wheels);
   const TimedPose start = predicted_start(recording, mounting, run.wheels.front().time_s);
   run.truth = {TruthSample{start.time_s, start.pose.position(), start.pose.heading_rad}};
+  put_clock_right(run, rate, 0.0);
+  put_later(run, delay_s);
+  if (!from_commands) run.smooth = smoothed(run.wheels);
 
   Track track = settled([&](const Track& before) {
     const DriveView view = drive_view(0, run, *drive, from_commands, before);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/model/ready_run.h"
@@ -22,6 +23,25 @@ Vehicle vehicle_of(const JointModel& j, const Vehicle& nominal) {
   v.truth = j.model.truth;
   v.truth.time_offset_s = j.shared_clock().offset_s;
   return v;
+}
+
+// Clocks that were sought run by run, drawn to what other runs say of theirs the less a run tells of its own, unless it
+// says beyond doubt that it has another: behind commands that are acted on unevenly eight corners of a square know a
+// clock to 30 ms.
+void draw_to_others(JointModel& j, const SharedClock& others) {
+  constexpr double kLeastBetween_s = 0.005, kAnother = 9.0;  // of twice the log-likelihood: three standard errors
+  const double between_s2 = std::pow(std::max(others.between_s, kLeastBetween_s), 2);
+  for (std::size_t r = 0; r < j.runs().size(); ++r) {
+    const int run = static_cast<int>(r);
+    const double own_s = j.clock_s[r], by_own = j.minus_two_log_likelihood_of(run);
+    j.clock_s[r] = others.offset_s;
+    const double gained = std::max(0.0, j.minus_two_log_likelihood_of(run) - by_own), off_s = own_s - others.offset_s;
+    // A gain of (off / standard error)^2 says how well it is known.
+    const double share = gained > kAnother ? 1.0
+                         : off_s != 0.0    ? between_s2 * gained / (between_s2 * gained + off_s * off_s)
+                                           : 0.0;
+    j.clock_s[r] = others.offset_s + share * off_s;
+  }
 }
 
 // Other runs under a model that is frozen but for their clocks, or with these as well where it is as it was given: a
@@ -45,7 +65,12 @@ JointModel frozen(const JointModel& source, std::vector<InnovationRun> runs, std
   j.linearise(false);
   j.gate();
   if (fit != Predictor::Fit::none) {
+    // Commands that are acted on sooner or later excuse what happens at each change, and what is left then pulls the
+    // clock by tens of milliseconds: as if all were acted on alike, it is their mean.
+    const double command_timing_s = std::exchange(j.model.noise.command_timing_s, 0.0);
     align_clocks(j);
+    j.model.noise.command_timing_s = command_timing_s;
+    draw_to_others(j, source.shared_clock());
     j.linearise(false);
   }
   // Whether what came in one recording and stayed is there in these is not known either.
@@ -123,9 +148,9 @@ bool Predicted::tells(std::size_t model, const Predicted& other) const {
 }
 
 Predictor::Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
-                     const Vehicle& nominal)
+                     const Vehicle& nominal, const std::vector<AlignedClock>& clocks)
     : calibration_(calibration), nominal_(nominal) {
-  std::vector<Result<InnovationRun>> runs = condensed_runs(ready_held_out, nominal, calibration, false);
+  std::vector<Result<InnovationRun>> runs = condensed_runs(ready_held_out, nominal, calibration, false, clocks);
   for (std::size_t r = 0; r < runs.size(); ++r) {
     if (!runs[r]) continue;
     runs_.push_back(*std::move(runs[r]));

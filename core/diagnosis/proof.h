@@ -35,8 +35,9 @@ struct Predicted {
 // are none, each recording in turn by a fit to the others.
 class Predictor {
  public:
+  // `clocks`: of what was held out, where these run apart.
   Predictor(const std::vector<CheckedRecording>& ready_held_out, const LeastSquaresCalibration& calibration,
-            const Vehicle& nominal);
+            const Vehicle& nominal, const std::vector<AlignedClock>& clocks = {});
   enum class Fit { to_recordings, none };  // none: a model as it was given, for which all recordings are new
   // With that noise in the place of the model's own, so that models can be compared.
   Predicted of(const JointModel& model, const FittedNoise& noise, Fit fit = Fit::to_recordings) const;

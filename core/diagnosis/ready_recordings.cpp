@@ -5,10 +5,13 @@
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
+#include "core/calibration/column_names.h"
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/naming/clocks_first.h"
 #include "core/diagnosis/quality/alike_holds.h"
 #include "core/diagnosis/quality/encoder_jumps.h"
 #include "core/diagnosis/quality/lost_counts.h"
@@ -28,18 +31,19 @@ std::vector<TruthJump> leave_out_jumps(const ReadyRecordings& ready, const std::
   std::vector<TimeStretches> of_each(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    const InnovationModel model = model_of(ready.calibration, r);
-    const Result<InnovationRun> run = ready_run(*each[r], nominal);
-    if (!run) return;
-    jumps[r] = truth_jumps(*run, model);
+    const std::optional<KnownRun> known = known_run(ready, *each[r], r, nominal);
+    if (!known) return;
+    jumps[r] = truth_jumps(known->run, known->model);
     for (const TruthJump& jump : jumps[r].jumps) {
       // On the wheels' clock, from one reading to another.
       const auto by_time = [](const WheelSample& w, double t) { return w.time_s < t; };
-      const auto begin = run->wheels.begin(), end = run->wheels.end() - 1;
-      const auto from = std::lower_bound(begin, end, jump.time_s.first - model.truth.time_offset_s, by_time),
-                 to = std::lower_bound(begin, end, jump.time_s.second - model.truth.time_offset_s, by_time);
+      const auto begin = known->run.wheels.begin(), end = known->run.wheels.end() - 1;
+      const double late_s = known->model.truth.time_offset_s;
+      const auto from = std::lower_bound(begin, end, jump.time_s.first - late_s, by_time),
+                 to = std::lower_bound(begin, end, jump.time_s.second - late_s, by_time);
       of_each[r].emplace_back((from == begin ? from : from - 1)->time_s, to->time_s);
     }
+    of_each[r] = known->as_stamped(std::move(of_each[r]));
   });
   std::vector<TruthJump> all;
   for (const TruthJumps& of : jumps) all.insert(all.end(), of.jumps.begin(), of.jumps.end());
@@ -60,8 +64,8 @@ bool leave_out_truth_elsewhere(const ReadyRecordings& ready, const std::vector<C
   std::vector<TimeStretches> of_each(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    const Result<InnovationRun> run = ready_run(*each[r], nominal);
-    if (run) of_each[r] = truth_elsewhere(*run, model_of(ready.calibration, r));
+    const std::optional<KnownRun> known = known_run(ready, *each[r], r, nominal);
+    if (known) of_each[r] = truth_elsewhere(known->run, known->model);
   });
   std::size_t times = 0;
   for (const TimeStretches& of : of_each) times += of.size();
@@ -102,11 +106,13 @@ bool leave_out_what_encoders_lose(const ReadyRecordings& ready, const std::vecto
   std::vector<JumpsOfWheels> jumps(each.size()), lost(each.size());
   parallel_for(static_cast<int>(each.size()), [&](int i) {
     const auto r = static_cast<std::size_t>(i);
-    const Result<InnovationRun> run = ready_run(*each[r], nominal);
-    if (!run || each[r]->from_commands) return;
-    const InnovationModel model = model_of(ready.calibration, r);
-    jumps[r] = jumps_against_truth(*run, model);
-    lost[r] = lost_counts(*run, model);
+    if (each[r]->from_commands) return;
+    const std::optional<KnownRun> known = known_run(ready, *each[r], r, nominal);
+    if (!known) return;
+    jumps[r] = jumps_against_truth(known->run, known->model);
+    lost[r] = lost_counts(known->run, known->model);
+    for (JumpsOfWheels* of : {&jumps[r], &lost[r]})
+      for (TimeStretches* times : {&of->left, &of->right, &of->both}) *times = known->as_stamped(std::move(*times));
   });
   bool any = false;
   struct Of {
@@ -160,47 +166,119 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
       static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
 }
 
+// As the moments say, where that is worth a try.
+std::optional<std::vector<AlignedClock>> clocks_by_moments(const ReadyRecordings& ready, const Vehicle& nominal) {
+  if (!ready.calibration.innovations_are_correlated && ready.calibration.truth_apart_s == 0.0) return std::nullopt;
+  std::vector<InnovationRun> runs;
+  for (const CheckedRecording& c : ready.train) {
+    Result<InnovationRun> run = ready_run(c, nominal);
+    if (!run) return std::nullopt;
+    runs.push_back(*std::move(run));
+  }
+  const auto model = [&](int run) { return model_of(ready.calibration, static_cast<std::size_t>(run)); };
+  const std::vector<std::optional<AlignedClock>> found = aligned_clocks(runs, model);
+  if (!worth_a_try(found)) return std::nullopt;
+  std::vector<AlignedClock> clocks;
+  for (std::size_t r = 0; r < found.size(); ++r)
+    clocks.push_back(found[r].value_or(AlignedClock{model(static_cast<int>(r)).truth.time_offset_s}));
+  return clocks;
+}
+
+// As the likelihood has them, where they run apart beyond doubt.
+std::optional<std::vector<AlignedClock>> clocks_that_run_apart(const ReadyRecordings& ready, const Vehicle& nominal) {
+  Result<JointModel> joint = calibrated_model(ready, nominal);
+  if (!joint) return std::nullopt;
+  let_clocks_in(*joint);
+  std::vector<AlignedClock> clocks;
+  bool run_apart = false;
+  for (std::size_t r = 0; r < joint->clock_s.size(); ++r) {
+    clocks.push_back({joint->clock_s[r], joint->clock_rate(static_cast<int>(r))});
+    run_apart = run_apart || clocks.back().rate != 0.0;
+  }
+  if (!run_apart) return std::nullopt;
+  return clocks;
+}
+
 }  // namespace
+
+LeastSquaresCalibration ReadyRecordings::told() const {
+  if (!clocks_put_right) return calibration;
+  LeastSquaresCalibration all = clocks_put_right->calibration;
+  all.vehicle = calibration.vehicle;
+  all.noise = calibration.noise;
+  all.time_offset_s = calibration.time_offset_s;
+  for (ParameterEstimate& p : all.parameters)
+    for (const ParameterEstimate& as_it_is : calibration.parameters)
+      if (p.name == as_it_is.name && column::of_key(p.name) == column::truth_clock) p = as_it_is;
+  return all;
+}
+
+std::optional<KnownRun> known_run(const ReadyRecordings& ready, const CheckedRecording& recording, std::size_t r,
+                                  const Vehicle& nominal) {
+  Result<InnovationRun> run = ready_run(recording, nominal);
+  if (!run) return std::nullopt;
+  const ClocksPutRight* right = ready.clocks_put_right ? &*ready.clocks_put_right : nullptr;
+  KnownRun known{*std::move(run), model_of(ready.by_right_clocks(), r), {}};
+  double& late_s = known.model.truth.time_offset_s;
+  known.clocks = {known.run.truth.front().time_s, late_s, 0.0};
+  if (!right) return known;
+  const std::optional<AlignedClock> own =
+      r < right->clocks.size() ? right->clocks[r] : aligned_clock(known.run, known.model);
+  if (!own) return known;
+  late_s = known.clocks.offset_s = own->offset_s;
+  known.clocks.rate = own->rate;
+  put_clock_right(known.run, own->rate, late_s);
+  cut_where_left_out(known.run, late_s);
+  return known;
+}
+
+TimeStretches KnownRun::as_stamped(TimeStretches on_right_clock) const {
+  for (auto& [from_s, to_s] : on_right_clock)
+    for (double* t : {&from_s, &to_s}) *t = clocks.wheels_stamp_s(*t + clocks.offset_s);
+  return on_right_clock;
+}
 
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress, bool truth_is_white,
                                          const std::vector<TimeStretches>& also_left_out_s) {
   if (train.empty()) return Error{"recordings", "none", "one or more"};
   ReadyRecordings ready;
-  std::uint64_t first_seed = 1;
-  const auto check = [&](const std::vector<Recording>& given,
-                         std::vector<CheckedRecording>& into) -> std::optional<Error> {
-    for (const Recording& r : given)
-      if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
-        return Error{r.name.empty() ? "recording" : r.name, "", problems.front()};
-    into.resize(given.size());
-    parallel_for(static_cast<int>(given.size()), [&](int r) {
-      CheckedRecording& one = into[static_cast<std::size_t>(r)];
-      one = checked(given[static_cast<std::size_t>(r)], nominal);
-      if (auto measured = as_if_measured(one.recording, nominal, first_seed + static_cast<std::uint64_t>(r))) {
+  ready.train.resize(train.size());
+  ready.held_out.resize(held_out.size());
+  std::vector<const Recording*> given;
+  std::vector<CheckedRecording*> each;
+  for (const std::vector<Recording>* of : {&train, &held_out})
+    for (const Recording& r : *of) given.push_back(&r);
+  for (std::vector<CheckedRecording>* of : {&ready.train, &ready.held_out})
+    for (CheckedRecording& c : *of) each.push_back(&c);
+  for (const Recording* r : given)
+    if (const std::vector<std::string> problems = problems_in(*r); !problems.empty())
+      return Error{r->name.empty() ? "recording" : r->name, "", problems.front()};
+  // `clocks`: where these are known.
+  const auto check = [&](const std::vector<std::optional<AlignedClock>>& clocks) {
+    parallel_for(static_cast<int>(each.size()), [&](int i) {
+      const auto r = static_cast<std::size_t>(i);
+      CheckedRecording& one = *each[r];
+      one = checked(*given[r], nominal, clocks[r]);
+      if (auto measured = as_if_measured(one.recording, nominal, static_cast<std::uint64_t>(r) + 1)) {
         one.recording = std::move(measured->recording);
         one.warnings.push_back(std::move(measured->said));
       }
+      if (r >= also_left_out_s.size()) return;
+      one.left_out_s.insert(one.left_out_s.end(), also_left_out_s[r].begin(), also_left_out_s[r].end());
+      one.left_out_s = joined(std::move(one.left_out_s));
     });
-    first_seed += given.size();
-    return {};
   };
-  if (const std::optional<Error> problem = check(train, ready.train)) return *problem;
-  if (const std::optional<Error> problem = check(held_out, ready.held_out)) return *problem;
-  std::vector<CheckedRecording*> each;
-  for (std::vector<CheckedRecording>* of : {&ready.train, &ready.held_out})
-    for (CheckedRecording& c : *of) each.push_back(&c);
-  for (std::size_t r = 0; r < std::min(also_left_out_s.size(), each.size()); ++r) {
-    TimeStretches& left_out_s = each[r]->left_out_s;
-    left_out_s.insert(left_out_s.end(), also_left_out_s[r].begin(), also_left_out_s[r].end());
-    left_out_s = joined(std::move(left_out_s));
-  }
+  check(std::vector<std::optional<AlignedClock>>(each.size()));
   std::vector<Recording> all;
   for (const CheckedRecording* c : each) all.push_back(c->recording);
   for (const std::optional<Error>& fault : faults_in(all, nominal))
     if (fault) return *fault;
   const PutRight put_right = mountings_put_right(all, nominal, [&](double) { return goes_on(progress, 0.0); });
-  for (const MovedMounting& m : put_right.moved) each[m.index]->recording = put_right.recordings[m.index];
+  const auto put_mountings_right = [&] {
+    for (const MovedMounting& m : put_right.moved) each[m.index]->recording = put_right.recordings[m.index];
+  };
+  put_mountings_right();
   ready.moved = put_right.moved;
 
   for (const CheckedRecording& c : ready.train) ready.from_commands = ready.from_commands || c.from_commands;
@@ -217,9 +295,39 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
         fitted, nominal, with_faults_left_out, [&](double share) { return goes_on(progress, share); });
     if (!calibration) return calibration.error();
     ready.calibration = *std::move(calibration);
+    if (!ready.clocks_put_right) return Done{};
+    with_faults_left_out.clocks = ready.clocks_put_right->clocks;
+    calibration = calibrate_least_squares(fitted, nominal, with_faults_left_out,
+                                          [&](double share) { return goes_on(progress, share); });
+    if (calibration)
+      ready.clocks_put_right->calibration = *std::move(calibration);
+    else
+      ready.clocks_put_right.reset();
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
+  if (std::optional<std::vector<AlignedClock>> moments = clocks_by_moments(ready, nominal)) {
+    ready.clocks_put_right = ClocksPutRight{*std::move(moments), {}, ready.calibration};
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+    std::optional<std::vector<AlignedClock>> clocks = clocks_that_run_apart(ready, nominal);
+    if (clocks && ready.clocks_put_right)
+      ready.clocks_put_right->clocks = *std::move(clocks);
+    else
+      ready.clocks_put_right.reset();
+  }
+  if (ready.clocks_put_right) {
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+    // By clocks that ran apart the truth drove on where wheels stood.
+    std::vector<std::optional<AlignedClock>> known(each.size());
+    for (std::size_t i = 0; i < each.size(); ++i)
+      if (const auto run = known_run(ready, *each[i], i, nominal))
+        known[i] = AlignedClock{run->clocks.offset_s, run->clocks.rate};
+    for (std::size_t i = ready.train.size(); ready.clocks_put_right && i < each.size(); ++i)
+      ready.clocks_put_right->held_out_clocks.push_back(known[i].value_or(AlignedClock{nominal.truth.time_offset_s}));
+    check(known);
+    put_mountings_right();
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+  }
   const bool some_is_lost = leave_out_what_encoders_lose(ready, each, nominal);
   if (leave_out_alike_holds(each, nominal) || some_is_lost)
     if (const Result<Done> done = calibrate(); !done) return done.error();
@@ -233,27 +341,30 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     if (const Result<Done> done = calibrate(); !done) return done.error();
     if (round == 0) ready.warnings.push_back(jumps_in_words(jumps));
   }
+  const LeastSquaresCalibration told = ready.told();
   for (CheckedRecording* c : each) {
     ready.warnings.insert(ready.warnings.end(), c->warnings.begin(), c->warnings.end());
-    if (ready.calibration.truth_apart_s > 0.0)
-      c->recording = with_truth_apart(c->recording, ready.calibration.truth_apart_s);
+    if (told.truth_apart_s > 0.0) c->recording = with_truth_apart(c->recording, told.truth_apart_s);
   }
-  ready.warnings.insert(ready.warnings.end(), ready.calibration.warnings.begin(), ready.calibration.warnings.end());
+  ready.warnings.insert(ready.warnings.end(), told.warnings.begin(), told.warnings.end());
   return ready;
 }
 
 Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle& nominal, bool truth_may_come_back) {
+  const std::vector<AlignedClock> as_they_are;
   std::vector<InnovationRun> runs;
   std::vector<char> commands;
-  for (Result<InnovationRun>& run : condensed_runs(ready.train, nominal, ready.calibration, true)) {
+  for (Result<InnovationRun>& run :
+       condensed_runs(ready.train, nominal, ready.by_right_clocks(), true,
+                      ready.clocks_put_right ? ready.clocks_put_right->clocks : as_they_are)) {
     if (!run) return run.error();
     commands.push_back(ready.train[runs.size()].from_commands);
     runs.push_back(*std::move(run));
   }
-  JointModel joint(std::move(runs), commands, ready.calibration, nominal);
+  JointModel joint(std::move(runs), commands, ready.told(), nominal);
   joint.truth_may_come_back = truth_may_come_back;
   joint.truth_jumps = ready.truth_jumps;
-  joint.truth_noise_lasts = ready.calibration.truth_apart_s > 0.0;
+  joint.truth_noise_lasts = ready.told().truth_apart_s > 0.0;
   joint.linearise();
   joint.gate();
   joint.fit(3);

@@ -155,6 +155,7 @@ std::vector<Effect> castor_reversal_kick() {
   e.component = "vehicle";
   e.amplitudes = {{"kick_rad", "rad", 0.01, -0.5, 0.5}};
   for (const auto& form : kKickForms) e.forms.push_back(form.in_words);
+  e.forms_have_sides = true;
   e.sentence = "when the direction of travel reverses, the castors swing round and kick the heading";
   e.regime = "where the direction of travel reverses";
   e.tests_of_a_shape = 0.6;  // kicks are much alike, however long they last

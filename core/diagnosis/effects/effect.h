@@ -98,6 +98,7 @@ struct Effect {
   std::vector<std::string> forms;
   std::vector<int>
       simpler_form;  // of each form the one to be said where that is not plainly less likely; empty: itself
+  bool forms_have_sides = false;             // what one form calls left another may call right
   std::vector<int> forms_of_the_scan = {0};  // where many shapes are scanned, not in every form
   std::string sentence;                      // what it is, in words
   std::string regime;                        // where it acts, in words

@@ -113,11 +113,13 @@ std::vector<Effect> payload_radius_change() {
   });
   onwards.shapes = {{"recording", "1"}, {"at_s", "s"}};
   onwards.and_later_recordings = true;
-  onwards.regime = "from one recording on";
-  onwards.scan = [](const std::vector<DriveView>& views) {
+  onwards.regime = "from one time on, and in all recordings behind";
+  onwards.scan = [within = once.scan](const std::vector<DriveView>& views) {
     std::vector<std::vector<double>> shapes;
     for (std::size_t k = 1; k < views.size(); ++k)
       if (!views[k].steps.empty()) shapes.push_back({static_cast<double>(k), views[k].steps.front().time_s - 1.0});
+    for (std::vector<double>& shape : within(views))  // in the last it is no other than once
+      if (shape[0] + 1.0 < static_cast<double>(views.size())) shapes.push_back(std::move(shape));
     return shapes;
   };
   return {once, in_each, onwards};

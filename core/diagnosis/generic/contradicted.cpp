@@ -32,10 +32,11 @@ Contradicted contradicted(const JointModel& joint, const FittedNoise& noise) {
     InnovationModel model = joint.model_of(r);
     model.noise = noise;
     const InnovationRun run = joint.recorded(r);
+    const TwoClocks clocks = joint.clocks(r);
     of_run.emplace_back();
     for (const auto& [first, last] : contradictions(run, summed_up(run, model), model))
-      if (rolled_m(joint.views()[static_cast<std::size_t>(r)], run.truth[first].time_s - joint.clock_s[r],
-                   run.truth[last].time_s - joint.clock_s[r]) > kStands_m)
+      if (rolled_m(joint.views()[static_cast<std::size_t>(r)], clocks.wheels_stamp_s(run.truth[first].time_s),
+                   clocks.wheels_stamp_s(run.truth[last].time_s)) > kStands_m)
         of_run.back().emplace_back(run.truth[first].time_s, run.truth[last].time_s);
   }
   return of_run;

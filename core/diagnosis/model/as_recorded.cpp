@@ -9,7 +9,7 @@ namespace odolab {
 InnovationRun JointModel::recorded(int r) const {
   if (!runs_[r].as_recorded) return prepared(r);
   InnovationRun all = *runs_[r].as_recorded;
-  cut_where_left_out(all, clock_s[r]);
+  cut_where_left_out(all, clock_s[r], clock_rate(r));
   DriveView view;
   if (!accepted.empty())
     view = as_it_goes(drive_view(numbers_[r], all, model.drive, from_commands_[r] != 0, poses(r), Way::as_read));

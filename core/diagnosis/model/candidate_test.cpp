@@ -317,17 +317,18 @@ VectorXd JointModel::beside_all_else(int accepted) const {
 }
 
 std::vector<std::vector<SampleEvidence>> JointModel::evidence_of(int accepted_effect) const {
-  const VectorXd own = beside_all_else(accepted_effect), to_best = gram_.ldlt().solve(zr_);
+  const VectorXd alone = beside_all_else(accepted_effect), to_best = gram_.ldlt().solve(zr_);
   std::vector<std::vector<SampleEvidence>> all;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    const VectorXd trace = now_->z[r] * now_->acting(r, own);
+    const VectorXd trace = now_->z[r] * now_->acting(r, alone);
     const VectorXd left = residual_[r] - now_->z[r] * now_->acting(r, to_best);
     const std::vector<FilterStep>& steps = now_->runs[r].steps();
+    const TwoClocks own = clocks(static_cast<int>(r));
     std::vector<SampleEvidence>& of_run = all.emplace_back();
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (!steps[i].used || steps[i].truth_index < 0) continue;
       const auto of = trace.segment<3>(3 * static_cast<Eigen::Index>(i));
-      of_run.push_back({runs_[r].truth[steps[i].truth_index].time_s - clock_s[r],
+      of_run.push_back({own.wheels_stamp_s(runs_[r].truth[steps[i].truth_index].time_s),
                         of.dot(left.segment<3>(3 * static_cast<Eigen::Index>(i))), of.squaredNorm()});
     }
   }
@@ -380,11 +381,12 @@ double JointModel::scatter_about(int run, double time_s, const CandidateColumns&
   const VectorXd amplitudes = Eigen::Map<const VectorXd>(value.data(), candidate.amplitudes);
   const VectorXd left = residual_[r] - beside_model(run, candidate, amplitudes, absorbed(candidate) * amplitudes);
   const std::vector<FilterStep>& steps = now_->runs[r].steps();
+  const TwoClocks own = clocks(run);
   double sum = 0.0;
   int scalars = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!steps[i].used || steps[i].truth_index < 0) continue;
-    const double away_s = std::abs(runs_[r].truth[steps[i].truth_index].time_s - clock_s[r] - time_s);
+    const double away_s = std::abs(own.wheels_stamp_s(runs_[r].truth[steps[i].truth_index].time_s) - time_s);
     if (away_s > kAbout_s || away_s < kWhereItHappens_s) continue;
     sum += left.segment<3>(3 * static_cast<Eigen::Index>(i)).squaredNorm();
     scalars += runs_[r].truth_has_heading ? 3 : 2;

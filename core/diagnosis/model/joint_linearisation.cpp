@@ -79,8 +79,9 @@ void JointModel::linearise(bool with_columns) {
     const InnovationModel m = model_of(r);
     const auto places_from = [&](const LinearisedRun& of) {
       if (!track[r].empty()) return;
+      const TwoClocks own = clocks(r);
       for (const FilterStep& s : of.steps())
-        if (s.truth_index >= 0) track[r].push_back({runs_[r].truth[s.truth_index].time_s - clock_s[r], s.pose});
+        if (s.truth_index >= 0) track[r].push_back({own.wheels_stamp_s(runs_[r].truth[s.truth_index].time_s), s.pose});
     };
     if (accepted.empty()) {  // nothing asks where it is
       made[r].emplace_back(prepared(r, runs_[r], {}), m, with_columns);

@@ -6,7 +6,6 @@
 #include "core/calibration/column_names.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/noise_fit.h"
-#include "core/calibration/restamped.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/model/counts_at_rest.h"
 
@@ -58,7 +57,7 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
 void JointModel::cut() {
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const std::vector<char> before = runs_[r].cut;
-    cut_where_left_out(runs_[r], clock_s[r]);
+    cut_where_left_out(runs_[r], clock_s[r], clock_rate(static_cast<int>(r)));
     if (runs_[r].cut != before) linearised_at_.reset();
   }
 }
@@ -67,7 +66,7 @@ bool JointModel::is_well_inside(int r, double time_s) const {
   constexpr std::ptrdiff_t kFew = 3;
   constexpr double kNear_s = 0.1;
   const InnovationRun& run = runs_[static_cast<std::size_t>(r)];
-  const double on_truths_clock_s = time_s + clock_s[static_cast<std::size_t>(r)];
+  const double on_truths_clock_s = clocks(r).truth_stamp_s(time_s);
   const auto n = static_cast<std::ptrdiff_t>(run.truth.size());
   const std::ptrdiff_t behind = std::lower_bound(run.truth.begin(), run.truth.end(), on_truths_clock_s,
                                                  [](const TruthSample& t, double s) { return t.time_s < s; }) -
@@ -126,11 +125,9 @@ InnovationRun JointModel::prepared(int r, const InnovationRun& of, const DriveVi
     for (int k = 0; k < 2; ++k) of_wheel[k].add_to(sum.per_step, half_counts[k]);
     any = true;
   }
+  if (const double rate = clock_rate(r); rate != 0.0) put_clock_right(run, rate, clock_s[static_cast<std::size_t>(r)]);
   for (const AcceptedEffect& a : accepted) {
-    if (a.effect->clock_rate) {
-      put_clock_right(run, a.value[a.effect->clock_amplitude(numbers_[r])], clock_s[r]);
-      continue;
-    }
+    if (a.effect->clock_rate) continue;
     const std::vector<Motions> motions = a.effect->motions(view, a.shape);
     any = true;
     for (std::size_t k = 0; k < motions.size(); ++k) motions[k].add_to(sum.per_step, a.value[k]);
@@ -144,6 +141,18 @@ double* JointModel::clock_rate_of(int run) {
     if (a.effect->clock_rate && a.effect->of_each_recording)
       return &a.value[a.effect->clock_amplitude(numbers_[static_cast<std::size_t>(run)])];
   return nullptr;
+}
+
+double JointModel::clock_rate(int run) const {
+  double rate = 0.0;
+  for (const AcceptedEffect& a : accepted)
+    if (a.effect->clock_rate) rate += a.value[a.effect->clock_amplitude(numbers_[static_cast<std::size_t>(run)])];
+  return rate;
+}
+
+TwoClocks JointModel::clocks(int run) const {
+  const auto r = static_cast<std::size_t>(run);
+  return {runs_[r].truth.front().time_s, clock_s[r], clock_rate(run)};
 }
 
 int JointModel::columns() const {
@@ -169,8 +178,9 @@ double JointModel::minus_two_log_likelihood_of(int r) const {
 
 Track JointModel::poses(int run) const {
   Track track;
+  const TwoClocks own = clocks(run);
   for (const FilterStep& s : now_->runs[run].steps())
-    if (s.truth_index >= 0) track.push_back({runs_[run].truth[s.truth_index].time_s - clock_s[run], s.pose});
+    if (s.truth_index >= 0) track.push_back({own.wheels_stamp_s(runs_[run].truth[s.truth_index].time_s), s.pose});
   return track;
 }
 

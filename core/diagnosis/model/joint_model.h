@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/calibration/least_squares.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/model/linearised.h"
 #include "core/diagnosis/model/sample_evidence.h"
@@ -209,7 +210,9 @@ class JointModel {
   // one recording alone, as it stands; to be linearised.
   JointModel together_with(const JointModel& others) const;
   InnovationModel model_of(int run) const;
-  double* clock_rate_of(int run);         // null where its clock has no rate of its own
+  double* clock_rate_of(int run);    // null where its clock has no rate of its own
+  double clock_rate(int run) const;  // by how much its wheels' clock is fast
+  TwoClocks clocks(int run) const;
   InnovationRun prepared(int run) const;  // with the accepted effects put in
   // The same of all its samples, where fewer are fitted to; and the noise of these.
   InnovationRun recorded(int run) const;

@@ -185,7 +185,7 @@ void JointModel::readmit(int run, double time_s) {
   constexpr std::ptrdiff_t kFew = 5;  // one more than are set aside in a row
   const auto r = static_cast<std::size_t>(run);
   InnovationRun& of = runs_[r];
-  const auto behind = std::lower_bound(of.truth.begin(), of.truth.end(), time_s + clock_s[r],
+  const auto behind = std::lower_bound(of.truth.begin(), of.truth.end(), clocks(run).truth_stamp_s(time_s),
                                        [](const TruthSample& t, double s) { return t.time_s < s; }) -
                       of.truth.begin();
   const auto n = static_cast<std::ptrdiff_t>(of.truth.size());
@@ -199,9 +199,10 @@ void JointModel::readmit(int run, double time_s) {
 
 void JointModel::leave_out(int run, double from_s, double to_s) {
   const auto r = static_cast<std::size_t>(run);
+  const TwoClocks own = clocks(run);
   const auto set_aside = [&](InnovationRun& of) {
     for (std::size_t i = 0; i < of.truth.size(); ++i) {
-      const double at_s = of.truth[i].time_s - clock_s[r];
+      const double at_s = own.wheels_stamp_s(of.truth[i].time_s);
       if (at_s >= from_s && at_s <= to_s) of.set_aside[i] = 1;
     }
   };

@@ -5,6 +5,8 @@
 #include "core/base/parallel.h"
 #include "core/calibration/averaged_truth.h"
 #include "core/calibration/fewer_readings.h"
+#include "core/calibration/left_out.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/model/outlying.h"
 
 namespace odolab {
@@ -40,7 +42,8 @@ InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t
 }
 
 std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
-                                                  const LeastSquaresCalibration& calibration, bool were_fitted) {
+                                                  const LeastSquaresCalibration& calibration, bool were_fitted,
+                                                  const std::vector<AlignedClock>& clocks) {
   constexpr std::size_t kOfNone = static_cast<std::size_t>(-1);
   std::vector<Result<InnovationRun>> runs(checked.size(), Error{});
   parallel_for(static_cast<int>(checked.size()), [&](int i) {
@@ -48,11 +51,20 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     runs[r] = ready_run(checked[r], vehicle);
     if (!runs[r]) return;
     runs[r]->accelerations = wheel_accelerations(runs[r]->wheels);
-    const InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
+    InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
     const double longest_s = averaging_s(*runs[r]);
-    runs[r]->set_aside = outlying(*runs[r], model);
-    InnovationRun less =
-        with_fewer_readings(with_averaged_truth(*runs[r], model, longest_s), std::min(kReadingsApart_s, longest_s));
+    InnovationRun on_right_clock = *runs[r];
+    if (r < clocks.size()) {
+      model.truth.time_offset_s = clocks[r].offset_s;
+      put_clock_right(on_right_clock, clocks[r].rate, clocks[r].offset_s);
+      cut_where_left_out(on_right_clock, clocks[r].offset_s);
+    }
+    on_right_clock.set_aside = runs[r]->set_aside = outlying(on_right_clock, model);
+    InnovationRun averaged = with_averaged_truth(on_right_clock, model, longest_s);
+    averaged.wheels = runs[r]->wheels;
+    averaged.smooth = runs[r]->smooth;
+    averaged.left_out = runs[r]->left_out;
+    InnovationRun less = with_fewer_readings(averaged, std::min(kReadingsApart_s, longest_s));
     if (less.truth.size() == runs[r]->truth.size()) std::fill(less.set_aside.begin(), less.set_aside.end(), char{0});
     if (less.truth.size() < runs[r]->truth.size() || less.wheels.size() < runs[r]->wheels.size())
       less.as_recorded = std::make_shared<const InnovationRun>(*std::move(runs[r]));

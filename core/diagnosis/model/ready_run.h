@@ -15,8 +15,10 @@ InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t
 
 // All of them, with as few samples as say the same: truth that comes often is averaged, without what contradicts the
 // calibration for less than that, and readings that come often are left out. `were_fitted`: by the calibration, in that
-// order. An error for each that cannot be read.
+// order. `clocks`: of each, where the calibration holds once these are right; stamps stay as they are. An error for
+// each that cannot be read.
 std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
-                                                  const LeastSquaresCalibration& calibration, bool were_fitted);
+                                                  const LeastSquaresCalibration& calibration, bool were_fitted,
+                                                  const std::vector<AlignedClock>& clocks);
 
 }  // namespace odolab

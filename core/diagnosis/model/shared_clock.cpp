@@ -26,6 +26,7 @@ SharedClock shared_clock(const std::vector<double>& clock_s, const MatrixXd& cov
   const double scatter = precision.dot((clocks.array() - mean).square().matrix());
   const double spread = sum - precision.squaredNorm() / sum;
   const double between_s2 = spread > 0.0 ? std::max(0.0, (scatter - static_cast<double>(n - 1)) / spread) : 0.0;
+  out.between_s = std::sqrt(between_s2);
   out.weights = (variance.array() + between_s2).inverse().matrix();
   out.weights /= out.weights.sum();
   out.offset_s = out.weights.dot(clocks);

@@ -10,6 +10,7 @@ namespace odolab {
 // each other: a random-effects mean (DerSimonian and Laird 1986, "Meta-analysis in clinical trials").
 struct SharedClock {
   double offset_s = 0.0, stderr_s = 0.0;
+  double between_s = 0.0;   // by how much the clocks themselves differ: a standard deviation
   Eigen::VectorXd weights;  // of the recordings; their sum is one
 };
 

@@ -75,6 +75,18 @@ void align(JointModel& joint, const std::vector<std::optional<AlignedClock>>& mo
   for (std::size_t r = 0; r < found.size(); ++r) likelihood_at(joint, static_cast<int>(r), found[r]);
 }
 
+// Noise that was fitted to clocks a second apart comes down in steps.
+void fit_noise_to_the_end(JointModel& joint) {
+  constexpr int kMostSteps = 6;
+  double was = joint.minus_two_log_likelihood();
+  for (int step = 0; step < kMostSteps; ++step) {
+    joint.fit_noise_and_all();
+    const double now = joint.minus_two_log_likelihood();
+    if (!(now < was - kFreeEnough)) return;
+    was = now;
+  }
+}
+
 // With those rates let in, and clocks held where they are likeliest.
 JointModel held(JointModel joint, const Effect* rates, const std::vector<double>& value,
                 const std::vector<std::optional<AlignedClock>>& moments) {
@@ -82,7 +94,7 @@ JointModel held(JointModel joint, const Effect* rates, const std::vector<double>
   align(joint, moments);
   joint.clocks_are_held = true;
   joint.fit(2);
-  joint.fit_noise_and_all();
+  fit_noise_to_the_end(joint);
   return joint;
 }
 
@@ -125,6 +137,7 @@ void let_clocks_in(JointModel& joint) {
   JointModel free = best;
   free.clocks_are_held = false;
   free.fit(3);
+  fit_noise_to_the_end(free);
   joint = free.minus_two_log_likelihood() < best.minus_two_log_likelihood() + kFreeEnough ? free : best;
 }
 

@@ -98,8 +98,10 @@ VectorXd between_forms(const JointModel& joint, std::size_t accepted, double inf
     if (t.value.size() != a.value.size() || own.value.size() != a.value.size()) continue;
     const double weight = std::exp(0.5 * (t.statistic - best) / inflation);
     all += weight;
-    for (Eigen::Index k = 0; k < n; ++k)
-      sum(k) += weight * std::pow(t.value[static_cast<std::size_t>(k)] - own.value[static_cast<std::size_t>(k)], 2);
+    for (std::size_t k = 0; k < own.value.size(); ++k) {
+      const double to_own_side = a.effect->forms_have_sides && t.value[k] * own.value[k] < 0.0 ? -1.0 : 1.0;
+      sum(static_cast<Eigen::Index>(k)) += weight * std::pow(to_own_side * t.value[k] - own.value[k], 2);
+    }
   }
   return all > 0.0 ? VectorXd(sum / all) : sum;
 }

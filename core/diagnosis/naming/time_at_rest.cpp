@@ -35,10 +35,12 @@ UncertainTime time_with_rests(const JointModel& joint, int accepted, int entry, 
     last_s = std::max(last_s, view.steps.back().time_s - began_s(view));
   }
   if (views.empty()) return summit;
-  // Before the first step and behind the last all times are one.
-  const UncertainTime on_the_way{std::clamp(summit.at_s, first_s, last_s),
-                                 std::min(summit.stderr_s, (last_s - first_s) / std::sqrt(12.0))};
+  // Before the first step and behind the last all times are one: a summit there has no width of its own, and how far it
+  // reaches inside the slices say.
   const double step_s = std::max(kStep_s, (last_s - first_s) / kMostSteps);
+  const bool is_at_an_end = summit.at_s - summit.stderr_s < first_s || summit.at_s + summit.stderr_s > last_s;
+  const UncertainTime on_the_way{std::clamp(summit.at_s, first_s, last_s),
+                                 is_at_an_end ? std::min(step_s, summit.stderr_s) : summit.stderr_s};
   const double each = 1.0 / static_cast<double>(views.size());
   for (const DriveView* view : views) {
     double from_s = view->steps.front().time_s - began_s(*view);

@@ -11,6 +11,7 @@
 #include "core/calibration/frozen_truth.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/repeated_stamps.h"
+#include "core/calibration/restamped.h"
 #include "core/diagnosis/quality/drawn_truth.h"
 #include "core/diagnosis/quality/encoder_jumps.h"
 #include "core/diagnosis/quality/obeying_wheels.h"
@@ -98,7 +99,7 @@ std::string in_words(const DataFault& fault) {
   return fault.recording + " " + times_text(fault.time_s) + ": " + fault.sentence;
 }
 
-CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
+CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle, const std::optional<AlignedClock>& clock) {
   CheckedRecording out;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
   const std::optional<EvenedRecording> even = evened(as_logged, drive);
@@ -120,7 +121,11 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     truth = truth_samples(out.recording);
   }
 
-  if (const TimeStretches silent = silent_truth(truth, wheels); !silent.empty())
+  std::vector<TruthSample> on_wheels_clock = truth;
+  const AlignedClock known = clock.value_or(AlignedClock{vehicle.truth.time_offset_s});
+  const TwoClocks clocks{truth.empty() ? 0.0 : truth.front().time_s, known.offset_s, known.rate};
+  for (TruthSample& t : on_wheels_clock) t.time_s = clocks.wheels_stamp_s(t.time_s);
+  if (const TimeStretches silent = silent_truth(on_wheels_clock, wheels); !silent.empty())
     out.warnings.push_back(recording.name + ": no truth " + times_text(silent) + ", while the wheels turn");
   const bool is_followed = truth.size() >= kFewest, is_measured = is_followed && !vehicle.truth.is_reckoned;
   if (const TimeStretches drawn = is_measured ? drawn_truth(truth) : TimeStretches{}; !drawn.empty()) {
@@ -129,7 +134,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
                            ", as where gaps are filled: left out");
   }
   DataFault frozen{"truth_frozen", "truth", recording.name,
-                   is_measured ? frozen_truth(truth, wheels, drive) : TimeStretches{}, ""};
+                   is_measured ? frozen_truth(truth, wheels, drive, vehicle.truth.time_offset_s) : TimeStretches{}, ""};
   if (!frozen.time_s.empty()) {
     leave_truth_out(out.recording, rows_within(frozen.time_s, out.recording.time_s, false));
     frozen.sentence = in_words_of_frozen(frozen.time_s.size());
@@ -147,8 +152,8 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
       out.warnings.push_back(recording.name + ": " + what + " " + times_text(times) + ": left out");
       out.left_out_s.insert(out.left_out_s.end(), times.begin(), times.end());
     };
-    leave_out(holes_in_commands(wheels, drive, truth), "no commands were logged");
-    leave_out(unmoved_base(wheels, drive, truth), "the base hardly moved though it was told to drive");
+    leave_out(holes_in_commands(wheels, drive, on_wheels_clock), "no commands were logged");
+    leave_out(unmoved_base(wheels, drive, on_wheels_clock), "the base hardly moved though it was told to drive");
     if (const std::vector<CommandSample> told = command_samples(recording); is_on_its_way(told.front()))
       out.left_out_s.emplace_back(recording.time_s.front(), told.front().time_s + kFollows_s);
     out.left_out_s = joined(std::move(out.left_out_s));
@@ -164,7 +169,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle) {
     const double radius = wheel == 0 ? drive.wheel_radius_left_m : drive.wheel_radius_right_m;
     DataFault fault{"encoder_data_fault", wheel == 0 ? "left_wheel" : "right_wheel", recording.name, {}, ""};
     const Wheel which = wheel == 0 ? Wheel::left : Wheel::right;
-    if (is_followed) fault.time_s = standing_encoder(wheels, which, truth, vehicle);
+    if (is_followed) fault.time_s = standing_encoder(wheels, which, on_wheels_clock, vehicle);
     for (const TimeStretches& more : {catching_up_encoder(wheels, which), halting_encoder(wheels, which, drive)})
       fault.time_s.insert(fault.time_s.end(), more.begin(), more.end());
     std::vector<double> time_s, angle_rad;

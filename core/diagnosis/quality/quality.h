@@ -2,10 +2,12 @@
 // still or jump while the vehicle drives on, or were not read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/calibration/aligned_clock.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -35,6 +37,8 @@ struct CheckedRecording {
   std::vector<std::pair<double, double>> left_out_s;
 };
 
-CheckedRecording checked(const Recording& recording, const Vehicle& vehicle);
+// `clock`: the truth's, where it is known to be another than the vehicle's file says.
+CheckedRecording checked(const Recording& recording, const Vehicle& vehicle,
+                         const std::optional<AlignedClock>& clock = {});
 
 }  // namespace odolab

@@ -15,9 +15,8 @@ constexpr std::size_t kPace = 5;  // readings before, and behind, that say how f
 // The truth at a time, by the median of three samples: one of them may err by anything.
 class SteadyTruth {
  public:
-  SteadyTruth(const std::vector<TruthSample>& samples, double time_offset_s)
+  explicit SteadyTruth(const std::vector<TruthSample>& samples)
       : samples_(samples),
-        offset_s_(time_offset_s),
         has_heading_(samples.front().heading_rad.has_value() && samples.back().heading_rad.has_value()) {
     noise_m_ = noise_of([](const TruthSample& t) { return t.position.x_m; });
     if (has_heading_) noise_rad_ = noise_of([](const TruthSample& t) { return t.heading_rad.value_or(0.0); });
@@ -29,8 +28,7 @@ class SteadyTruth {
   bool has_heading() const { return has_heading_; }
 
   // Nothing in a gap, of which the next sample says nothing, nor where a heading is missing that others have.
-  std::optional<Pose> at(double wheels_time_s) const {
-    const double time_s = wheels_time_s + offset_s_;
+  std::optional<Pose> at(double time_s) const {
     const auto it = std::lower_bound(samples_.begin() + 1, samples_.end() - 2, time_s,
                                      [](const TruthSample& t, double s) { return t.time_s < s; });
     if (std::abs(it->time_s - time_s) >= 2.0 * period_s_) return std::nullopt;
@@ -51,7 +49,7 @@ class SteadyTruth {
   }
 
   const std::vector<TruthSample>& samples_;
-  double offset_s_, noise_m_ = 0.0, noise_rad_ = 0.0, period_s_ = 0.0;
+  double noise_m_ = 0.0, noise_rad_ = 0.0, period_s_ = 0.0;
   bool has_heading_;
 };
 
@@ -70,7 +68,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
   if (truth.size() < 4) return stands;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
   const Pose tracked_T_axle = inverse(vehicle.truth.axle_T_tracked);
-  const SteadyTruth steady(truth, vehicle.truth.time_offset_s);
+  const SteadyTruth steady(truth);
   const Wheel other = wheel == Wheel::left ? Wheel::right : Wheel::left;
   const auto rad = [&](std::size_t i) { return rotation(wheels[i], wheel); };
   const auto radius_m = [&](Wheel of) {

@@ -10,7 +10,7 @@ namespace odolab {
 
 // Where a wheel's readings hold while the truth carries that wheel on: further than the truth errs, about as fast as it
 // turned before, and in the middle of that time as well, since a clock that is late lets the truth drive on into a
-// rest. From the reading that holds to the one that does no more.
+// rest. From the reading that holds to the one that does no more. `truth` by the wheels' clock.
 TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel wheel,
                                const std::vector<TruthSample>& truth, const Vehicle& vehicle);
 

@@ -100,11 +100,11 @@ GeometryFit geometry_of_trailer(const std::vector<JoinedRun>& runs, const Vehicl
 
 // Of a truth that no unit's own recording has as it was: by the first unit's wheels, whether it repeats itself.
 std::vector<Finding> frozen_truths(const std::vector<Recording>& recordings, const std::vector<JoinedRun>& runs,
-                                   const DifferentialDrive& first) {
+                                   const DifferentialDrive& first, double truth_late_s) {
   std::vector<Finding> frozen;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     DataFault fault{"truth_frozen", "truth", recordings[r].name,
-                    frozen_truth(truth_samples(recordings[r]), wheels_of(runs[r].samples, 0), first), ""};
+                    frozen_truth(truth_samples(recordings[r]), wheels_of(runs[r].samples, 0), first, truth_late_s), ""};
     if (fault.time_s.empty()) continue;
     fault.sentence = in_words_of_frozen(fault.time_s.size());
     frozen.push_back(finding_of(fault));
@@ -327,7 +327,8 @@ class BesideTruth {
       d.findings.push_back(finding_of(clocks_));
     }
     if (!carries_truth(units_)) {
-      const std::vector<Finding> frozen = frozen_truths(train_.recordings, train_.runs, units_[0].drive);
+      const std::vector<Finding> frozen =
+          frozen_truths(train_.recordings, train_.runs, units_[0].drive, nominal_.truth.time_offset_s);
       d.findings.insert(d.findings.end(), frozen.begin(), frozen.end());
     }
     // What one unit by itself cannot say all of them together may.

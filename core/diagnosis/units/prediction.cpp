@@ -114,9 +114,8 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
   double rate = 0.0;
   for (const ActiveEffect& a : effects)
     if (a.effect == "clock_rate") rate += a.parameter("rate");
-  const double begin_s = samples.front().time_s;
-  for (UnitSample& s : samples) s.time_s = begin_s + (s.time_s - begin_s) / (1.0 + rate);
-  const TimedPose start = predicted_start(recording, with.truth, begin_s);
+  const TimedPose start = predicted_start(recording, with.truth, samples.front().time_s);
+  for (UnitSample& s : samples) s.time_s = start.time_s + (s.time_s - start.time_s) / (1.0 + rate);
   const std::vector<VehicleUnit> units = units_of(with);
   const auto motions_on = [&](const Track& track) {
     std::vector<std::vector<BodyMotion>> motions(units.size());

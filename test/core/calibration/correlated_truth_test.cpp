@@ -8,6 +8,7 @@
 #include "core/calibration/least_squares.h"
 #include "test/support/known_drive.h"
 #include "test/support/missing_physics.h"
+#include "test/support/other_clock.h"
 
 namespace odolab::test {
 namespace {
@@ -128,6 +129,15 @@ TEST(CorrelatedTruth, IsNotToldWhereNothingRests) {
     if (c.name == "left_wheel_rad")
       for (std::size_t i = 0; i < c.values.size(); ++i) c.values[i] += 0.01 * static_cast<double>(i);
   EXPECT_FALSE(correlation_at_rest({r}, DifferentialDrive{}));
+}
+
+TEST(CorrelatedTruth, RestsWhereTheWheelsDoByWhateverClock) {
+  constexpr double kLate_s = 6.0;
+  const Recording r = stop_and_go(0.8, 3);
+  const auto own = correlation_at_rest({r}, DifferentialDrive{}),
+             late = correlation_at_rest({test::with_truths_clock(r, kLate_s, 0.0)}, DifferentialDrive{}, kLate_s);
+  ASSERT_TRUE(own && late);
+  EXPECT_NEAR(*late, *own, 0.02);  // by rounding a sample more or less at the end of a rest
 }
 
 }  // namespace

@@ -105,6 +105,21 @@ TEST(FirstGuess, IsNotLedAstrayByOnePlaceFarAway) {
   }
 }
 
+// A quarter of an hour of waiting under headings that tremble is no turning: by every half-second of it the truth had
+// turned 26 times as far as the wheels, as if it were in degrees.
+TEST(FirstGuess, CountsNoTremorOfHeadingsWhileItWaits) {
+  constexpr double kWaits_s = 900.0;
+  InnovationRun run = winding_arcs(0.05, 0.2);
+  for (WheelSample& w : run.wheels) w.time_s += kWaits_s;
+  for (TruthSample& t : run.truth) t.time_s += kWaits_s;
+  std::vector<TruthSample> waiting;
+  Random random(7);
+  for (double t = 0.0; t < kWaits_s; t += 0.02) waiting.push_back({t, {}, 0.1 * random.normal()});
+  run.truth.insert(run.truth.begin(), waiting.begin(), waiting.end());
+  run.wheels.insert(run.wheels.begin(), {0.0, 0.0, 0.0});
+  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "");
+}
+
 // Whether the way tells nothing, as both go forward evenly, or a little: the turns are another's.
 TEST(FirstGuess, SaysThatTheTruthIsAnotherRuns) {
   for (const double faster_mps : {0.0, 0.12}) {

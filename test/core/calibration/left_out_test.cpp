@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/calibration/least_squares.h"
+#include "core/calibration/restamped.h"
 #include "test/support/drive_generator.h"
 
 namespace odolab {
@@ -155,6 +156,22 @@ TEST(LeftOut, TruthBeyondTheWheelsIsNotUsedOnceItsClockIsKnown) {
   const double tenth_s = 0.1 * g.wheel_period_s + 1e-9;
   EXPECT_GE(used_from_to().first - 0.08, run.wheels.front().time_s - tenth_s);
   EXPECT_LE(used_from_to().second - 0.08, run.wheels.back().time_s + tenth_s);
+}
+
+// Ten minutes at a clock that is fast by 0.3 %: what is left out at 500 s of it is past for the truth after 498.5 s.
+TEST(LeftOut, IsCutByTheWheelsOwnClock) {
+  InnovationRun run;
+  run.wheels = even_readings(30000, 0.02);
+  run.left_out = {{500.0, 502.0}};
+  for (int k = 0; k <= 1180; ++k) run.truth.push_back({0.5 * k, {}, 0.0});
+  cut_where_left_out(run, 0.0, 0.003);
+  std::pair<double, double> cut{1e9, -1e9};  // the truth's stamps on either side
+  for (std::size_t k = 1; k < run.truth.size(); ++k)
+    if (run.cut[k]) cut = {std::min(cut.first, run.truth[k - 1].time_s), std::max(cut.second, run.truth[k].time_s)};
+  EXPECT_EQ(cut.first, 498.5);   // the last before 500 / 1.003 = 498.50 s
+  EXPECT_EQ(cut.second, 500.5);  // the first behind 502 / 1.003 = 500.50 s
+  const TwoClocks clocks{7.0, 0.2, 0.003};
+  EXPECT_NEAR(clocks.truth_stamp_s(clocks.wheels_stamp_s(321.0)), 321.0, 1e-9);
 }
 
 TEST(LeftOut, WheelsAtRestGoOnRestingForOneInterval) {

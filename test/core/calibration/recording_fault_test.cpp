@@ -210,5 +210,20 @@ TEST(RecordingFault, KnowsThatOneCircleDoesNotTellHowLongItsWayIs) {
   }
 }
 
+// One sample of a camera that saw something else is no vehicle that was carried away.
+TEST(RecordingFault, IsNoDeadEncoderForOneSampleOfTheTruth) {
+  for (const std::size_t wrong : {0u, 300u}) {
+    Recording r;
+    r.name = "rest.csv";
+    for (int i = 0; i < 600; ++i) r.time_s.push_back(0.05 * i);
+    for (const char* name : {"left_wheel_rad", "right_wheel_rad", "truth_x_m", "truth_y_m", "truth_heading_rad"})
+      r.add_channel(name).values.assign(600, 0.0);
+    column(r, "truth_x_m")[wrong] = 0.8;
+    EXPECT_FALSE(fault_in(r, Vehicle{})) << wrong;
+    for (std::size_t i = 400; i < 600; ++i) column(r, "truth_x_m")[i] = 0.8;  // and so is one that was
+    EXPECT_TRUE(fault_in(r, Vehicle{})) << wrong;
+  }
+}
+
 }  // namespace
 }  // namespace odolab

@@ -73,5 +73,29 @@ TEST(ChosenModel, FaultsAndNamelessThingsHaveNoSwitch) {
   }
 }
 
+// The fit has a base that follows late as a truth that is late: it is one or the other, whatever else is on.
+TEST(DiagnoseChosen, DelayIsNotInTheClocksAsWell) {
+  const Case c = with_scrub();
+  Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  std::vector<bool> on(d->findings.size(), true);
+  Finding delay, extra;
+  delay.effect = "actuator_delay";
+  delay.component = "vehicle";
+  delay.parameters = {{"delay_s", 0.1, 0.001, "s"}};
+  extra.effect = "lateral_slip";
+  extra.component = "vehicle";
+  extra.parameters = {{"m_per_s_per_mps2", 0.0, 0.001, "s"}};
+  d->findings.push_back(delay);
+  d->findings.push_back(extra);
+  on.insert(on.end(), {true, false});
+  const Result<FittedModel> some = model_with(*d, on, c.recordings, c.nominal);
+  ASSERT_TRUE(some);
+  const FittedModel all = model_of(*d);
+  ASSERT_EQ(some->truth_clock_s.size(), all.truth_clock_s.size());
+  for (std::size_t r = 0; r < all.truth_clock_s.size(); ++r)  // clocks are known to a millisecond
+    EXPECT_NEAR(some->truth_clock_s[r].second, all.truth_clock_s[r].second, 0.003);
+}
+
 }  // namespace
 }  // namespace odolab

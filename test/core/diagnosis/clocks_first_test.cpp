@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/fitted_model.h"
+#include "core/odometry/prediction.h"
 #include "test/support/missing_physics.h"
 #include "test/support/other_clock.h"
 
@@ -113,6 +115,71 @@ TEST(ClocksFirst, AreAlignedInAHeldOutRunBeforeItIsJudged) {
   ASSERT_TRUE(d->held_out.with_findings && d->held_out.calibrated && d->held_out.noise_floor);
   EXPECT_LT(d->held_out.with_findings->position_rms_m, 1.15 * d->held_out.noise_floor->position_rms_m);
   EXPECT_GT(d->held_out.calibrated->position_rms_m, 2.0 * d->held_out.noise_floor->position_rms_m);
+}
+
+// By clocks that run apart a long drive shows no radius: 0.3 % of seven minutes are more than a second.
+TEST(ClocksFirst, HideNothingOfTheCalibrationOnceTheyAreRight) {
+  CaseSettings settings;
+  settings.runs = 1;
+  settings.duration_s = 400.0;
+  const Case c = generated_case(settings, 8312);
+  const Recording apart = with_truths_clock(c.recordings[0], 0.02, 0.003);
+  const Result<Diagnosis> d = diagnose({apart}, {}, c.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  for (const Finding& f : d->findings)
+    EXPECT_TRUE(f.effect == "clock_rate" || f.effect.rfind("truth_", 0) == 0) << f.effect;
+  EXPECT_FALSE(d->calibration.scale_is_open);
+  const std::map<std::string, double> actual = {{"wheel_radius_left_m", c.actual.wheel_radius_left_m},
+                                                {"wheel_radius_right_m", c.actual.wheel_radius_right_m},
+                                                {"wheelbase_m", c.actual.wheelbase_m}};
+  for (const ParameterEstimate& p : d->calibration.parameters) {
+    const auto known = actual.find(p.name);
+    if (known == actual.end()) continue;
+    EXPECT_TRUE(p.determined) << p.name;
+    EXPECT_NEAR(p.value, known->second, 4.0 * p.stderr_value) << p.name;
+  }
+}
+
+// What happens at a place happens where the wheels are, whatever their clock says: by the truth's stamps alone the
+// patch had moved by 7 cm.
+TEST(ClocksFirst, MoveNoPatchOfTheFloor) {
+  CaseSettings settings;
+  settings.effect = "slip_zone";
+  settings.size = 2.0;
+  settings.runs = 2;
+  settings.duration_s = 150.0;
+  const Case c = generated_case(settings, 8313);
+  const auto patch_by_clocks_apart = [&](double rate) {
+    std::vector<Recording> recordings;
+    for (const Recording& r : c.recordings) recordings.push_back(with_truths_clock(r, 0.0, rate));
+    for (const Finding& f : diagnose(recordings, {}, c.nominal).value().findings)
+      if (f.effect == "slip_zone" && f.where.zone) return Vec2{f.where.zone->x_m, f.where.zone->y_m};
+    ADD_FAILURE() << rate;
+    return Vec2{};
+  };
+  // Each is known to 1 cm.
+  EXPECT_LT(length(patch_by_clocks_apart(0.003) - patch_by_clocks_apart(0.0)), 0.02);
+}
+
+// A truth that begins long after the wheels: the clocks agree where it begins, in the fit and in what it predicts.
+TEST(ClocksFirst, AgreeWhereTheTruthBegins) {
+  CaseSettings settings;
+  settings.runs = 1;
+  settings.duration_s = 60.0;
+  const Case c = generated_case(settings, 8314);
+  Recording late = c.recordings[0];
+  for (Channel& channel : late.channels)
+    if (channel.name.rfind("truth_", 0) == 0)
+      for (std::size_t i = 0; i < late.time_s.size() && late.time_s[i] < 40.0; ++i) channel.values[i] = std::nan("");
+  constexpr double kRate = 0.003;
+  const Track right = predicted_track(late, c.nominal).value(),
+              apart = predicted_track(with_truths_clock(late, 0.0, kRate), c.nominal,
+                                      {{"clock_rate", "vehicle", {{"rate", kRate}}}})
+                          .value();
+  ASSERT_EQ(right.size(), apart.size());
+  // By a clock that agreed where the wheels begin it had begun 0.12 s of the way elsewhere.
+  for (std::size_t i = 0; i < right.size(); i += 100)
+    EXPECT_LT(length(right[i].pose.position() - apart[i].pose.position()), 1e-4) << i;
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include "core/calibration/turned_mounting.h"
+
+#include <gtest/gtest.h>
+
+#include "core/calibration/least_squares.h"
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+std::vector<Recording> with_headings_turned(const Case& c, double by_rad) {
+  std::vector<Recording> recordings = c.recordings;
+  for (Recording& r : recordings)
+    for (Channel& channel : r.channels)
+      if (channel.name == "truth_heading_rad")
+        for (double& v : channel.values) v = wrapped(v + by_rad);
+  return recordings;
+}
+
+Case three_runs_of_it() {
+  CaseSettings settings;
+  settings.runs = 3;
+  settings.duration_s = 40.0;
+  return generated_case(settings, 9107);
+}
+
+// A quarter of a turn was said to be the wrong sign of a wheel, and the right angle in the vehicle's file was no cure.
+TEST(TurnedMounting, ByAnyAngleIsFoundAsItIs) {
+  const Case c = three_runs_of_it();
+  for (const double turned_rad : {-2.8, -1.6, 1.3, 0.5 * kPi, kPi}) {
+    const std::vector<Recording> recordings = with_headings_turned(c, turned_rad);
+    for (const bool is_known : {false, true}) {
+      Vehicle nominal = c.nominal;
+      if (is_known) nominal.truth.axle_T_tracked.heading_rad = turned_rad;
+      const Result<LeastSquaresCalibration> fit = calibrate_least_squares(recordings, nominal);
+      ASSERT_TRUE(fit) << turned_rad << ": " << fit.error().message();
+      for (const ParameterEstimate& p : fit->parameters)
+        if (p.name == "truth_mounting.heading_rad") {
+          EXPECT_NEAR(wrapped(p.value - turned_rad), 0.0, 4.0 * p.stderr_value) << turned_rad;
+          EXPECT_EQ(p.nominal, nominal.truth.axle_T_tracked.heading_rad);
+        }
+      EXPECT_NEAR(std::get<DifferentialDrive>(fit->vehicle.kind).wheelbase_m, c.actual.wheelbase_m, 1e-3);
+    }
+  }
+}
+
+TEST(TurnedMounting, IsSaidAndNothingElse) {
+  const Case c = three_runs_of_it();
+  const Result<Diagnosis> d = diagnose(with_headings_turned(c, 2.0), {}, c.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  ASSERT_EQ(d->findings.size(), 1u);
+  EXPECT_EQ(d->findings[0].effect, "truth_mounting_offset");
+  for (const FoundParameter& p : d->findings[0].parameters)
+    if (p.name == "heading_rad") EXPECT_NEAR(p.value, 2.0, 4.0 * p.stderr_value);
+}
+
+TEST(TurnedMounting, StaysAsTheFileSaysWhereAFitFindsItByItself) {
+  const Case c = three_runs_of_it();
+  for (const double turned_rad : {0.0, 0.3, -0.8})
+    EXPECT_EQ(turned_as_driven(with_headings_turned(c, turned_rad), c.nominal).truth.axle_T_tracked.heading_rad,
+              c.nominal.truth.axle_T_tracked.heading_rad);
+}
+
+}  // namespace
+}  // namespace odolab::test
