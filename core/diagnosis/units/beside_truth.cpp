@@ -180,8 +180,7 @@ class BesideTruth {
       if (const std::optional<Error> error = judge_beside_names()) return *error;
     if (!goes_on(progress_, 0.9)) return stopped;
     if (!told_ && is_followed_ && may_be_joined())
-      of_joint_ = tell_joints_by_all(train_.runs, train_.recordings, names_of_train(), diagnoses_, nominal_,
-                                     options_.family_wise_error, geometry_);
+      if (const std::optional<Error> error = tell_joints_and_judge_by_them()) return *error;
     if (!goes_on(progress_, 0.95)) return stopped;
     return put_together();
   }
@@ -261,16 +260,85 @@ class BesideTruth {
         return goes_on(progress_, 0.1 + 0.8 * (static_cast<double>(u) + share) / static_cast<double>(units_.size()));
       });
       if (!one) return one.error();
-      if (!units_[u].carries_truth && !told_ && is_followed_) {
-        const auto& calibrated = std::get<DifferentialDrive>(one->calibration_alone.vehicle.kind);
-        std::optional<ErringJoint> of_unit =
-            erring_joint(train_.runs, geometry_.clock_s, with_drive(geometry_.vehicle, u, calibrated), u);
-        if (of_unit && (!erring_ || of_unit->gain > erring_->gain)) erring_ = std::move(of_unit);
-      }
+      if (!units_[u].carries_truth && !told_ && is_followed_) look_for_erring_joint(*one, u);
       diagnoses_.push_back(std::move(*one));
       if (units_[u].carries_truth) put_truth_as_on(diagnoses_.back(), nominal_, geometry_);
     }
     return std::nullopt;
+  }
+
+  void look_for_erring_joint(const Diagnosis& one, std::size_t unit) {
+    const auto& calibrated = std::get<DifferentialDrive>(one.calibration_alone.vehicle.kind);
+    std::optional<ErringJoint> of_unit =
+        erring_joint(train_.runs, geometry_.clock_s, with_drive(geometry_.vehicle, unit, calibrated), unit);
+    if (of_unit && (!erring_ || of_unit->gain > erring_->gain)) erring_ = std::move(of_unit);
+  }
+
+  // The geometry by stretches knew of nothing that is missing, and has taken up what it could of it: all of it, where
+  // nothing was named beside it. Then it is asked what would be named if the file were right about the joints; that
+  // must stay when these are told beside it.
+  std::optional<Error> tell_joints_and_judge_by_them() {
+    if (!carries_truth(units_) || acts_on_a_carried_unit()) return judge_until_joints_stay();
+    const GeometryFit by_stretches = geometry_;
+    const std::vector<Diagnosis> by_these = diagnoses_;
+    const std::optional<ErringJoint> erring = erring_;
+    for (JointEstimate& e : geometry_.joints)
+      if (e.parameter.component != "truth") e.parameter.of(geometry_.vehicle) = e.value = e.nominal;
+    if (const std::optional<Error> error = judge_carried_anew()) return error;
+    if (acts_on_a_carried_unit())
+      if (const std::optional<Error> error = judge_until_joints_stay()) return error;
+    if (acts_on_a_carried_unit()) return std::nullopt;
+    geometry_ = by_stretches;
+    diagnoses_ = by_these;
+    erring_ = erring;
+    return judge_until_joints_stay();
+  }
+
+  // Told beside what was named, the joints are what units whose truth they tell are judged by anew, until they stay
+  // where they are.
+  std::optional<Error> judge_until_joints_stay() {
+    constexpr int kMostRounds = 4;
+    for (int round = 0;; ++round) {
+      const std::vector<JointEstimate> judged_by = geometry_.joints;
+      ToldByAll told = tell_joints_by_all(train_.runs, train_.recordings, names_of_train(), diagnoses_, nominal_,
+                                          options_.family_wise_error, geometry_);
+      of_joint_ = std::move(told.erring);
+      const bool is_beside_names = carries_truth(units_) && act_on_motion(diagnoses_);
+      if (round == kMostRounds || !is_beside_names || !have_moved(judged_by)) {
+        for (std::size_t u = 0; u < units_.size() && is_beside_names; ++u)
+          if (!units_[u].carries_truth) put_sizes(told.sizes, u, diagnoses_[u].findings);
+        return std::nullopt;
+      }
+      if (const std::optional<Error> error = judge_carried_anew()) return error;
+    }
+  }
+
+  std::optional<Error> judge_carried_anew() {
+    erring_.reset();
+    for (std::size_t u = 0; u < units_.size(); ++u) {
+      if (units_[u].carries_truth) continue;
+      Result<Diagnosis> again =
+          judged(u, train_.as_read, held_out_.as_read, [&](double) { return goes_on(progress_, 0.9); });
+      if (!again) return again.error();
+      look_for_erring_joint(*again, u);
+      diagnoses_[u] = std::move(*again);
+    }
+    return std::nullopt;
+  }
+
+  bool acts_on_a_carried_unit() const {
+    for (std::size_t u = 0; u < units_.size(); ++u)
+      if (!units_[u].carries_truth && act_on_motion({diagnoses_[u]})) return true;
+    return false;
+  }
+
+  // By more than they are known to.
+  bool have_moved(const std::vector<JointEstimate>& before) const {
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const JointEstimate& e = geometry_.joints[k];
+      if (e.parameter.component != "truth" && std::abs(e.value - before[k].value) > e.stderr_value) return true;
+    }
+    return false;
   }
 
   // Once more, without what all of them together name.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/diagnosis/effects/effect_motions.h"
-#include "core/diagnosis/units/unit_models.h"
 #include "core/odometry/cast.h"
 #include "core/odometry/differential_drive.h"
 
@@ -40,29 +38,6 @@ Result<Track> way_by_others(const Known& known, const std::vector<UnitSample>& s
 bool lasts(const Finding& finding) {
   return std::none_of(finding.parameters.begin(), finding.parameters.end(),
                       [](const FoundParameter& p) { return p.name == "x_m" || p.name == "at_s"; });
-}
-
-std::vector<Understood> understood_without(const std::vector<Diagnosis>& of_units,
-                                           const std::vector<Recording>& recordings, const Vehicle& nominal) {
-  std::vector<Understood> all;
-  for (const Recording& r : recordings) all.push_back({&r, unit_samples(r, nominal)});
-  for (std::size_t u = 0; u < of_units.size(); ++u) {
-    Diagnosis lasting = of_units[u];
-    std::erase_if(lasting.findings, [](const Finding& f) { return !lasts(f); });
-    take_off(all, u, model_of(lasting), units_of(nominal));
-  }
-  return all;
-}
-
-void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
-              const std::vector<VehicleUnit>& units) {
-  for (Understood& u : all) {
-    const InnovationRun run = run_of_wheels(u.samples, unit);
-    std::vector<std::vector<BodyMotion>> motions(units.size());
-    motions[unit] = motions_of(drive_view(0, run, std::get<DifferentialDrive>(model.vehicle.kind), false, {}),
-                               model.effects_in(u.recording->name));
-    u.samples = without_effects(u.samples, units, motions).samples;
-  }
 }
 
 }  // namespace odolab

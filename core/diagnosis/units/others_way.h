@@ -5,7 +5,6 @@
 
 #include "core/base/result.h"
 #include "core/diagnosis/diagnosis.h"
-#include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/units/vehicle_units.h"
 
 namespace odolab {
@@ -22,16 +21,9 @@ struct Known {
   std::vector<DifferentialDrive> drives;
 };
 
-// The recordings once the effects of a unit are taken off its wheels; what it slips sideways is small beside and stays.
-void take_off(std::vector<Understood>& all, std::size_t unit, const FittedModel& model,
-              const std::vector<VehicleUnit>& units);
-
-// Whether a finding is neither of one place nor of one moment.
+// Whether a finding is neither of one place nor of one moment: places are known on the truth's floor alone, and moments
+// are over.
 bool lasts(const Finding& finding);
-// The recordings without what was found on each unit and lasts: places are known on the truth's floor alone, and
-// moments are over.
-std::vector<Understood> understood_without(const std::vector<Diagnosis>& of_units,
-                                           const std::vector<Recording>& recordings, const Vehicle& nominal);
 
 Vehicle without_mounting(Vehicle vehicle);
 

@@ -88,14 +88,18 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
   return own;
 }
 
-void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit) {
+namespace {
+
+void take_from(const JoinedModel& model, const Vehicle& nominal,
+               const std::function<bool(const JointEstimate& has, const JointEstimate& told)>& is_better,
+               GeometryFit& fit) {
   const GeometryFit told = told_geometry(model, nominal);
   std::vector<Eigen::Index> taken;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < fit.joints.size(); ++k) {
     JointEstimate& e = fit.joints[k];
     const JointEstimate& by_all = told.joints[k];
-    if (!e.is_of_an_encoder() || !by_all.determined || (e.determined && by_all.stderr_value > e.stderr_value)) continue;
+    if (!by_all.determined || !is_better(e, by_all)) continue;
     e.parameter.of(fit.vehicle) = e.value = by_all.value;
     e.stderr_value = by_all.stderr_value;
     e.determined = e.is_from_inside = true;
@@ -108,6 +112,23 @@ void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& 
     fit.covariance.col(k).setZero();
   }
   fit.covariance(taken, taken) = model.covariance_of(names);
+}
+
+}  // namespace
+
+void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit) {
+  take_from(
+      model, nominal,
+      [](const JointEstimate& has, const JointEstimate& told) {
+        return has.is_of_an_encoder() && !(has.determined && told.stderr_value > has.stderr_value);
+      },
+      fit);
+}
+
+void take_joints(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit) {
+  take_from(
+      model, nominal, [](const JointEstimate& has, const JointEstimate&) { return has.parameter.component != "truth"; },
+      fit);
 }
 
 Pose start_of(const JoinedModel& model, std::size_t run) {

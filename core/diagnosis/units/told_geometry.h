@@ -23,6 +23,9 @@ Recording recording_by_positions(const Recording& recording, const std::vector<U
 
 // Biased encoders, with how they err together, where all units together tell them better than what the geometry has.
 void take_biases(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit);
+// These and all other lengths, however well the geometry seems to have them: it did not know what was missing. Where
+// the truth sits stays as it is.
+void take_joints(const JoinedModel& model, const Vehicle& nominal, GeometryFit& fit);
 
 // Where the vehicle's reference point is in the room when a recording starts.
 Pose start_of(const JoinedModel& model, std::size_t run);

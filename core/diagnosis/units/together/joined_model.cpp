@@ -350,6 +350,30 @@ void JoinedModel::put_in(const std::vector<Acting>& acting) {
   acting_.clear();  // what it was fitted beside stays in the filters
 }
 
+std::vector<std::optional<JoinedModel::Known>> JoinedModel::fit_all_beside(std::vector<Acting> acting) {
+  constexpr int kRounds = 2;  // the first finds how much, under the noise that too little of it leaves
+  const auto column_of = [&](const Acting& a) { return columns_of(a.motions, 1, a.units); };
+  std::vector<bool> acts;
+  for (const Acting& a : acting) acts.push_back(column_of(a).squaredNorm() > 0.0);
+  for (int round = 0; round < kRounds; ++round) {
+    acting_ = acting;
+    make_filters();
+    linearise();
+    fit_all();
+    Index c = z_.cols();
+    for (std::size_t k = 0; k < acting.size(); ++k)
+      if (acts[k]) let_in(column_of(acting[k]));
+    for (std::size_t k = 0; k < acting.size(); ++k)
+      if (acts[k]) acting[k].value[0] += at_best_[c++];
+  }
+  acting_.clear();
+  std::vector<std::optional<Known>> fitted(acting.size());
+  Index c = z_.cols() - std::count(acts.begin(), acts.end(), true);
+  for (std::size_t k = 0; k < acting.size(); ++k)
+    if (acts[k]) fitted[k] = Known{acting[k].value[0], stderr_of(VectorXd::Unit(z_.cols(), c++))};
+  return fitted;
+}
+
 std::vector<JoinedFilter::Impact> JoinedModel::impacts(std::size_t run) const {
   Index first = 0;
   for (std::size_t r = 0; r < run; ++r) first += filters_[r].residual().size();

@@ -85,6 +85,9 @@ class JoinedModel {
   void fit_noise_beside(const std::vector<Acting>& acting);
   // All else fitted where they act, which they do from now on.
   void put_in(const std::vector<Acting>& acting);
+  // Lengths, wheels, clocks and noise as fit_all does, and of each of these, of one amplitude, as much as fits best
+  // beside them: that, in their order, unset where they act nowhere. They stay in the model.
+  std::vector<std::optional<Known>> fit_all_beside(std::vector<Acting> acting);
 
   JoinedTest test(const JoinedColumns& columns, double batches_believed_white = kFewestBatchesBelieved) const;
   // Of several with so many columns each, side by side; each by itself.
