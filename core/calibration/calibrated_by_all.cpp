@@ -32,22 +32,6 @@ double along_in_all(const FittedNoise& noise) {
   return std::hypot(noise.wheel_m_per_sqrt_m / std::sqrt(2.0), noise.along_m_per_sqrt_m);
 }
 
-// Whether the robots hardly ever changed their speed while they drove. Without headings, a clock that is late by dt
-// then looks like a tracked point that is v dt behind.
-bool at_steady_speed(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
-  double n = 0.0, sum = 0.0, squares = 0.0;
-  for (const InnovationRun& run : runs)
-    for (const DriveStep& step : drive_steps(run, drive)) {
-      const double speed = 0.5 * (step.left_m + step.right_m) / step.duration_s;
-      if (std::abs(speed) < 0.01) continue;
-      n += 1.0;
-      sum += speed;
-      squares += speed * speed;
-    }
-  constexpr double kSteady = 0.3;
-  return n < 2.0 || squares / n - sum * sum / (n * n) < kSteady * kSteady * sum * sum / (n * n);
-}
-
 // Whether one of the robots turned by more than wheels slip and counts round to on a straight: of less these make
 // nearly all, and what shows in turns alone would come out as small as they are large (errors in variables).
 bool any_turns(const std::vector<InnovationRun>& runs, const DifferentialDrive& drive) {
@@ -116,7 +100,6 @@ class FitOfAll {
         options_(options),
         drive_(std::get<DifferentialDrive>(nominal.kind)),
         any_heading_(read.any_heading),
-        clock_hides_in_place_(!any_heading_ && at_steady_speed(read.runs, drive_)),
         said_(std::move(read.put_right)),
         start_{{drive_, nominal.truth, {0.005, 0.005, 0.02}},
                std::vector<double>(options.one_truth_clock ? 1 : read.runs.size(), nominal.truth.time_offset_s)} {
@@ -161,6 +144,11 @@ class FitOfAll {
   // priors.
   void keep_what_shows() {
     determine();
+    if (clock_hides_in_place()) {
+      clock_hides_ = true;
+      fit_->keep_priors_of_clocks();
+      determine();
+    }
     if (options_.fit_drive && !(determined_[column::wheel_radius_left] && determined_[column::wheel_radius_right])) {
       // A radius that stayed as it is, while ratios show, would put its error on the others.
       fit_->hold_mean_radius();
@@ -202,10 +190,10 @@ class FitOfAll {
     result.scale_is_open = scale_is_open_;
     result.cannot_tell =
         what_cannot_be_told(determined_, scale_is_open_, active_, fit_->runs(), model.drive, any_heading_);
-    if (clock_hides_in_place_)
+    if (clock_hides_)
       result.cannot_tell.push_back(
           "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a "
-          "tracked point further behind; both stay as given. Change the speed on the way, or stop now and then");
+          "tracked point further behind; only both together show. Change the speed on the way, or stop now and then");
     result.normalised_chi2 = sums.chi2 / std::max(1, sums.scalars);
     FitParameters as_nominal = start_;
     as_nominal.shared.noise = model.noise;
@@ -234,8 +222,7 @@ class FitOfAll {
   }
   bool may_show(int c) const {
     if (c == column::mounting_heading) return any_heading_;
-    if (c == column::mounting_x) return !clock_hides_in_place_;
-    return c < column::shared || (options_.clocks.empty() && !clock_hides_in_place_);
+    return c < column::shared || options_.clocks.empty();
   }
 
   int active_count() const { return static_cast<int>(active_.size()); }
@@ -252,8 +239,32 @@ class FitOfAll {
       const bool shows_in_turns =
           active_[k] == column::wheelbase || active_[k] == column::mounting_x || active_[k] == column::mounting_y;
       if (shows_in_turns && !turns) posterior_(k, k) = 1.0;  // its prior's
-      determined_[active_[k]] = std::sqrt(posterior_(k, k)) < kDetermined;
+      const bool hides = clock_hides_ && (active_[k] == column::mounting_x || active_[k] >= column::shared);
+      determined_[active_[k]] = hides || std::sqrt(posterior_(k, k)) < kDetermined;
     }
+  }
+
+  // Whether the tracked point's place shows to those alone who know the clock, as without headings at a steady speed v:
+  // a truth that is late by dt then looks like a point that is v dt behind. What little the posterior knows of such a
+  // clock is by the jitter of counts, and wrong by up to six times as much.
+  bool clock_hides_in_place() const {
+    constexpr double kMost = 0.25;      // of the place's variance, to those
+    constexpr double kByMotion = 0.03;  // a clock that starts and stops tell: 6 ms
+    const auto x = std::find(active_.begin(), active_.end(), column::mounting_x) - active_.begin();
+    if (any_heading_ || x == active_count()) return false;
+    const VectorXd clocks = of_clocks();
+    if ((clocks.array() * posterior_.diagonal().array()).maxCoeff() < kByMotion * kByMotion) return false;
+    const VectorXd with_clocks = posterior_ * clocks;
+    const double by_itself = posterior_(x, x),
+                 by_the_clock = by_itself - with_clocks(x) * with_clocks(x) / clocks.dot(with_clocks);
+    return by_the_clock < std::min(kDetermined * kDetermined, kMost * by_itself);
+  }
+
+  // 1 for each clock.
+  VectorXd of_clocks() const {
+    VectorXd clocks = VectorXd::Zero(active_count());
+    for (int k = 0; k < active_count(); ++k) clocks(k) = active_[k] >= column::shared;
+    return clocks;
   }
 
   // Of what is active; what is held at its nominal value stays uncertain by its prior. Where the innovations are
@@ -263,7 +274,15 @@ class FitOfAll {
     const int n = active_count();
     MatrixXd precision = of_active(sums.information) + fit_->information_held(active_);
     for (int k = 0; k < n; ++k) precision(k, k) += determined_[active_[k]] ? 1e-12 : 1.0;
-    const MatrixXd covariance = precision.inverse();
+    if (fit_->leaves_headings_open()) precision = fit_->as_it_falls(active_, precision);
+    MatrixXd covariance = precision.inverse();
+    if (clock_hides_) {  // place and clocks are known as well as clocks are
+      const VectorXd clocks = of_clocks(), with_clocks = covariance * clocks;
+      VectorXd by_a_clock = with_clocks * (clocks.sum() / clocks.dot(with_clocks));
+      for (int k = 0; k < n; ++k)
+        if (active_[k] < column::shared && active_[k] != column::mounting_x) by_a_clock(k) = 0.0;
+      covariance += by_a_clock * by_a_clock.transpose();
+    }
     const double by_chance = 4.0 / std::sqrt(std::max(1.0, result.innovations / (any_heading_ ? 3.0 : 2.0)));
     const double largest =
         std::max({std::abs(result.correlation[0]), std::abs(result.correlation[1]), std::abs(result.correlation[2])});
@@ -366,23 +385,36 @@ class FitOfAll {
       result.warnings.push_back(
           formatted("the truth's clock differs between the recordings: from %.3f s to %.3f s", *least, *most));
     }
-    for (const ParameterEstimate& p : result.parameters)
-      if (p.determined && p.unit == "m" && p.name.rfind("wheel", 0) == 0 && std::abs(p.value / p.nominal - 1.0) > 0.1)
+    double largest = 0.0, smallest = 1e300;  // radius by that of the file
+    for (const ParameterEstimate& p : result.parameters) {
+      if (!p.determined || p.unit != "m" || p.name.rfind("wheel", 0) != 0) continue;
+      const double times = p.value / p.nominal;
+      if (p.name.rfind("wheel_radius", 0) == 0)
+        largest = std::max(largest, times), smallest = std::min(smallest, times);
+      if (std::abs(times - 1.0) > 0.1)
+        result.warnings.push_back(p.name + formatted(": %.0f %% away from its nominal value", 100.0 * (times - 1.0)));
+    }
+    // No two wheels are made twice too large.
+    constexpr double kAlike = 0.03;
+    for (const double times : {2.0, 4.0, 0.5, 0.25})
+      if (std::abs(largest / times - 1.0) < kAlike && std::abs(smallest / times - 1.0) < kAlike)
         result.warnings.push_back(
-            p.name + formatted(": %.0f %% away from its nominal value", 100.0 * (p.value / p.nominal - 1.0)));
+            formatted("both wheels seem %.2g times as large as the vehicle's file has them: its "
+                      "encoder_counts_per_revolution may be %s times too %s",
+                      times, times == 2.0 || times == 0.5 ? "two" : "four", times > 1.0 ? "large" : "small"));
   }
 
   const Vehicle& nominal_;
   const LeastSquaresOptions& options_;
   DifferentialDrive drive_;  // as given
-  bool any_heading_, clock_hides_in_place_;
+  bool any_heading_;
   std::vector<std::string> said_;
   FitParameters start_;
   std::vector<int> active_;  // columns that are fitted
   std::optional<LikelihoodFit> fit_;
   std::vector<char> determined_;  // of each column
   MatrixXd posterior_;
-  bool scale_is_open_ = false;
+  bool scale_is_open_ = false, clock_hides_ = false;
 };
 
 }  // namespace

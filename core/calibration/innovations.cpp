@@ -24,13 +24,53 @@ FittedNoise as_large_as_any_real(FittedNoise noise) {
 
 namespace {
 
-InnovationSums passed(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
-                      const FilterOptions& options) {
+int end_of(const InnovationRun& run, const FilterOptions& options) {
+  return options.last < 0 ? static_cast<int>(run.truth.size()) : options.last;
+}
+
+InnovationSums passed_once(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                           const FilterOptions& options, const UnknownHeading* begins = nullptr) {
   if (!options.derivatives && model.noise.wander_lasts_s > 0.0)
     return LastingTruthFilter(run, summed, model, options).run();
-  if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options).run();
-  if (summed.columns == column::first_extra) return PoseFilter<kUsualColumns>(run, summed, model, options).run();
-  return PoseFilter<kAnyColumns>(run, summed, model, options).run();
+  if (!options.derivatives) return PoseFilter<kNoColumns>(run, summed, model, options, nullptr, begins).run();
+  if (summed.columns == column::first_extra)
+    return PoseFilter<kUsualColumns>(run, summed, model, options, nullptr, begins).run();
+  return PoseFilter<kAnyColumns>(run, summed, model, options, nullptr, begins).run();
+}
+
+// What each of several sums says, by its weight: README, Eq. 7b.
+InnovationSums over_headings(std::vector<InnovationSums> sums) {
+  std::vector<double> likelihoods;
+  for (const InnovationSums& s : sums) likelihoods.push_back(s.chi2 + s.log_determinant);
+  const HeadingsWeighed by = headings_weighed(likelihoods);
+  const auto add = [](std::vector<double>& to, const std::vector<double>& of, double weight) {
+    to.resize(of.size(), 0.0);
+    for (std::size_t i = 0; i < of.size(); ++i) to[i] += weight * of[i];
+  };
+  InnovationSums out;
+  out.scalars = sums[0].scalars;
+  out.set_aside = sums[0].set_aside;
+  out.batch_scores.resize(sums[0].batch_scores.size());
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    out.chi2 += by.weight[k] * sums[k].chi2;
+    add(out.information, sums[k].information, by.weight[k]);
+    add(out.score, sums[k].score, by.weight[k]);
+    for (std::size_t b = 0; b < out.batch_scores.size(); ++b)
+      add(out.batch_scores[b], sums[k].batch_scores[b], by.weight[k]);
+  }
+  out.log_determinant = by.minus_two_log_likelihood - out.chi2;
+  return out;
+}
+
+// Of whom each innovation is asked gets those of one heading.
+InnovationSums passed(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
+                      const FilterOptions& options) {
+  if (options.gate > 0.0 || options.on_innovation || options.on_step || model.noise.wander_lasts_s > 0.0)
+    return passed_once(run, summed, model, options);
+  std::vector<InnovationSums> sums;
+  for (const UnknownHeading& begins : headings_all_around(run, summed, model, options.first, end_of(run, options)))
+    sums.push_back(passed_once(run, summed, model, options, &begins));
+  return sums.empty() ? passed_once(run, summed, model, options) : over_headings(std::move(sums));
 }
 
 // By the gate. What comes behind an outlier at the very start contradicts it: then the filter starts at the first
@@ -101,14 +141,32 @@ NoiseSlopes noise_slopes(const InnovationRun& run, const SummedRun& summed, cons
   options.first = first;
   options.last = last;
   if (model.noise.wander_lasts_s > 0.0) return LastingTruthFilter(run, summed, model, options).slopes();
-  NoiseCarry carried;
-  const InnovationSums sums = PoseFilter<kNoColumns>(run, summed, model, options, &carried).run();
+  const auto slopes_of = [&](const UnknownHeading* begins) {
+    NoiseCarry carried;
+    const InnovationSums sums = PoseFilter<kNoColumns>(run, summed, model, options, &carried, begins).run();
+    NoiseSlopes out;
+    out.value = sums.chi2 + sums.log_determinant;
+    out.scalars = sums.scalars;
+    for (int k = 0; k < noise_size::count; ++k) {
+      out.slope[k] = carried.slope(k);
+      for (int j = 0; j < noise_size::count; ++j) out.curvature[noise_size::count * k + j] = carried.curvature(k, j);
+    }
+    return out;
+  };
+  std::vector<NoiseSlopes> all;
+  std::vector<double> likelihoods;
+  for (const UnknownHeading& begins : headings_all_around(run, summed, model, first, end_of(run, options))) {
+    all.push_back(slopes_of(&begins));
+    likelihoods.push_back(all.back().value);
+  }
+  if (all.empty()) return slopes_of(nullptr);
+  const HeadingsWeighed by = headings_weighed(likelihoods);
   NoiseSlopes out;
-  out.value = sums.chi2 + sums.log_determinant;
-  out.scalars = sums.scalars;
-  for (int k = 0; k < noise_size::count; ++k) {
-    out.slope[k] = carried.slope(k);
-    for (int j = 0; j < noise_size::count; ++j) out.curvature[noise_size::count * k + j] = carried.curvature(k, j);
+  out.value = by.minus_two_log_likelihood;
+  out.scalars = all[0].scalars;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    for (std::size_t i = 0; i < out.slope.size(); ++i) out.slope[i] += by.weight[k] * all[k].slope[i];
+    for (std::size_t i = 0; i < out.curvature.size(); ++i) out.curvature[i] += by.weight[k] * all[k].curvature[i];
   }
   return out;
 }

@@ -105,6 +105,7 @@ void LastingTruthFilter::begin_at(int k) {
     const UnknownHeading unknown = heading_from_shape(run_, summed_, model_, k, last);
     tracked_heading = unknown.guess_rad + m.heading_rad;
     heading2 = square(unknown.stderr_rad);
+    sums_.log_determinant -= std::log(heading2);
   }
   pose_.heading_rad = tracked_heading - m.heading_rad;
   facing_ = turn_of(pose_.heading_rad);

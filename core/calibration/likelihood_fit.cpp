@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "core/base/parallel.h"
@@ -88,16 +89,46 @@ void LikelihoodFit::each(int count, const std::function<void(int)>& work) const 
 MatrixXd LikelihoodFit::information_held(const std::vector<int>& active) const {
   constexpr double kHeld = 1e8;  // to a ten-thousandth of its prior
   const auto n = static_cast<Eigen::Index>(active.size());
-  VectorXd mean = VectorXd::Zero(n);
+  VectorXd mean = VectorXd::Zero(n), clocks = VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     const int c = active[static_cast<std::size_t>(k)];
     if (c == column::wheel_radius_left || c == column::wheel_radius_right) mean(k) = 0.5;
+    if (c >= column::shared) clocks(k) = 1.0;
   }
-  return mean_radius_is_held_ ? MatrixXd(kHeld * mean * mean.transpose()) : MatrixXd::Zero(n, n);
+  MatrixXd held = mean_radius_is_held_ ? MatrixXd(kHeld * mean * mean.transpose()) : MatrixXd::Zero(n, n);
+  if (clocks_keep_priors_) held.diagonal() += clocks;
+  return held;
+}
+
+MatrixXd LikelihoodFit::as_it_falls(const std::vector<int>& active, const MatrixXd& information) const {
+  constexpr int kRounds = 6;
+  constexpr double kLeast = 0.1, kAsMuch = 0.9;  // of it, at once
+  const MatrixXd of_data = sums(now_, true).information(active, active), beside = information - of_data;
+  const auto likelihood = [&](const VectorXd& step) {
+    FitParameters at = now_;
+    for (Eigen::Index k = 0; k < step.size(); ++k)
+      parameter_of(at, active[static_cast<std::size_t>(k)]) += step(k) * prior_[active[static_cast<std::size_t>(k)]];
+    if (!problems_in(at.shared.drive).empty()) return std::numeric_limits<double>::infinity();
+    const Sums s = sums(at, false);
+    return s.chi2 + s.log_determinant + step.dot(beside * step);
+  };
+  const double here = likelihood(VectorXd::Zero(information.rows()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(information);
+  VectorXd along = axes.eigenvalues();
+  for (Eigen::Index k = 0; k < along.size(); ++k)
+    for (int round = 0; round < kRounds; ++round) {
+      const VectorXd step = axes.eigenvectors().col(k) / std::sqrt(along(k));
+      const double falls = 0.5 * (likelihood(step) + likelihood(-step)) - here;  // 1 of a parabola
+      if (!std::isfinite(falls)) break;
+      along(k) *= std::clamp(falls, kLeast, 1.0);
+      if (falls > kAsMuch) break;
+    }
+  return axes.eigenvectors() * along.asDiagonal() * axes.eigenvectors().transpose();
 }
 
 void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight, int most_iterations) {
   const MatrixXd held = information_held(active);
+  const bool headings_are_open = leaves_headings_open();
   const auto away = [&](const FitParameters& at) {
     VectorXd of(static_cast<Eigen::Index>(active.size()));
     for (std::size_t k = 0; k < active.size(); ++k) of(static_cast<Eigen::Index>(k)) = deviation(at, active[k]);
@@ -105,7 +136,8 @@ void LikelihoodFit::fit_parameters(const std::vector<int>& active, double weight
   };
   const auto objective = [&](const Sums& s, const FitParameters& at) {
     const VectorXd from_nominal = away(at);
-    return s.chi2 + weight * from_nominal.squaredNorm() + from_nominal.dot(held * from_nominal);
+    const double of_headings = headings_are_open ? s.log_determinant : 0.0;
+    return s.chi2 + of_headings + weight * from_nominal.squaredNorm() + from_nominal.dot(held * from_nominal);
   };
   Sums now = sums_now();
   double value = objective(now, now_);

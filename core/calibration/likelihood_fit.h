@@ -3,11 +3,13 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "core/calibration/innovations.h"
+#include "core/calibration/unknown_heading.h"
 
 namespace odolab {
 
@@ -67,10 +69,18 @@ class LikelihoodFit {
   // With derivatives, of what is fitted now; as the last time where nothing has changed since.
   const Sums& sums_now();
 
-  // Holds the mean of both wheel radii where it was given, as where only ratios show: in the fit, and what that adds to
-  // the information of these columns.
+  // Holds the mean of both wheel radii where it was given, as where only ratios show.
   void hold_mean_radius() { mean_radius_is_held_ = true; }
+  // Leaves the clocks their priors in every fit, as where a late one looks like a tracked point further behind.
+  void keep_priors_of_clocks() { clocks_keep_priors_ = true; }
+  // What that adds to the information of these columns.
   Eigen::MatrixXd information_held(const std::vector<int>& active) const;
+
+  // Information of these columns as the likelihood falls from what is fitted now, a standard error to either side along
+  // each of its axes. Where start headings are open it is no parabola: of a run that ends where it began noise makes a
+  // way of its own, and errors as large as that hardly show.
+  bool leaves_headings_open() const { return std::any_of(runs_.begin(), runs_.end(), may_leave_heading_open); }
+  Eigen::MatrixXd as_it_falls(const std::vector<int>& active, const Eigen::MatrixXd& information) const;
 
   // On all cores where that is worth starting threads for.
   void each(int count, const std::function<void(int)>& work) const;
@@ -135,7 +145,7 @@ class LikelihoodFit {
     bool body_is_noisy = false;
     SummedRun summed;
   };
-  bool mean_radius_is_held_ = false;
+  bool mean_radius_is_held_ = false, clocks_keep_priors_ = false;
   std::vector<InnovationRun> runs_;
   mutable std::vector<Kept> kept_;  // of each run; without motions where there is none yet
   FitParameters nominal_;

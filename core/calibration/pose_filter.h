@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/calibration/filter_walk.h"
 #include "core/calibration/innovations.h"
@@ -29,12 +30,13 @@ template <int columns>
 class PoseFilter {
  public:
   PoseFilter(const InnovationRun& run, const SummedRun& summed, const InnovationModel& model,
-             const FilterOptions& options, NoiseCarry* slopes = nullptr)
+             const FilterOptions& options, NoiseCarry* slopes = nullptr, const UnknownHeading* begins = nullptr)
       : run_(run),
         summed_(summed),
         model_(model),
         options_(options),
         slopes_(slopes),
+        begins_(begins),
         p_(columns == kNoColumns ? 0 : summed.columns),
         last_(options.last < 0 ? static_cast<int>(run.truth.size()) : options.last) {
     const int carried = columns == kAnyColumns ? p_ : columns;
@@ -97,9 +99,12 @@ class PoseFilter {
     if (heading_is_read) {
       tracked_heading = *truth.heading_rad;
     } else {
-      const UnknownHeading unknown = heading_from_shape(run_, summed_, model_, k, last_);
+      const bool is_given = begins_ != nullptr;
+      const UnknownHeading unknown =
+          is_given ? *std::exchange(begins_, nullptr) : heading_from_shape(run_, summed_, model_, k, last_);
       tracked_heading = unknown.guess_rad + m.heading_rad;
       heading2 = unknown.stderr_rad * unknown.stderr_rad;
+      if (!is_given) sums_.log_determinant -= std::log(heading2);
     }
     state_.heading_rad = tracked_heading - m.heading_rad;
     facing_ = turn_of(state_.heading_rad);
@@ -326,7 +331,8 @@ class PoseFilter {
   const SummedRun& summed_;
   const InnovationModel& model_;
   const FilterOptions& options_;
-  NoiseCarry* slopes_;  // null where nobody asks for them
+  NoiseCarry* slopes_;            // null where nobody asks for them
+  const UnknownHeading* begins_;  // the first start's; null where the shape of the path finds it
   int p_;
   int last_;
   Pose state_;

@@ -24,7 +24,7 @@ Scenario clapper_on(const Path& path, double speed_mps, const std::vector<Active
   return s;
 }
 
-Recording driven(const Scenario& scenario, std::uint64_t seed) {
+Recording driven_clapper(const Scenario& scenario, std::uint64_t seed) {
   Simulation simulation(scenario, seed);
   run_to_end(simulation, 200.0);
   Recording recording = simulation.recording();
@@ -33,9 +33,9 @@ Recording driven(const Scenario& scenario, std::uint64_t seed) {
 }
 
 Diagnosis diagnosed(const ActiveEffect& effect, std::uint64_t seed) {
-  std::vector<Recording> runs = {driven(clapper_on(FigureEightPath{1.2, 1}, 0.35, {effect}), seed),
-                                 driven(clapper_on(SquarePath{2.0}, 0.25, {effect}), seed + 1),
-                                 driven(clapper_on(RectanglePath{4.0, 3.0, 0.48}, 0.3, {effect}), seed + 2)};
+  std::vector<Recording> runs = {driven_clapper(clapper_on(FigureEightPath{1.2, 1}, 0.35, {effect}), seed),
+                                 driven_clapper(clapper_on(SquarePath{2.0}, 0.25, {effect}), seed + 1),
+                                 driven_clapper(clapper_on(RectanglePath{4.0, 3.0, 0.48}, 0.3, {effect}), seed + 2)};
   const Result<Diagnosis> d = diagnose(runs, {}, clapper_on(SquarePath{}, 0.3, {}).vehicle);
   EXPECT_TRUE(d);
   return d ? *d : Diagnosis{};
@@ -61,7 +61,7 @@ TEST(EffectsOnATruck, TakeOfItsWayWhatTheySay) {
   trucks.link_angle_resolution_rad = trucks.link_length_resolution_m = 0.0;
   s.sensors.truth_position_noise_m = s.sensors.truth_heading_noise_rad = 0.0;
   s.floor.roughness = {};  // over which wheels roll further than they go
-  const Recording recording = driven(s, 11);
+  const Recording recording = driven_clapper(s, 11);
   const std::vector<LinkedSample> samples = linked_samples(recording);
   const Track a = truth_track(recording);
   const auto b_at = [&](const LinkedSample& l) {
