@@ -120,6 +120,116 @@ std::vector<int> numbers_told_by_beat(const Series& time_s, double& period_s) {
   return numbers;
 }
 
+// Rows of one period whose stamps tremble by any part of it: how many are missing before each is the likeliest that the
+// steps of their phase leave (Viterbi 1967), of rows that err by `tremble_s` and are missing one in a hundred.
+class MissingRows {
+ public:
+  MissingRows(const Series& time_s, double tremble_s) : time_s_(time_s), tremble_s_(tremble_s) {}
+
+  // Twice the least negative log-likelihood of that period; the rows' numbers where these are asked for.
+  double cost(double period_s, std::vector<int>* numbers = nullptr) const {
+    double sum = 0.0;
+    for (std::size_t from = 0, end = 1; from < time_s_.size(); from = end++) {
+      while (end < time_s_.size() && time_s_[end] - time_s_[end - 1] <= kPause * period_s) ++end;
+      const int first = numbers && !numbers->empty() ? numbers->back() + kPause : 0;
+      sum += cost_of_stretch(from, end, period_s, first, numbers);
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr int kStates = 40, kKept = 8;  // missing rows beyond those that are sure; of these stay in sight
+  static constexpr double kMostOff2 = 9.0, kIsMissing = 9.0, kAnother = 0.5, kFollows = 0.05;
+  static constexpr double kNone = 1e300;
+  struct State {
+    double cost = kNone, phase_s = 0.0;
+    int before = 0;
+  };
+
+  double cost_of_stretch(std::size_t from, std::size_t end, double period_s, int first,
+                         std::vector<int>* numbers) const {
+    constexpr std::size_t kBegins = 15;
+    Series phases_s;
+    for (std::size_t i = from; i < std::min(end, from + kBegins); ++i)
+      phases_s.push_back(time_s_[i] - period_s * static_cast<double>(i - from));
+    std::vector<State> now(kStates);
+    now[0] = {0.0, quantile(std::move(phases_s), 0.5), 0};
+    std::vector<std::vector<int>> before;
+    std::vector<int> sure{0};
+    for (std::size_t i = from + 1; i < end; ++i) {
+      const int best = likeliest(now), shift = best >= kKept ? best - kKept / 2 : 0;
+      sure.push_back(sure.back() + shift);
+      const double gap_s = time_s_[i] - time_s_[i - 1];
+      const int most = std::clamp(static_cast<int>((gap_s + 5.0 * tremble_s_) / period_s), 0, kPause);
+      std::vector<State> next(kStates);
+      for (int k = 0; k < kStates; ++k) {
+        if (now[k].cost == kNone) continue;
+        for (int missing = 0; missing <= most; ++missing) {
+          const int to = k + missing - shift;
+          if (to < 0 || to >= kStates) continue;
+          const double number = static_cast<double>(i - from) + sure.back() + to;
+          const double off = (time_s_[i] - now[k].phase_s - period_s * number) / tremble_s_;
+          const double cost = now[k].cost + std::min(off * off, kMostOff2) +
+                              (missing > 0 ? kIsMissing + kAnother * (missing - 1) : 0.0);
+          if (cost < next[to].cost)
+            next[to] = {cost, now[k].phase_s + kFollows * std::clamp(off, -2.0, 2.0) * tremble_s_, k};
+        }
+      }
+      now = std::move(next);
+      if (!numbers) continue;
+      before.emplace_back();
+      for (const State& s : now) before.back().push_back(s.before);
+    }
+    int k = likeliest(now);
+    const double cost = now[k].cost;
+    if (!numbers) return cost;
+    const std::size_t rows = end - from, at = numbers->size();
+    numbers->resize(at + rows);
+    for (std::size_t i = rows; i-- > 0;) {
+      (*numbers)[at + i] = first + static_cast<int>(i) + sure[i] + k;
+      if (i > 0) k = before[i - 1][static_cast<std::size_t>(k)];
+    }
+    return cost;
+  }
+
+  static int likeliest(const std::vector<State>& states) {
+    return static_cast<int>(
+        std::min_element(states.begin(), states.end(), [](const State& a, const State& b) { return a.cost < b.cost; }) -
+        states.begin());
+  }
+
+  const Series& time_s_;
+  double tremble_s_;
+};
+
+// The same where stamps tremble too much for each to tell its number, but rows that are missing step the phase of all
+// behind them; nothing where none is, or where no one period explains the stamps. Missing rows make the typical period
+// seem longer: the likeliest near it is sought.
+std::vector<int> numbers_told_by_steps(const Series& time_s, double& period_s) {
+  constexpr double kFrom = 0.98, kTo = 1.004, kStep = 0.002, kFinest = 1e-4;  // of the period
+  constexpr double kExplained = 1.5, kDecisively = 100.0;                     // of twice the log-likelihood: a row; all
+  Series off_s;
+  for (std::size_t i = 1; i < time_s.size(); ++i) off_s.push_back(time_s[i] - time_s[i - 1] - period_s);
+  const double tremble_s = scatter_about_zero(std::move(off_s)) / std::sqrt(2.0);
+  if (!(tremble_s > 0.0)) return {};
+  const MissingRows missing(time_s, tremble_s);
+  double best_s = period_s, least = missing.cost(period_s);
+  const double as_it_seems = least;
+  const auto try_near = [&](double middle_s, double low, double high, double step) {
+    for (double times = low; times <= high; times += step)
+      if (const double cost = missing.cost(times * middle_s); cost < least) least = cost, best_s = times * middle_s;
+  };
+  try_near(period_s, kFrom, kTo, kStep);
+  for (double step = 0.5 * kStep; step > kFinest; step *= 0.5) try_near(double(best_s), 1.0 - step, 1.0 + step, step);
+  std::vector<int> numbers;
+  missing.cost(best_s, &numbers);
+  const auto rows = static_cast<double>(time_s.size());
+  const bool any = numbers.back() - numbers.front() > static_cast<int>(time_s.size()) - 1;
+  if (!any || least > kExplained * rows || least > as_it_seems - kDecisively) return {};
+  period_s = period_by_lines(time_s, numbers, best_s);
+  return numbers;
+}
+
 // Of rows whose numbers are told only where readings pause: missing ones are counted.
 std::vector<int> ends_of_told(const std::vector<int>& numbers) {
   std::vector<int> ends;
@@ -260,6 +370,7 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   const double grain_s = grain_of(time_s);
   const double round_s = even.period_s;  // of twenty rows, where what stamps are rounded by cancels
   std::vector<int> numbers = numbers_told_by_beat(time_s, even.period_s);
+  if (numbers.empty()) numbers = numbers_told_by_steps(time_s, even.period_s);
   const bool told = !numbers.empty();
   const std::vector<int> ends = told ? ends_of_told(numbers) : ends_of_stretches(time_s, even.period_s, look);
   if (!told) {

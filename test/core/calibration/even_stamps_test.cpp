@@ -196,6 +196,25 @@ TEST(EvenStamps, RowsThatAreOftenMissingLeaveTheirGapWhereStampsTrembleLittle) {
   }
 }
 
+// Each stamp may be its own row's or the next, but a row that is missing is a step of all behind it. Unseen, one in eighty
+// had made a period 0.8 % too long, and wheels 12 % too large.
+TEST(EvenStamps, MissingRowsLeaveTheirGapWhereStampsTrembleByAThirdOfAPeriod) {
+  Random random(12);
+  Series taken, stamps;
+  for (const double t : evenly()) {
+    if (random.uniform() < 0.0125) continue;
+    taken.push_back(t);
+    const double s = t + 0.36 * kStampPeriod_s * random.normal();
+    stamps.push_back(stamps.empty() ? s : std::max(stamps.back(), s));
+  }
+  const Series rad = read_at(taken);
+  const auto even = even_stamps(stamps, {rad, rad});
+  ASSERT_TRUE(even);
+  EXPECT_NEAR(even->period_s, kStampPeriod_s, 1e-5);
+  // 7 ms averaged over five seconds, and where a row is missing a few stamps on the wrong side of it.
+  EXPECT_LT(unevenness_s(even->time_s, taken), 0.1 * kStampPeriod_s);
+}
+
 TEST(EvenStamps, ATruthIsJudgedByItsOwnPath) {
   Random random(6);
   const Series taken = evenly(), stamps = arrived(taken, 0.006, random);
