@@ -148,7 +148,7 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
                    after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
       if (std::abs(next) > kCounts * count_rad &&
           std::abs(next) > kTimesThePace * std::max(std::abs(before), std::abs(after)) &&
-          (std::abs(before) * static_cast<double>(j + 1 - i) > kOfTheWayMissed * std::abs(next) ||
+          (before / next * static_cast<double>(j + 1 - i) > kOfTheWayMissed ||
            is_of_speeding_up(i, j, next, after)) &&
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
         found.push_back({wheels[i].time_s, wheels[j + 1].time_s});

@@ -207,6 +207,16 @@ TEST(CatchingUpEncoder, IsOneThatHoldsWhileItsWheelSpeedsUp) {
   EXPECT_TRUE(catching_up_encoder(wheels, Wheel::right).empty());
 }
 
+// It crawled backward, stood and set off forward, while the other set off five times as fast.
+TEST(CatchingUpEncoder, IsNoneThatTurnsBackAfterItStood) {
+  std::vector<WheelSample> wheels;
+  const double turned_rad[] = {0.0,     -0.0069, -0.0107, -0.0130, -0.0138, -0.0146, -0.0153, -0.0153, -0.0153,
+                               -0.0153, -0.0153, -0.0038, 0.0322,  0.0591,  0.0491,  0.0284,  0.0108,  -0.0007};
+  for (const double rad : turned_rad)
+    wheels.push_back({0.05 * static_cast<double>(wheels.size()), std::max(0.0, 5.0 * rad), rad});
+  EXPECT_TRUE(catching_up_encoder(wheels, Wheel::right).empty());
+}
+
 // A counter that steps back for good, under a truth of 100 Hz that is late by five readings: it is left out at its own
 // time, once, and nothing is left of it behind.
 TEST(Diagnosis, LeavesACounterThatStepsBackOutWhereTheTruthIsLateToo) {
