@@ -173,4 +173,14 @@ bool worth_a_try(const std::vector<std::optional<AlignedClock>>& clocks) {
                      [](const std::optional<AlignedClock>& clock) { return clock && clock->gain >= kWorthATry; });
 }
 
+std::optional<std::vector<AlignedClock>> moved_clocks(const std::vector<InnovationRun>& runs,
+                                                      const std::function<InnovationModel(int run)>& model_of) {
+  const std::vector<std::optional<AlignedClock>> found = aligned_clocks(runs, model_of);
+  if (!worth_a_try(found)) return std::nullopt;
+  std::vector<AlignedClock> clocks;
+  for (std::size_t r = 0; r < found.size(); ++r)
+    clocks.push_back(found[r].value_or(AlignedClock{model_of(static_cast<int>(r)).truth.time_offset_s}));
+  return clocks;
+}
+
 }  // namespace odolab

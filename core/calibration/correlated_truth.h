@@ -17,9 +17,9 @@ namespace odolab {
 Recording with_truth_apart(const Recording& recording, double apart_s);
 
 // The correlation of the noise of a truth that is late by `truth_late_s`, from one sample to the next, where the wheels
-// have rested for a second, or since the recording began, unless they are those that would have obeyed commands: of positions or headings, whichever is
-// larger. Nothing where there are too few such samples to tell 0.2 from 0.5. Only this tells a tracker that smooths
-// from a base that follows late or a mast that swings.
+// have rested for a second, or since the recording began, unless they are those that would have obeyed commands: of
+// positions or headings, whichever is larger. Nothing where there are too few such samples to tell 0.2 from 0.5. Only
+// this tells a tracker that smooths from a base that follows late or a mast that swings.
 std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive,
                                           double truth_late_s = 0.0, bool by_commands = false);
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/quantile.h"
+#include "core/calibration/numbered_rows.h"
 
 namespace odolab {
 
@@ -16,7 +17,6 @@ using Series = std::vector<double>;
 constexpr int kLeastRows = 100;    // in all
 constexpr int kLeastStretch = 30;  // rows that a line is laid through
 constexpr int kLook = 20;          // rows on either side of a missing one, or so many that ticks of a clock are
-constexpr int kPause = 20;         // periods
 constexpr double kKnots_s = 5.0;   // so slowly may the sampling's own clock wander
 constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
@@ -47,7 +47,7 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   for (int i = 1; i < n; ++i) {
     // A step shows for some rows around it; it lies where the gap is least like a period.
     int at = i;
-    const bool gap = time_s[i] - time_s[i - 1] > kPause * period_s;
+    const bool gap = time_s[i] - time_s[i - 1] > kPausePeriods * period_s;
     if (gap) {
       ends.push_back(i);
       continue;
@@ -66,175 +66,11 @@ std::vector<int> ends_of_stretches(const Series& time_s, double period_s, int lo
   return ends;
 }
 
-// The period of stamps with these numbers, by a straight line through each stretch without a pause.
-double period_by_lines(const Series& time_s, const std::vector<int>& numbers, double otherwise_s) {
-  double product = 0.0, square = 0.0;
-  for (std::size_t from = 0, end = 1; from < numbers.size(); from = end++) {
-    while (end < numbers.size() && numbers[end] - numbers[end - 1] < kPause) ++end;
-    double mean_s = 0.0, mean = 0.0;
-    for (std::size_t i = from; i < end; ++i) mean_s += time_s[i] - time_s[from], mean += numbers[i] - numbers[from];
-    mean_s /= static_cast<double>(end - from), mean /= static_cast<double>(end - from);
-    for (std::size_t i = from; i < end; ++i) {
-      const double by = numbers[i] - numbers[from] - mean;
-      product += by * (time_s[i] - time_s[from] - mean_s);
-      square += by * by;
-    }
-  }
-  return square > 0.0 ? product / square : otherwise_s;
-}
-
-// The rows' numbers, missing ones counted, where stamps tremble by so little about an even beat that nearly each tells
-// its own; else nothing. `period_s`, that of many rows and so without packets, is made that of these.
-std::vector<int> numbers_told_by_beat(const Series& time_s, double& period_s) {
-  constexpr double kUnclear = 0.45, kAlike = 0.3, kOfOne = 0.6;  // periods
-  constexpr double kFollows = 0.1;                               // of what a stamp is off the beat: slow clocks drift
-  constexpr double kMostUnclear = 0.01;                          // of the stamps
-  Series gaps;
-  for (std::size_t i = 1; i < time_s.size(); ++i) gaps.push_back(time_s[i] - time_s[i - 1]);
-  const double middle_s = quantile(gaps, 0.5);
-  if (std::abs(middle_s - period_s) > kAlike * period_s) return {};
-  double near_s = 0.0, near = 0.0;
-  for (const double gap_s : gaps)
-    if (std::abs(gap_s - middle_s) < kOfOne * middle_s) near_s += gap_s, near += 1.0;
-  const double usual_s = near_s / std::max(1.0, near);
-  std::vector<int> numbers{0};
-  double begin_s = time_s[0], unclear = 0.0;  // when number 0 was by the beat as it is now
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    const int before = numbers.back();
-    if (gaps[i - 1] > kPause * usual_s) {
-      numbers.push_back(before + kPause);
-      begin_s = time_s[i] - usual_s * numbers.back();
-      continue;
-    }
-    int number = static_cast<int>(std::lround((time_s[i] - begin_s) / usual_s));
-    // Of two that seem to have one number the first was late, if it left one out.
-    if (number <= before && i > 1 && numbers[i - 2] < before - 1) numbers.back() = before - 1;
-    number = std::max(number, numbers.back() + 1);
-    const double off = (time_s[i] - begin_s) / usual_s - number;
-    unclear += std::abs(off) > kUnclear ? 1.0 : 0.0;
-    begin_s += kFollows * std::clamp(off, -0.5, 0.5) * usual_s;
-    numbers.push_back(number);
-  }
-  if (unclear > kMostUnclear * static_cast<double>(time_s.size())) return {};
-  period_s = period_by_lines(time_s, numbers, period_s);
-  return numbers;
-}
-
-// Rows of one period whose stamps tremble by any part of it: how many are missing before each is the likeliest that the
-// steps of their phase leave (Viterbi 1967), of rows that err by `tremble_s` and are missing one in a hundred.
-class MissingRows {
- public:
-  MissingRows(const Series& time_s, double tremble_s) : time_s_(time_s), tremble_s_(tremble_s) {}
-
-  // Twice the least negative log-likelihood of that period; the rows' numbers where these are asked for.
-  double cost(double period_s, std::vector<int>* numbers = nullptr) const {
-    double sum = 0.0;
-    for (std::size_t from = 0, end = 1; from < time_s_.size(); from = end++) {
-      while (end < time_s_.size() && time_s_[end] - time_s_[end - 1] <= kPause * period_s) ++end;
-      const int first = numbers && !numbers->empty() ? numbers->back() + kPause : 0;
-      sum += cost_of_stretch(from, end, period_s, first, numbers);
-    }
-    return sum;
-  }
-
- private:
-  static constexpr int kStates = 40, kKept = 8;  // missing rows beyond those that are sure; of these stay in sight
-  static constexpr double kMostOff2 = 9.0, kIsMissing = 9.0, kAnother = 0.5, kFollows = 0.05;
-  static constexpr double kNone = 1e300;
-  struct State {
-    double cost = kNone, phase_s = 0.0;
-    int before = 0;
-  };
-
-  double cost_of_stretch(std::size_t from, std::size_t end, double period_s, int first,
-                         std::vector<int>* numbers) const {
-    constexpr std::size_t kBegins = 15;
-    Series phases_s;
-    for (std::size_t i = from; i < std::min(end, from + kBegins); ++i)
-      phases_s.push_back(time_s_[i] - period_s * static_cast<double>(i - from));
-    std::vector<State> now(kStates);
-    now[0] = {0.0, quantile(std::move(phases_s), 0.5), 0};
-    std::vector<std::vector<int>> before;
-    std::vector<int> sure{0};
-    for (std::size_t i = from + 1; i < end; ++i) {
-      const int best = likeliest(now), shift = best >= kKept ? best - kKept / 2 : 0;
-      sure.push_back(sure.back() + shift);
-      const double gap_s = time_s_[i] - time_s_[i - 1];
-      const int most = std::clamp(static_cast<int>((gap_s + 5.0 * tremble_s_) / period_s), 0, kPause);
-      std::vector<State> next(kStates);
-      for (int k = 0; k < kStates; ++k) {
-        if (now[k].cost == kNone) continue;
-        for (int missing = 0; missing <= most; ++missing) {
-          const int to = k + missing - shift;
-          if (to < 0 || to >= kStates) continue;
-          const double number = static_cast<double>(i - from) + sure.back() + to;
-          const double off = (time_s_[i] - now[k].phase_s - period_s * number) / tremble_s_;
-          const double cost = now[k].cost + std::min(off * off, kMostOff2) +
-                              (missing > 0 ? kIsMissing + kAnother * (missing - 1) : 0.0);
-          if (cost < next[to].cost)
-            next[to] = {cost, now[k].phase_s + kFollows * std::clamp(off, -2.0, 2.0) * tremble_s_, k};
-        }
-      }
-      now = std::move(next);
-      if (!numbers) continue;
-      before.emplace_back();
-      for (const State& s : now) before.back().push_back(s.before);
-    }
-    int k = likeliest(now);
-    const double cost = now[k].cost;
-    if (!numbers) return cost;
-    const std::size_t rows = end - from, at = numbers->size();
-    numbers->resize(at + rows);
-    for (std::size_t i = rows; i-- > 0;) {
-      (*numbers)[at + i] = first + static_cast<int>(i) + sure[i] + k;
-      if (i > 0) k = before[i - 1][static_cast<std::size_t>(k)];
-    }
-    return cost;
-  }
-
-  static int likeliest(const std::vector<State>& states) {
-    return static_cast<int>(
-        std::min_element(states.begin(), states.end(), [](const State& a, const State& b) { return a.cost < b.cost; }) -
-        states.begin());
-  }
-
-  const Series& time_s_;
-  double tremble_s_;
-};
-
-// The same where stamps tremble too much for each to tell its number, but rows that are missing step the phase of all
-// behind them; nothing where none is, or where no one period explains the stamps. Missing rows make the typical period
-// seem longer: the likeliest near it is sought.
-std::vector<int> numbers_told_by_steps(const Series& time_s, double& period_s) {
-  constexpr double kFrom = 0.98, kTo = 1.004, kStep = 0.002, kFinest = 1e-4;  // of the period
-  constexpr double kExplained = 1.5, kDecisively = 100.0;                     // of twice the log-likelihood: a row; all
-  Series off_s;
-  for (std::size_t i = 1; i < time_s.size(); ++i) off_s.push_back(time_s[i] - time_s[i - 1] - period_s);
-  const double tremble_s = scatter_about_zero(std::move(off_s)) / std::sqrt(2.0);
-  if (!(tremble_s > 0.0)) return {};
-  const MissingRows missing(time_s, tremble_s);
-  double best_s = period_s, least = missing.cost(period_s);
-  const double as_it_seems = least;
-  const auto try_near = [&](double middle_s, double low, double high, double step) {
-    for (double times = low; times <= high; times += step)
-      if (const double cost = missing.cost(times * middle_s); cost < least) least = cost, best_s = times * middle_s;
-  };
-  try_near(period_s, kFrom, kTo, kStep);
-  for (double step = 0.5 * kStep; step > kFinest; step *= 0.5) try_near(double(best_s), 1.0 - step, 1.0 + step, step);
-  std::vector<int> numbers;
-  missing.cost(best_s, &numbers);
-  const auto rows = static_cast<double>(time_s.size());
-  const bool any = numbers.back() - numbers.front() > static_cast<int>(time_s.size()) - 1;
-  if (!any || least > kExplained * rows || least > as_it_seems - kDecisively) return {};
-  period_s = period_by_lines(time_s, numbers, best_s);
-  return numbers;
-}
-
 // Of rows whose numbers are told only where readings pause: missing ones are counted.
 std::vector<int> ends_of_told(const std::vector<int>& numbers) {
   std::vector<int> ends;
   for (std::size_t i = 1; i < numbers.size(); ++i)
-    if (numbers[i] - numbers[i - 1] >= kPause) ends.push_back(static_cast<int>(i));
+    if (numbers[i] - numbers[i - 1] >= kPausePeriods) ends.push_back(static_cast<int>(i));
   ends.push_back(static_cast<int>(numbers.size()));
   return ends;
 }
@@ -369,8 +205,7 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   even.time_s = time_s;
   const double grain_s = grain_of(time_s);
   const double round_s = even.period_s;  // of twenty rows, where what stamps are rounded by cancels
-  std::vector<int> numbers = numbers_told_by_beat(time_s, even.period_s);
-  if (numbers.empty()) numbers = numbers_told_by_steps(time_s, even.period_s);
+  std::vector<int> numbers = told_numbers(time_s, even.period_s);
   const bool told = !numbers.empty();
   const std::vector<int> ends = told ? ends_of_told(numbers) : ends_of_stretches(time_s, even.period_s, look);
   if (!told) {

@@ -9,9 +9,9 @@
 
 namespace odolab {
 
-// By the truth's stamps, which are `truth_late_s` behind the wheels': stretches of three samples and more that are the same to the bit, the first sample's stamp to the last one's; none
-// where the wheels stand in all of them. At rest a truth may repeat itself; where it does so on the way, a rest is no
-// more to be believed.
+// By the truth's stamps, which are `truth_late_s` behind the wheels': stretches of three samples and more that are the
+// same to the bit, the first sample's stamp to the last one's; none where the wheels stand in all of them. At rest a
+// truth may repeat itself; where it does so on the way, a rest is no more to be believed.
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
                            const DifferentialDrive& drive, double truth_late_s);
 

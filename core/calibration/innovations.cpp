@@ -39,7 +39,7 @@ InnovationSums passed_once(const InnovationRun& run, const SummedRun& summed, co
 }
 
 // What each of several sums says, by its weight: README, Eq. 7b.
-InnovationSums over_headings(std::vector<InnovationSums> sums) {
+InnovationSums over_headings(const std::vector<InnovationSums>& sums) {
   std::vector<double> likelihoods;
   for (const InnovationSums& s : sums) likelihoods.push_back(s.chi2 + s.log_determinant);
   const HeadingsWeighed by = headings_weighed(likelihoods);
@@ -70,7 +70,7 @@ InnovationSums passed(const InnovationRun& run, const SummedRun& summed, const I
   std::vector<InnovationSums> sums;
   for (const UnknownHeading& begins : headings_all_around(run, summed, model, options.first, end_of(run, options)))
     sums.push_back(passed_once(run, summed, model, options, &begins));
-  return sums.empty() ? passed_once(run, summed, model, options) : over_headings(std::move(sums));
+  return sums.empty() ? passed_once(run, summed, model, options) : over_headings(sums);
 }
 
 // By the gate. What comes behind an outlier at the very start contradicts it: then the filter starts at the first

@@ -32,12 +32,7 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
     model.truth.time_offset_s = fit.time_offset_s[static_cast<std::size_t>(run)];
     return model;
   };
-  const std::vector<std::optional<AlignedClock>> found = aligned_clocks(runs, model_of);
-  if (!worth_a_try(found)) return {};
-  std::vector<AlignedClock> clocks;
-  for (std::size_t r = 0; r < found.size(); ++r)
-    clocks.push_back(found[r].value_or(AlignedClock{fit.time_offset_s[r], 0.0, 0.0}));
-  return clocks;
+  return moved_clocks(runs, model_of).value_or(std::vector<AlignedClock>{});
 }
 
 // Of fewer samples of the truth, where its noise lasts from one to the next.

@@ -30,9 +30,10 @@ std::vector<WheelSample> bridged(std::vector<WheelSample> readings, const TimeSt
 bool leaves_out(const InnovationRun& run, double from_s, double to_s);
 
 // Writes into `cut` between which truth samples the way is not known, where the truth's clock is late by `offset_s` and
-// the wheels' is fast by `rate`: across what the run leaves out, and further beyond the first and the last reading than the wheels can be taken to go
-// on as they did, which is a tenth of an interval where they turn and one interval where they rest. To be asked again
-// when the clock is known better, but not within a fit: a sample more would look like a worse one.
+// the wheels' is fast by `rate`: across what the run leaves out, and further beyond the first and the last reading than
+// the wheels can be taken to go on as they did, which is a tenth of an interval where they turn and one interval where
+// they rest. To be asked again when the clock is known better, but not within a fit: a sample more would look like a
+// worse one.
 void cut_where_left_out(InnovationRun& run, double offset_s, double rate = 0.0);
 
 }  // namespace odolab

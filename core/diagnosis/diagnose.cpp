@@ -185,10 +185,7 @@ std::vector<Recording> with_wheels(const std::vector<Recording>& recordings, con
   const DifferentialDrive& drive = std::get<DifferentialDrive>(nominal.kind);
   std::vector<Recording> all;
   for (const Recording& r : recordings)
-    all.push_back(r.channel("command_speed_mps") && r.channel("command_yaw_rate_radps") &&
-                          wheel_samples(r, drive).size() < 2
-                      ? with_obeying_wheels(r, drive)
-                      : r);
+    all.push_back(has_commands_alone(r, wheel_samples(r, drive)) ? with_obeying_wheels(r, drive) : r);
   return all;
 }
 

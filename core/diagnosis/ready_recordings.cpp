@@ -175,13 +175,7 @@ std::optional<std::vector<AlignedClock>> clocks_by_moments(const ReadyRecordings
     if (!run) return std::nullopt;
     runs.push_back(*std::move(run));
   }
-  const auto model = [&](int run) { return model_of(ready.calibration, static_cast<std::size_t>(run)); };
-  const std::vector<std::optional<AlignedClock>> found = aligned_clocks(runs, model);
-  if (!worth_a_try(found)) return std::nullopt;
-  std::vector<AlignedClock> clocks;
-  for (std::size_t r = 0; r < found.size(); ++r)
-    clocks.push_back(found[r].value_or(AlignedClock{model(static_cast<int>(r)).truth.time_offset_s}));
-  return clocks;
+  return moved_clocks(runs, [&](int run) { return model_of(ready.calibration, static_cast<std::size_t>(run)); });
 }
 
 // As the likelihood has them, where they run apart beyond doubt.
@@ -219,16 +213,14 @@ std::optional<KnownRun> known_run(const ReadyRecordings& ready, const CheckedRec
   if (!run) return std::nullopt;
   const ClocksPutRight* right = ready.clocks_put_right ? &*ready.clocks_put_right : nullptr;
   KnownRun known{*std::move(run), model_of(ready.by_right_clocks(), r), {}};
-  double& late_s = known.model.truth.time_offset_s;
-  known.clocks = {known.run.truth.front().time_s, late_s, 0.0};
+  const double first_s = known.run.truth.front().time_s;
+  known.clocks = {first_s, known.model.truth.time_offset_s, 0.0};
   if (!right) return known;
   const std::optional<AlignedClock> own =
       r < right->clocks.size() ? right->clocks[r] : aligned_clock(known.run, known.model);
   if (!own) return known;
-  late_s = known.clocks.offset_s = own->offset_s;
-  known.clocks.rate = own->rate;
-  put_clock_right(known.run, own->rate, late_s);
-  cut_where_left_out(known.run, late_s);
+  known.clocks = {first_s, own->offset_s, own->rate};
+  put_clock_right(known.run, known.model, *own);
   return known;
 }
 

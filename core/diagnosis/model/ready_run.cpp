@@ -41,6 +41,12 @@ InnovationModel model_of(const LeastSquaresCalibration& calibration, std::size_t
   return model;
 }
 
+void put_clock_right(InnovationRun& run, InnovationModel& model, const AlignedClock& clock) {
+  model.truth.time_offset_s = clock.offset_s;
+  put_clock_right(run, clock.rate, clock.offset_s);
+  cut_where_left_out(run, clock.offset_s);
+}
+
 std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecording>& checked, const Vehicle& vehicle,
                                                   const LeastSquaresCalibration& calibration, bool were_fitted,
                                                   const std::vector<AlignedClock>& clocks) {
@@ -54,11 +60,7 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     InnovationModel model = model_of(calibration, were_fitted ? r : kOfNone);
     const double longest_s = averaging_s(*runs[r]);
     InnovationRun on_right_clock = *runs[r];
-    if (r < clocks.size()) {
-      model.truth.time_offset_s = clocks[r].offset_s;
-      put_clock_right(on_right_clock, clocks[r].rate, clocks[r].offset_s);
-      cut_where_left_out(on_right_clock, clocks[r].offset_s);
-    }
+    if (r < clocks.size()) put_clock_right(on_right_clock, model, clocks[r]);
     on_right_clock.set_aside = runs[r]->set_aside = outlying(on_right_clock, model);
     InnovationRun averaged = with_averaged_truth(on_right_clock, model, longest_s);
     averaged.wheels = runs[r]->wheels;

@@ -41,6 +41,10 @@ std::vector<WheelSample> obeying_wheels(const std::vector<CommandSample>& comman
   return wheels;
 }
 
+bool has_commands_alone(const Recording& recording, const std::vector<WheelSample>& wheels) {
+  return wheels.size() < 2 && recording.channel("command_speed_mps") && recording.channel("command_yaw_rate_radps");
+}
+
 Recording with_obeying_wheels(const Recording& recording, const DifferentialDrive& drive) {
   const std::vector<WheelSample> wheels = obeying_wheels(command_samples(recording), drive);
   std::vector<WheelSample> all;

@@ -8,6 +8,9 @@
 
 namespace odolab {
 
+// Whether a recording of these wheels has no more to drive by than commands.
+bool has_commands_alone(const Recording& recording, const std::vector<WheelSample>& wheels);
+
 // The rotation of wheels that do what they are told at once, at the time of each command.
 std::vector<WheelSample> obeying_wheels(const std::vector<CommandSample>& commands, const DifferentialDrive& drive);
 

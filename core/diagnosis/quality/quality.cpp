@@ -107,7 +107,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle, con
   const Recording& recording = even ? even->recording : as_logged;
   out.recording = recording;
   std::vector<WheelSample> wheels = without_repeated(wheel_samples(recording, drive));
-  if (wheels.size() < 2 && recording.channel("command_speed_mps") && recording.channel("command_yaw_rate_radps")) {
+  if (has_commands_alone(recording, wheels)) {
     out.from_commands = true;
     out.recording = with_obeying_wheels(recording, drive);
     wheels = without_repeated(obeying_wheels(command_samples(recording), drive));

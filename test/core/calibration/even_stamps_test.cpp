@@ -86,8 +86,8 @@ TEST(EvenStamps, ReadingsThatArriveLateAreGivenTheirEvenTimesBack) {
   EXPECT_NEAR(even->period_s, kStampPeriod_s, 1e-4);  // lateness over the root of 1500 rows and 20 rows apart
 }
 
-// Two hundred readings a second over a link that holds them up for more than one: each has the time that its number says,
-// though its stamp tells of none.
+// Over a link that holds readings up for more than one of them: each has the time that its number says, though its
+// stamp tells of none.
 TEST(EvenStamps, ThatTrembleByMoreThanAPeriodAreGivenTheirEvenTimesBack) {
   Random random(11);
   const Series taken = evenly(), rad = read_at(taken);
@@ -196,8 +196,8 @@ TEST(EvenStamps, RowsThatAreOftenMissingLeaveTheirGapWhereStampsTrembleLittle) {
   }
 }
 
-// Each stamp may be its own row's or the next, but a row that is missing is a step of all behind it. Unseen, one in eighty
-// had made a period 0.8 % too long, and wheels 12 % too large.
+// Each stamp may be its own row's or the next, but a row that is missing is a step of all behind it. Unseen, one in
+// eighty had made a period 0.8 % too long, and wheels 12 % too large.
 TEST(EvenStamps, MissingRowsLeaveTheirGapWhereStampsTrembleByAThirdOfAPeriod) {
   Random random(12);
   Series taken, stamps;
