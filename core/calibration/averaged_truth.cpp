@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/base/stamp_digits.h"
 #include "core/geometry/angles.h"
 
 namespace odolab {
@@ -63,7 +64,7 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
   out.cut.clear();
   const std::size_t n = run.truth.size();
   for (std::size_t first = 0, end; first < n; first = end) {
-    const double until_s = run.truth[first].time_s + (static_cast<double>(most) - 0.5) * interval_s;
+    const double until_s = run.truth[first].time_s + (static_cast<double>(most) - 0.5) * interval_s - kStampDigits_s;
     for (end = first + 1; end < n && end - first < most && run.truth[end].time_s < until_s && !is_cut(run, end);) ++end;
     // Where all of them contradict the model they are one sample that does, for others to judge.
     const auto of_set_aside =
@@ -72,7 +73,7 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
     const bool are_all = static_cast<std::size_t>(of_set_aside) == end - first;
     Pose axle = poses[first], sum;  // of what the truth has beyond the prediction
     std::vector<Pose> predicted;
-    double times_s = 0.0, used = 0.0, headings = 0.0;
+    double times_s = 0.0, used = 0.0, headings = 0.0;  // times since the first
     for (std::size_t k = first; k < end; ++k) {
       if (k > first) axle = axle * summed.motions[k - 1].motion;
       predicted.push_back(axle * model.truth.axle_T_tracked);
@@ -81,13 +82,16 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
       sum.x_m += t.position.x_m - predicted.back().x_m;
       sum.y_m += t.position.y_m - predicted.back().y_m;
       if (t.heading_rad) sum.heading_rad += wrapped(*t.heading_rad - predicted.back().heading_rad), ++headings;
-      times_s += t.time_s;
+      times_s += t.time_s - run.truth[first].time_s;
       ++used;
     }
     std::size_t middle = first;
-    const auto away_s = [&](std::size_t k) { return std::abs(run.truth[k].time_s - times_s / used); };
+    const auto away_s = [&](std::size_t k) {
+      return std::abs(run.truth[k].time_s - run.truth[first].time_s - times_s / used);
+    };
+    // Of an even number two are in the middle: the earlier one, and not whichever the last digit of a stamp makes it.
     for (std::size_t k = first + 1; k < end; ++k)
-      if (away_s(k) < away_s(middle)) middle = k;
+      if (away_s(k) < away_s(middle) - kStampDigits_s) middle = k;
     TruthSample mean = run.truth[middle];
     const Pose& at = predicted[middle - first];
     mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};

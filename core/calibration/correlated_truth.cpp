@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/quantile.h"
+#include "core/base/stamp_digits.h"
 #include "core/geometry/angles.h"
 #include "core/recording/truth_left_out.h"
 
@@ -74,7 +75,7 @@ Recording with_truth_apart(const Recording& recording, double apart_s) {
     if (recording.time_s[i] < next_s)
       dropped[i] = 1;
     else
-      next_s = recording.time_s[i] + apart_s;
+      next_s = recording.time_s[i] + apart_s - kStampDigits_s;
   }
   leave_truth_out(out, dropped);
   return out;

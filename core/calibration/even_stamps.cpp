@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/quantile.h"
+#include "core/base/stamp_digits.h"
 #include "core/calibration/numbered_rows.h"
 
 namespace odolab {
@@ -22,12 +23,23 @@ constexpr double kEven = 0.001;    // of a period: rounded stamps
 constexpr double kStandardErrors = 4.0;
 constexpr double kMatters = 0.5;  // of the readings' own roughness: what lateness adds below that is one part in ten
 
-// The typical period: so many rows at a time that packets do not hide it.
-double period_of(const Series& time_s, int look) {
-  Series gaps;
+// Periods by so many rows at a time that packets do not hide them.
+Series periods_of(const Series& time_s, int look) {
+  Series periods;
   const auto rows = static_cast<std::size_t>(look);
-  for (std::size_t i = rows; i < time_s.size(); ++i) gaps.push_back((time_s[i] - time_s[i - rows]) / look);
-  return quantile(std::move(gaps), 0.5);
+  for (std::size_t i = rows; i < time_s.size(); ++i) periods.push_back((time_s[i] - time_s[i - rows]) / look);
+  return periods;
+}
+
+// The typical one. Of stamps that are rounded to a grain the mean of those that are a grain off the middle one at most,
+// since between two grains there is none.
+double typical_period_s(const Series& periods, int look, double grain_s) {
+  const double middle_s = quantile(periods, 0.5), most_s = 1.01 * grain_s / look;
+  if (grain_s == 0.0) return middle_s;
+  double sum_s = 0.0, count = 0.0;
+  for (const double period_s : periods)
+    if (std::abs(period_s - middle_s) <= most_s) sum_s += period_s, count += 1.0;
+  return count > 0.0 ? sum_s / count : middle_s;
 }
 
 // Ends of the stretches in which no row is missing. Lateness has a least value: the lower fifth of the rows before and
@@ -125,10 +137,9 @@ double rows_of_a_tick(const Series& time_s, double period_s) {
 
 // What stamps are rounded to, the coarsest that all of them are multiples of; 0 where there is none.
 double grain_of(const Series& time_s) {
-  constexpr double kDigits_s = 1e-6;  // of a stamp as it is written
   for (const double grain_s : {0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001})
     if (std::all_of(time_s.begin(), time_s.end(),
-                    [&](double t) { return std::abs(t - grain_s * std::round(t / grain_s)) < kDigits_s; }))
+                    [&](double t) { return std::abs(t - grain_s * std::round(t / grain_s)) < kStampDigits_s; }))
       return grain_s;
   return 0.0;
 }
@@ -198,13 +209,14 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   const int n = static_cast<int>(time_s.size());
   if (n < kLeastRows || are_even(time_s)) return std::nullopt;
   EvenStamps even;
-  const double of_a_tick = rows_of_a_tick(time_s, period_of(time_s, kLook));
+  const double grain_s = grain_of(time_s);
+  const double of_a_tick = rows_of_a_tick(time_s, typical_period_s(periods_of(time_s, kLook), kLook, grain_s));
   const int look = std::clamp(static_cast<int>(10.0 * of_a_tick), kLook, n / 4);
-  even.period_s = period_of(time_s, look);
+  const Series periods = periods_of(time_s, look);
+  even.period_s = typical_period_s(periods, look, grain_s);
   if (!(even.period_s > 0.0)) return std::nullopt;
   even.time_s = time_s;
-  const double grain_s = grain_of(time_s);
-  const double round_s = even.period_s;  // of twenty rows, where what stamps are rounded by cancels
+  const double round_s = quantile(periods, 0.5);  // where what stamps are rounded by cancels in so many rows
   std::vector<int> numbers = told_numbers(time_s, even.period_s);
   const bool told = !numbers.empty();
   const std::vector<int> ends = told ? ends_of_told(numbers) : ends_of_stretches(time_s, even.period_s, look);
@@ -216,8 +228,10 @@ std::optional<EvenStamps> even_stamps(const Series& time_s, const std::vector<Se
   int from = 0, laid = 0, blocks = 0, wandering = 0;
   for (const int end : ends) {
     if (end - from >= kLeastStretch) {
+      const double own_s = (time_s[end - 1] - time_s[from]) / (numbers[end - 1] - numbers[from]);
       if (!lay_straight(time_s, numbers, from, end, round_s, grain_s, even.time_s) &&
-          !lay_straight(time_s, numbers, from, end, even.period_s, grain_s, even.time_s))
+          !lay_straight(time_s, numbers, from, end, even.period_s, grain_s, even.time_s) &&
+          !lay_straight(time_s, numbers, from, end, own_s, grain_s, even.time_s))
         lay_line(time_s, numbers, from, end, even.period_s, even.time_s);
       for (int i = from; i < end; ++i) stretch[i] = i > from && numbers[i] - numbers[i - 1] == 1 ? stretch[i - 1] : i;
       laid += end - from;

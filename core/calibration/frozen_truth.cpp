@@ -2,20 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace odolab {
 
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
                            const DifferentialDrive& drive, double truth_late_s) {
+  // Where no headings are measured, what turns on the spot may stay where it is.
+  const bool has_headings = std::any_of(
+      truth.begin(), truth.end(), [&](const TruthSample& t) { return t.heading_rad != truth.front().heading_rad; });
   std::vector<double> rolled_m{0.0};
-  for (std::size_t i = 1; i < wheels.size(); ++i)
-    rolled_m.push_back(rolled_m.back() +
-                       0.5 * drive.wheel_radius_left_m * std::abs(wheels[i].left_rad - wheels[i - 1].left_rad) +
-                       0.5 * drive.wheel_radius_right_m * std::abs(wheels[i].right_rad - wheels[i - 1].right_rad));
-  const auto rolled_by = [&](double truth_stamp_s) {
-    const auto it = std::lower_bound(wheels.begin(), wheels.end() - 1, truth_stamp_s - truth_late_s,
-                                     [](const WheelSample& w, double t) { return w.time_s < t; });
-    return rolled_m[static_cast<std::size_t>(it - wheels.begin())];
+  std::vector<Vec2> place{Vec2{}};  // as the wheels say
+  double heading_rad = 0.0;
+  for (std::size_t i = 1; i < wheels.size(); ++i) {
+    const double left_m = drive.wheel_radius_left_m * (wheels[i].left_rad - wheels[i - 1].left_rad),
+                 right_m = drive.wheel_radius_right_m * (wheels[i].right_rad - wheels[i - 1].right_rad);
+    rolled_m.push_back(rolled_m.back() + 0.5 * (std::abs(left_m) + std::abs(right_m)));
+    heading_rad += (right_m - left_m) / drive.wheelbase_m;
+    place.push_back(place.back() + rotated({0.5 * (left_m + right_m), 0.0}, heading_rad));
+  }
+  // By the readings between the stamps alone: a wheel may set off just behind the last one.
+  const auto moved_between = [&](double from_s, double to_s) {
+    const auto earlier = [](const WheelSample& w, double t) { return w.time_s < t; };
+    const auto from =
+                   std::lower_bound(wheels.begin(), wheels.end() - 1, from_s - truth_late_s, earlier) - wheels.begin(),
+               behind =
+                   std::lower_bound(wheels.begin(), wheels.end() - 1, to_s - truth_late_s, earlier) - wheels.begin();
+    const auto to = std::max(from, behind - 1);
+    const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
+    return has_headings ? rolled_m[end] - rolled_m[begin] : length(place[end] - place[begin]);
   };
   // Of a truth that is rounded, poses within one step of it are the same.
   double step_m = 0.01;
@@ -24,7 +39,7 @@ TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vec
       step_m = std::min(step_m, by);
   const double least_rolled_m = std::max(0.005, 2.0 * step_m);
   TimeStretches repeated;
-  bool on_the_way = false;
+  double shortest_s = std::numeric_limits<double>::infinity();  // of those on the way
   for (std::size_t i = 0; i < truth.size();) {
     std::size_t j = i + 1;
     while (j < truth.size() && truth[j].position.x_m == truth[i].position.x_m &&
@@ -32,11 +47,14 @@ TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vec
       ++j;
     if (j - i >= 3) {
       repeated.push_back({truth[i].time_s, truth[j - 1].time_s});
-      on_the_way = on_the_way || rolled_by(truth[j - 1].time_s) - rolled_by(truth[i].time_s) > least_rolled_m;
+      if (moved_between(truth[i].time_s, truth[j - 1].time_s) > least_rolled_m)
+        shortest_s = std::min(shortest_s, truth[j - 1].time_s - truth[i].time_s);
     }
     i = j;
   }
-  return on_the_way ? repeated : TimeStretches{};
+  // What lasts far shorter is a slow vehicle's within one step of a rounded truth.
+  std::erase_if(repeated, [&](const auto& t) { return t.second - t.first < 0.5 * shortest_s; });
+  return repeated;
 }
 
 std::string in_words_of_frozen(std::size_t times) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
@@ -374,9 +375,19 @@ void LikelihoodFit::add(Sums& total, int recording, const InnovationSums& s) con
 
 std::vector<LikelihoodFit::Stretch> LikelihoodFit::noise_stretches() const {
   const int every = std::max(1, (truth_samples() + kNoiseSamples - 1) / kNoiseSamples);
+  // Which are taken does not hang on the order in which the runs were given: they are counted by their lengths.
+  std::vector<int> counted(runs_.size());
+  std::iota(counted.begin(), counted.end(), 0);
+  std::stable_sort(counted.begin(), counted.end(), [&](int a, int b) {
+    const auto length = [&](int r) {
+      const InnovationRun& run = runs_[static_cast<std::size_t>(r)];
+      return std::tuple{run.truth.size(), run.wheels.size(), run.wheels.back().time_s - run.wheels.front().time_s};
+    };
+    return length(a) < length(b);
+  });
   std::vector<Stretch> stretches;
   int number = 0;
-  for (int r = 0; r < static_cast<int>(runs_.size()); ++r) {
+  for (const int r : counted) {
     const int n = static_cast<int>(runs_[r].truth.size());
     if (every == 1) {
       stretches.push_back({r, 0, n});

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stamp_digits.h"
 #include "core/calibration/parabola.h"
 
 namespace odolab {
 
 namespace {
 
-constexpr double kHalfWindow_s = 0.25;
+constexpr double kHalfWindow_s = 0.25 + kStampDigits_s;
 constexpr int kFewestForACurve = 2;  // to either side; a parabola through three readings smooths nothing
 
 }  // namespace

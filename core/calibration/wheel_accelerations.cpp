@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/base/stamp_digits.h"
 #include "core/calibration/parabola.h"
 
 namespace odolab {
@@ -20,8 +21,9 @@ std::vector<BothWheels> accelerations_of(const std::vector<WheelSample>& reading
   std::vector<BothWheels> of(n - 1);
   for (std::size_t i = 0, lo = 0, hi = 1; i + 1 < n; ++i) {
     const double middle_s = 0.5 * (readings[i].time_s + readings[i + 1].time_s);
-    while (middle_s - readings[lo].time_s > 0.5 * over_s) ++lo;
-    while (hi + 1 < n && readings[hi + 1].time_s - middle_s <= 0.5 * over_s) ++hi;
+    const double half_s = 0.5 * over_s + kStampDigits_s;
+    while (middle_s - readings[lo].time_s > half_s) ++lo;
+    while (hi + 1 < n && readings[hi + 1].time_s - middle_s <= half_s) ++hi;
     const std::size_t from = std::min(lo, i >= 1 ? i - 1 : i);
     const std::size_t to = std::max(hi, std::min(i + 2, n - 1));
     if (to - from + 1 < kFewestReadings) continue;

@@ -228,19 +228,27 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
   return Looked{*std::move(ready), std::move(predictor), *std::move(sought)};
 }
 
+// Whether beside what went on for a while something is found at a place or a moment, or without a name: then that was
+// where it did most, and no incident.
+bool is_met_again(const Finding& f) {
+  if (f.effect == "unknown") return !f.is_parted;
+  const Effect* const e = catalogue_entry(f.as_active());
+  return e && (e->local || e->of_one_recording || e->and_later_recordings);
+}
+
 // `shows_beside_held_out`: whether what has no name shows only together with what was held out. `parted`: where the
 // truth and the wheels are known to part, which is left out. `by_names`: what these leave has no say.
 Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                             const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                            bool* shows_beside_held_out = nullptr, const std::vector<TimeStretches>& parted = {},
+                            bool* shows_beside_held_out = nullptr, const Incidents& parted = {},
                             bool by_names = false) {
   const Vehicle as_mounted = turned_as_driven(with_wheels(train, nominal), nominal);
-  Result<Looked> looked = looked_at(train, held_out, as_mounted, options, progress, false, parted);
+  Result<Looked> looked = looked_at(train, held_out, as_mounted, options, progress, false, parted.of_each);
   if (!looked) return looked.error();
   // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
   // samples, and with names all of them are white, it was that.
   if (looked->ready.told().truth_apart_s > 0.0 && looked->names_explain_all()) {
-    Result<Looked> by_all = looked_at(train, held_out, as_mounted, options, progress, true, parted);
+    Result<Looked> by_all = looked_at(train, held_out, as_mounted, options, progress, true, parted.of_each);
     if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
     if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
   }
@@ -260,9 +268,15 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   }
   if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
   // One incident that has no name hides all else.
-  if (adequacy.unnamed && parted.empty())
-    if (const std::vector<TimeStretches> apart = parted_stretches(*ready, as_mounted); !apart.empty())
+  if (adequacy.unnamed && parted.empty()) {
+    if (const Incidents apart = parted_stretches(*ready, as_mounted); !apart.empty())
       return diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, apart);
+    if (const Incidents of = incidents_of(*adequacy.unnamed, train.size() + held_out.size()); !of.empty()) {
+      Result<Diagnosis> beside = diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, of);
+      if (beside && std::none_of(beside->findings.begin(), beside->findings.end(), is_met_again)) return beside;
+      if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
+    }
+  }
 
   Diagnosis d;
   d.calibration = d.calibration_alone = ready->calibration;

@@ -4,6 +4,8 @@
 
 #include "core/diagnosis/generic/bursts.h"
 #include "core/diagnosis/generic/contradicted.h"
+#include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/generic/stretches.h"
 
 namespace odolab {
 
@@ -39,6 +41,20 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
   return adequacy;
 }
 
+// What goes on for a while may have been named a patch or a bump, which the vehicle is on as long.
+std::optional<Unnamed> what_goes_on_instead_of_places(const Named& named, double error) {
+  double said = 0.0;
+  for (const ScoredCandidate& e : named.selected.evidence)
+    if (e.effect->local) said += e.test.judged();
+  if (said <= 0.0) return std::nullopt;
+  JointModel without = named.joint;
+  std::erase_if(without.accepted, [](const AcceptedEffect& a) { return a.effect->local; });
+  without.fit(3);
+  without.fit_noise_and_all();
+  std::optional<Unnamed> lasting = what_goes_on_for_a_while(without, 0.0, error);
+  return lasting && lasting->gain > (1.0 + kMostLeft) * said ? lasting : std::nullopt;
+}
+
 }  // namespace
 
 Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const Predictor& predictor,
@@ -55,7 +71,12 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   double explained = 0.0;
   for (const ScoredCandidate& e : named.selected.evidence)
     explained += counted_for_the_unnamed(*e.effect, e.test.statistic);
-  if (!adequacy.unnamed) adequacy.unnamed = what_comes_in_bursts(named.joint, explained, error);
+  if (!adequacy.unnamed) {
+    adequacy.unnamed = what_comes_in_bursts(named.joint, explained, error);
+    std::optional<Unnamed> lasting = what_goes_on_for_a_while(named.joint, explained, error);
+    if (lasting && (!adequacy.unnamed || lasting->p_value < adequacy.unnamed->p_value)) adequacy.unnamed = lasting;
+    if (!adequacy.unnamed) adequacy.unnamed = what_goes_on_instead_of_places(named, error);
+  }
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
   return adequacy;
 }

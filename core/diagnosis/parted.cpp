@@ -70,25 +70,32 @@ std::vector<TimeStretches> parted_in(const std::vector<CheckedRecording>& record
 
 }  // namespace
 
-std::vector<TimeStretches> parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
+Incidents parted_stretches(const ReadyRecordings& ready, const Vehicle& nominal) {
   std::vector<TimeStretches> all = parted_in(ready.train, 0, ready, nominal);
   const std::vector<TimeStretches> unseen = parted_in(ready.held_out, ready.train.size(), ready, nominal);
   all.insert(all.end(), unseen.begin(), unseen.end());
-  const bool none = std::all_of(all.begin(), all.end(), [](const TimeStretches& of) { return of.empty(); });
-  return none ? std::vector<TimeStretches>{} : all;
+  if (std::all_of(all.begin(), all.end(), [](const TimeStretches& of) { return of.empty(); })) return {};
+  return {std::move(all),
+          "the truth and the wheels part, and go on together from where it left them, as where a vehicle is lifted, "
+          "carried or dragged, or a tracker takes something else for it"};
 }
 
-void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const ReadyRecordings& ready) {
-  const std::string what =
-      "the truth and the wheels part, and go on together from where it left them, as where a vehicle is lifted, "
-      "carried or dragged, or a tracker takes something else for it; left out of all else";
+Incidents incidents_of(const Unnamed& unnamed, std::size_t recordings) {
+  if (unnamed.incidents.empty()) return {};
+  Incidents incidents{unnamed.incidents, unnamed.where.regime, unnamed.gain, unnamed.p_value};
+  incidents.of_each.resize(recordings);
+  return incidents;
+}
+
+void add_parted(Diagnosis& d, const Incidents& incidents, const ReadyRecordings& ready) {
+  const std::string what = incidents.what + "; left out of all else";
   std::vector<Finding> findings;
-  for (std::size_t r = 0; r < parted.size(); ++r) {
-    if (parted[r].empty()) continue;
+  for (std::size_t r = 0; r < incidents.of_each.size(); ++r) {
+    const TimeStretches& times = incidents.of_each[r];
+    if (times.empty()) continue;
     if (r >= ready.train.size()) {
       d.warnings.push_back(ready.held_out[r - ready.train.size()].recording.name +
-                           formatted(": from %.1f to %.1f s ", parted[r].front().first, parted[r].front().second) +
-                           what);
+                           formatted(": from %.1f to %.1f s ", times.front().first, times.front().second) + what);
       continue;
     }
     Finding f;
@@ -96,10 +103,11 @@ void add_parted(Diagnosis& d, const std::vector<TimeStretches>& parted, const Re
     f.is_parted = true;
     f.component = "vehicle";
     f.where.recording = ready.train[r].recording.name;
-    f.where.time_s = parted[r];
+    f.where.time_s = times;
     f.where.regime = "there " + what;
     f.sentence = "something that no entry of the catalogue describes: " + f.where.regime;
-    f.p_value = 0.0;
+    f.log_likelihood_gain = 0.5 * incidents.gain;
+    f.p_value = incidents.p_value;
     findings.push_back(std::move(f));
   }
   if (findings.empty()) return;

@@ -188,8 +188,11 @@ KnownAlready known_of(const JointModel& joint, const Open& open, const std::vect
                       const DrivingRange& range) {
   const JointModel drives = imagined(joint, all, range);
   std::vector<Question> elsewhere = open.questions;  // neither events nor places come back
-  for (Question& q : elsewhere)
+  for (Question& q : elsewhere) {
+    for (std::size_t k = 0; k < q.effect->shapes.size(); ++k)
+      if (q.effect->shapes[k].name == kSessionStart) q.shape[k] = 0.0;  // a session begins with the drive
     if (q.effect->of_one_recording || q.effect->and_later_recordings || q.effect->local) q.shape[0] = 1e6;
+  }
   const int runs = static_cast<int>(joint.runs().size()), count = runs + static_cast<int>(all.size());
   std::vector<MatrixXd> parts(static_cast<std::size_t>(count));
   parallel_for(count, [&](int i) {

@@ -42,6 +42,12 @@ struct Lying {
 constexpr Lying kLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}},       {0.1, {0.1}},
                             {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {0.06}, true}, {0.1, {}}};
 
+// Of the way over something it takes two thirds at most: a wheel that climbs as high as its axle takes one.
+bool is_climbed(double extra_m, const Climb& climb) {
+  constexpr double kSteepest = 2.0 / 3.0;
+  return climb.evenly_over_m == 0.0 || extra_m <= kSteepest * climb.evenly_over_m;
+}
+
 double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
 
 // Where the wheel stands.
@@ -185,6 +191,10 @@ Effect once(Wheel wheel) {
              "as a wheel climbs what takes 4 mm",
              "as a wheel climbs what takes 15 mm"};
   e.of_one_recording = true;
+  e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
+                        const std::vector<DriveView>&) {
+    return is_climbed(value[0], kOnce[static_cast<int>(shape.back())]);
+  };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return motions_by_number(Motions());
     return motions_by_number(at_moment(view, wheel, shape[1], kOnce[static_cast<int>(shape.back())]));
@@ -239,6 +249,10 @@ Effect each_time(Wheel wheel) {
   e.forms_of_the_scan = {0, 6};  // what begins at an edge is felt elsewhere, by where one comes from
   // As long as it is wide, and under either wheel, it would be a patch of floor.
   if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
+  e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
+                        const std::vector<DriveView>&) {
+    return is_climbed(value[0], kLying[static_cast<int>(shape.back())].climb);
+  };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     return motions_by_number(at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())]));
   };

@@ -393,7 +393,8 @@ Adequacy adequacy_of(const JointModel& joint, const JointModel& calibrated,
   Adequacy out;
   out.generic = generic_tests(joint);
   if (joint.scalars() > kFewestToTellNoise) look_again(joint, out.generic, of_what_is_left);
-  const GenericTest* sway = clearest_sway(out.generic, error);
+  // Of a truth that errs by nothing a last digit sways.
+  const GenericTest* sway = is_nothing(joint.gathered_error()) ? nullptr : clearest_sway(out.generic, error);
   if (sway) out.sway = {sway->variable, sway->sway->to_either_side_m};
   double explained = 0.0;
   std::vector<ScoredCandidate> of_vehicle;

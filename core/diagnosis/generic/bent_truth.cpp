@@ -45,7 +45,8 @@ std::vector<Motions> motions_of_bends(const DriveView& view, const FloorSquare& 
       const double dx = of[k].xx * c + of[k].xy * sn, dy = of[k].yx * c + of[k].yy * sn;
       turned[k] = -sn * dx + c * dy;  // of an arrow along the heading
       const double turn = headings_too && i > 0 ? turned[k] - before[k] : 0.0;
-      out[k][i] = {way * (c * dx + sn * dy), way * turned[k], turn};
+      // A heading that is bent alike shows where the bent way leads: nothing goes aside of it.
+      out[k][i] = {way * (c * dx + sn * dy), headings_too ? 0.0 : way * turned[k], turn};
       before[k] = turned[k];
     }
   }

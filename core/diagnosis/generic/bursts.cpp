@@ -8,6 +8,7 @@
 #include "core/base/formatted.h"
 #include "core/base/quantile.h"
 #include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/generic/trembling_truth.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/naming/material.h"
@@ -20,7 +21,6 @@ namespace {
 constexpr int kFreedom = 3;             // of a push: x, y, heading
 constexpr double kNinetySeven = 8.947;  // of that chi-square
 constexpr double kBurstsApart_s = 1.0;
-constexpr double kAbout_s = 5.0;  // to either side of a moment: what the truth is like about it
 // The mean excess of one moment is 2.16, and so is that of the largest of each second: 2.17 over 122 sets of five
 // programs in which nothing is missing. Noise with a heavier tail is noise still: with this mean the least likely of
 // them came to 0.03.
@@ -41,57 +41,6 @@ std::string bursts_in_words(const std::vector<Burst>& bursts, const JointModel& 
   return words;
 }
 
-// Whether a push displaces a rim by no more than rounded readings hide of it, where it begins and where it ends: wheels
-// that set off have turned by most of a count before any is read.
-bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint) {
-  constexpr double kCounts = 1.5;
-  const double displaced_m = std::hypot(push[0], push[1]) + 0.5 * joint.model.drive.wheelbase_m * std::abs(push[2]);
-  return displaced_m <= kCounts * largest_count_m(joint);
-}
-
-// A truth that is worse for a while, as a camera is of what is far from it, says as much less of what happens then. How
-// much worse its third differences tell, in which no motion shows, and no push but for a moment.
-class Tremble {
- public:
-  explicit Tremble(const JointModel& joint) {
-    double sum = 0.0, windows = 0.0;
-    for (const InnovationRun& run : joint.runs()) {
-      std::vector<Third>& of_run = thirds_.emplace_back();
-      for (std::size_t i = 3; i < run.truth.size(); ++i) {
-        const auto at = [&](std::size_t back) { return run.truth[i - back].position; };
-        const Vec2 third = at(0) - 3.0 * at(1) + 3.0 * at(2) - at(3);
-        of_run.push_back({0.5 * (run.truth[i].time_s + run.truth[i - 3].time_s), third});
-      }
-      for (double t = of_run.empty() ? 0.0 : of_run.front().time_s; !of_run.empty() && t < of_run.back().time_s;
-           t += kAbout_s)
-        if (const double variance = about(thirds_.size() - 1, t); variance > 0.0) sum += variance, ++windows;
-    }
-    if (windows > 0.0) usual_ = sum / windows;
-  }
-  // The variance about a moment, in times the mean of all.
-  double worse(int run, double time_s) const {
-    return usual_ > 0.0 ? about(static_cast<std::size_t>(run), time_s) / usual_ : 1.0;
-  }
-
- private:
-  struct Third {
-    double time_s;
-    Vec2 value;
-  };
-  double about(std::size_t run, double time_s) const {
-    const std::vector<Third>& all = thirds_[run];
-    const auto earlier = [](const Third& t, double at_s) { return t.time_s < at_s; };
-    std::vector<double> sizes;
-    for (auto t = std::lower_bound(all.begin(), all.end(), time_s - kAbout_s, earlier);
-         t != all.end() && t->time_s < time_s + kAbout_s; ++t)
-      sizes.insert(sizes.end(), {t->value.x_m, t->value.y_m});
-    return std::pow(scatter_about_zero(std::move(sizes)), 2);
-  }
-
-  std::vector<std::vector<Third>> thirds_;  // of each run
-  double usual_ = 0.0;
-};
-
 // How much wider than chi-square the moments about one scatter, by their median, which no burst moves.
 double scatter_about(const SearchedShapes& moments, std::size_t n) {
   constexpr double kMiddle = 2.366;  // the median of chi-square of kFreedom
@@ -100,7 +49,8 @@ double scatter_about(const SearchedShapes& moments, std::size_t n) {
   for (std::size_t k = 0; k < moments.statistics.size(); ++k) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[k]];
     const double away_s = std::abs(shape[1] - at[1]);
-    if (shape[0] == at[0] && away_s < kAbout_s && away_s > kBurstsApart_s) about.push_back(moments.statistics[k]);
+    if (shape[0] == at[0] && away_s < TremblingTruth::kAbout_s && away_s > kBurstsApart_s)
+      about.push_back(moments.statistics[k]);
   }
   return median(std::move(about)) / kMiddle;
 }
@@ -128,6 +78,16 @@ double chance_of(const std::vector<Burst>& bursts) {
   return chi_square_tail(2.0 * sum_of_bursts(bursts) / kByNoise, 2 * static_cast<int>(bursts.size()));
 }
 
+double beyond_noise(const std::vector<Burst>& bursts) {
+  return sum_of_bursts(bursts) - kByNoise * static_cast<double>(bursts.size());
+}
+
+bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint) {
+  constexpr double kCounts = 1.5;
+  const double displaced_m = std::hypot(push[0], push[1]) + 0.5 * joint.model.drive.wheelbase_m * std::abs(push[2]);
+  return displaced_m <= kCounts * largest_count_m(joint);
+}
+
 std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double explained, double error) {
   if (is_nothing(joint.gathered_error()) || counts_are_coarse(joint)) return std::nullopt;
   // Of a truth that is made up of several instruments place and heading err together, and each error would be a push.
@@ -138,7 +98,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   const SearchedShapes moments = best_shape(joint.views(), scan, *push);
   if (moments.statistics.empty()) return std::nullopt;
   const double scatter = std::max(1.0, scatter_of_statistics(moments.statistics, kFreedom));
-  const Tremble tremble(joint);
+  const TremblingTruth truth(joint);
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
@@ -147,7 +107,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
       if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
       // Both must say so: the moments about it are wide by what goes on for seconds, too, and a truth that trembles
       // more need not make them wide.
-      const double wide = std::min(tremble.worse(static_cast<int>(shape[0]), shape[1]), scatter_about(moments, n));
+      const double wide = std::min(truth.worse(static_cast<int>(shape[0]), shape[1]), scatter_about(moments, n));
       statistic = moments.statistics[n] / std::max(scatter, wide);
     }
     all.push_back({static_cast<int>(shape[0]), shape[1], statistic});
@@ -159,7 +119,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   if (bursts.size() < kFewestBursts) return std::nullopt;
   Unnamed u;
   u.p_value = chance_of(bursts);
-  u.gain = sum_of_bursts(bursts) - kByNoise * static_cast<double>(bursts.size());
+  u.gain = beyond_noise(bursts);
   if (u.p_value > error || u.gain < kMostLeft * explained) return std::nullopt;
   u.where.regime = "what happens at moments of its own, larger and more often than noise makes it (most of it in " +
                    bursts_in_words(bursts, joint) + ")";

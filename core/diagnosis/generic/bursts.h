@@ -25,5 +25,11 @@ std::vector<Burst> bursts_of(std::vector<Burst> statistics);
 
 // How likely so large excesses are by chance, where noise has as heavy a tail as any that was seen.
 double chance_of(const std::vector<Burst>& bursts);
+// Their sum, beyond what so many come to by such noise.
+double beyond_noise(const std::vector<Burst>& bursts);
+
+// Whether a push (x and y in m, heading in rad) displaces a rim by no more than rounded readings hide of it, where it
+// begins and where it ends: wheels that set off have turned by most of a count before any is read.
+bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint);
 
 }  // namespace odolab

@@ -21,13 +21,25 @@ Group hats_of(const std::string& name, const std::vector<DriveView>& views, cons
   if (seen.size() < 50) return g;
   const double low = seen[seen.size() / 100], high = seen[seen.size() - 1 - seen.size() / 100];
   if (high - low < 1e-6 || high - low < 2.0 * least) return g;
-  // Half by quantile, half even: rare regimes are heard too.
-  for (int k = 0; k < count; ++k) {
-    const double share = static_cast<double>(k) / (count - 1);
-    const double q = seen[static_cast<std::size_t>(share * static_cast<double>(seen.size() - 1))];
-    const double x = 0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low));
-    if (g.at.empty() || x > g.at.back() + std::max(0.02 * (high - low), least)) g.at.push_back(x);
-  }
+  // Half by quantile, half even: rare regimes are heard too. As many as stand far enough apart, so that they stand
+  // alike wherever one begins to count: to the left of a mirrored drive is what was to the right.
+  const auto stand = [&](int many) {
+    std::vector<double> at;
+    for (int k = 0; k < many; ++k) {
+      const double share = static_cast<double>(k) / (many - 1);
+      const double at_seen = share * static_cast<double>(seen.size() - 1);
+      const double q = 0.5 * (seen[static_cast<std::size_t>(std::floor(at_seen))] +
+                              seen[static_cast<std::size_t>(std::ceil(at_seen))]);
+      at.push_back(0.5 * std::clamp(q, low, high) + 0.5 * (low + share * (high - low)));
+    }
+    return at;
+  };
+  const auto are_apart = [&](const std::vector<double>& at) {
+    const double near = std::max(0.02 * (high - low), least);
+    return std::adjacent_find(at.begin(), at.end(), [&](double a, double b) { return b - a <= near; }) == at.end();
+  };
+  for (int many = count; many >= 2 && g.at.empty(); --many)
+    if (std::vector<double> at = stand(many); are_apart(at)) g.at = std::move(at);
   g.values = [hats = Hats(g.at), variable](const DriveView& view, std::vector<std::vector<double>>& out) {
     out.assign(hats.size(), std::vector<double>(view.steps.size(), 0.0));
     for (std::size_t i = 0; i < view.steps.size(); ++i) {

@@ -11,23 +11,31 @@ namespace odolab {
 
 namespace {
 
-// How far to either side a term carries the vehicle, along x or along y of the floor; nothing where it turns it.
+// How far to either side a term carries the vehicle, in the direction in which it does so furthest; nothing where it
+// turns it.
 std::optional<double> carries_to_either_side_m(const JointModel& joint, const Effect& term,
                                                const std::vector<double>& value) {
+  constexpr int kDirections = 36;
   double furthest_m = 0.0;
   for (const DriveView& view : joint.views()) {
     const Motions motion = motion_of(term, view, {}, value);
-    Vec2 gone_m, low_m, high_m;
+    std::vector<Vec2> gone_m{Vec2{}};
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
       const BodyMotion m = motion.at(i);
       if (m.turn_rad != 0.0) return std::nullopt;
-      gone_m = gone_m + Vec2{m.forward_m * s.cos_heading - m.sideways_m * s.sin_heading,
-                             m.forward_m * s.sin_heading + m.sideways_m * s.cos_heading};
-      low_m = {std::min(low_m.x_m, gone_m.x_m), std::min(low_m.y_m, gone_m.y_m)};
-      high_m = {std::max(high_m.x_m, gone_m.x_m), std::max(high_m.y_m, gone_m.y_m)};
+      gone_m.push_back(gone_m.back() + Vec2{m.forward_m * s.cos_heading - m.sideways_m * s.sin_heading,
+                                            m.forward_m * s.sin_heading + m.sideways_m * s.cos_heading});
     }
-    furthest_m = std::max({furthest_m, 0.5 * (high_m.x_m - low_m.x_m), 0.5 * (high_m.y_m - low_m.y_m)});
+    for (int k = 0; k < kDirections; ++k) {
+      const Vec2 towards = rotated({1.0, 0.0}, kPi * k / kDirections);
+      double low_m = 0.0, high_m = 0.0;
+      for (const Vec2& gone : gone_m) {
+        const double at_m = dot(towards, gone);
+        low_m = std::min(low_m, at_m), high_m = std::max(high_m, at_m);
+      }
+      furthest_m = std::max(furthest_m, 0.5 * (high_m - low_m));
+    }
   }
   return furthest_m;
 }

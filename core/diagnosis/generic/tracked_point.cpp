@@ -151,24 +151,33 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
   const auto by = [](const Offsets& offsets, std::size_t count) -> MotionsOfTerm {
     return [=](const DriveView& view, const std::vector<double>&) { return motions_of_point(view, offsets, count); };
   };
+  // On a straight the heading is the noise of its own truth, to which a term by heading answers.
+  const auto where_it_turns = [](MotionsOfTerm motions, std::size_t count) -> MotionsOfTerm {
+    return [=](const DriveView& view, const std::vector<double>& shape) {
+      return turns(view) ? motions(view, shape) : std::vector<Motions>(count);
+    };
+  };
   const auto of_position = [&](const char* variable, const Offsets& offsets, std::size_t count) -> Asked {
     return {variable,
             "truth's position",
             count,
-            by(offsets, count),
+            where_it_turns(by(offsets, count), count),
             {curve_of("truth off along x [m]", offsets, count, [](const Off& o) { return o.by.x_m; }),
              curve_of("truth off along y [m]", offsets, count, [](const Off& o) { return o.by.y_m; })}};
   };
-  std::vector<Asked> all = {
-      of_position("heading", position_by_heading, kOfPosition),
-      of_position("heading, three, four and six times a turn", position_by_faces, kOfFaces),
-      {"heading",
-       "truth's heading",
-       kOfHeading,
-       by(heading_by_heading, kOfHeading),
-       {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
-                 [](const Off& o) { return o.turned_rad; })}},
-      {"which way it turned last", "truth's tracked point, as of a loose mount", kOfLooseMount, of_loose_mount, {}}};
+  std::vector<Asked> all = {of_position("heading", position_by_heading, kOfPosition),
+                            of_position("heading, three, four and six times a turn", position_by_faces, kOfFaces),
+                            {"heading",
+                             "truth's heading",
+                             kOfHeading,
+                             where_it_turns(by(heading_by_heading, kOfHeading), kOfHeading),
+                             {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
+                                       [](const Off& o) { return o.turned_rad; })}},
+                            {"which way it turned last",
+                             "truth's tracked point, as of a loose mount",
+                             kOfLooseMount,
+                             where_it_turns(of_loose_mount, kOfLooseMount),
+                             {}}};
   if (const MountingByRecording mounting(asked.joint.views()); mounting.count() > 0)
     all.push_back({"recording", "truth's tracked point", mounting.count(), by(mounting, mounting.count()), {}});
   std::vector<GenericTest> tests(all.size());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/calibration/left_out.h"
 #include "core/diagnosis/diagnosis.h"
 
 namespace odolab {
@@ -18,6 +19,7 @@ struct Unnamed {
   std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
   GatheredEvidence gathered;    // of what stands for it; empty where nothing does
   std::optional<MovedTrack> moves;
+  std::vector<TimeStretches> incidents;  // in each run that was fitted, where it acts there and nowhere else
 };
 
 }  // namespace odolab

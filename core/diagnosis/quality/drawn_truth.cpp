@@ -1,6 +1,8 @@
 #include "core/diagnosis/quality/drawn_truth.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/quantile.h"
 #include "core/geometry/angles.h"
@@ -37,6 +39,17 @@ bool trembles(const std::vector<OffTheLine>& off) {
   return product < kOpposite * square;
 }
 
+// The least by which neighbours differ along an axis: of a truth that is rounded, the step to which it is.
+double least_step_m(const std::vector<TruthSample>& truth) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const Vec2 by = truth[i].position - truth[i - 1].position;
+    for (const double step_m : {std::abs(by.x_m), std::abs(by.y_m)})
+      if (step_m > 1e-9) least_m = std::min(least_m, step_m);
+  }
+  return least_m;
+}
+
 }  // namespace
 
 TimeStretches drawn_truth(const std::vector<TruthSample>& truth) {
@@ -54,6 +67,9 @@ TimeStretches drawn_truth(const std::vector<TruthSample>& truth) {
     radians.push_back(std::abs(off.back().by_rad));
   }
   if (metres.size() < 20 || !trembles(off)) return drawn;
+  // On a coarse grid whatever goes evenly goes in a line.
+  constexpr double kStepOfUsual = 0.25;
+  if (least_step_m(truth) > kStepOfUsual * median(metres)) return drawn;
   const double usual_m = median(metres), most_m = kOfMeasured * usual_m, most_rad = kOfMeasured * median(radians);
   // Where it hardly moves, a truth may tremble less; but not for long, and get somewhere.
   constexpr std::size_t kForLong = 12;

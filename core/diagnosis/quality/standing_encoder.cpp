@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/base/quantile.h"
@@ -18,7 +19,7 @@ class SteadyTruth {
   explicit SteadyTruth(const std::vector<TruthSample>& samples)
       : samples_(samples),
         has_heading_(samples.front().heading_rad.has_value() && samples.back().heading_rad.has_value()) {
-    noise_m_ = noise_of([](const TruthSample& t) { return t.position.x_m; });
+    noise_m_ = noise_of_places_m();
     if (has_heading_) noise_rad_ = noise_of([](const TruthSample& t) { return t.heading_rad.value_or(0.0); });
     period_s_ = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   }
@@ -46,6 +47,18 @@ class SteadyTruth {
     for (std::size_t i = 1; i + 1 < samples_.size(); ++i)
       second.push_back(of(samples_[i + 1]) - 2.0 * of(samples_[i]) + of(samples_[i - 1]));
     return scatter_about_zero(std::move(second)) / std::sqrt(6.0);
+  }
+
+  // Along the way a pace that changes shows beside it: that of the direction in which it is least, however the room is
+  // turned.
+  double noise_of_places_m() const {
+    constexpr int kDirections = 12;
+    double least_m = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kDirections; ++k) {
+      const Vec2 towards = rotated({1.0, 0.0}, kPi * k / kDirections);
+      least_m = std::min(least_m, noise_of([&](const TruthSample& t) { return dot(towards, t.position); }));
+    }
+    return least_m;
   }
 
   const std::vector<TruthSample>& samples_;

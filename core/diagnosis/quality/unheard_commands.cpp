@@ -112,6 +112,7 @@ TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const Differe
   constexpr double kLeast_m = 0.1, kLeast_rad = 0.5, kHardly = 0.15, kHardly_m = 0.015, kHardly_rad = 0.03;
   TimeStretches unmoved;
   if (obeyed.size() < 2 || truth.size() < 2) return unmoved;
+  const bool has_headings = truth.front().heading_rad.has_value();
   int unbidden = 0, deaf = 0;
   for (double from_s = obeyed.front().time_s + kSooner_s; from_s + kLasts_s < obeyed.back().time_s;
        from_s += kStride_s) {
@@ -131,7 +132,9 @@ TimeStretches unmoved_base(const std::vector<WheelSample>& obeyed, const Differe
       }
     const MovedMeanwhile now = told_between(obeyed, drive, from_s, to_s),
                          before = told_between(obeyed, drive, from_s - kSooner_s, to_s - kSooner_s);
-    const double way_m = at_least(now.way_m, before.way_m), turn_rad = at_least(now.turn_rad, before.turn_rad);
+    // Places say nothing of turns: who is told to turn on the spot stays where he is.
+    const double way_m = at_least(now.way_m, before.way_m),
+                 turn_rad = has_headings ? at_least(now.turn_rad, before.turn_rad) : 0.0;
     if ((way_m > kLeast_m || turn_rad > kLeast_rad) && furthest.way_m < std::max(kHardly_m, kHardly * way_m) &&
         furthest.turn_rad < std::max(kHardly_rad, kHardly * turn_rad)) {
       unmoved.emplace_back(from_s - kSooner_s, to_s);

@@ -91,6 +91,27 @@ TEST(AveragedTruth, KnowsNothingOfSamplesThatAreSetAside) {
   EXPECT_LT(furthest_off_m(averaged), 1e-9);
 }
 
+// Of four samples two are in the middle, and of stamps in milliseconds some lie at the very end of a mean: which is
+// taken must not hang on the last digit that a stamp has by when the log began.
+TEST(AveragedTruth, IsTheSameWheneverTheLogBegan) {
+  const auto averaged_of_log = [](double begins_s) {
+    InnovationRun run = round_and_round();
+    for (std::size_t k = 0; k < run.truth.size(); ++k)  // 120 a second, as they are written
+      run.truth[k].time_s = std::round(1e3 * (begins_s + static_cast<double>(k) / 120.0)) / 1e3;
+    for (std::size_t k = 50; k < run.truth.size(); k += 97) run.truth.erase(run.truth.begin() + static_cast<long>(k));
+    run.set_aside.assign(run.truth.size(), 0);
+    for (WheelSample& w : run.wheels) w.time_s += begins_s;
+    return with_averaged_truth(run, model_of_the_circle(), 0.034).truth;
+  };
+  const std::vector<TruthSample> at_once = averaged_of_log(0.0);
+  for (const double begins_s : {2.0, 50.0, 1000.0, 1.7e9}) {
+    const std::vector<TruthSample> later = averaged_of_log(begins_s);
+    ASSERT_EQ(later.size(), at_once.size()) << begins_s;
+    for (std::size_t k = 0; k < later.size(); ++k)
+      ASSERT_NEAR(later[k].time_s - begins_s, at_once[k].time_s, 1e-5) << begins_s;
+  }
+}
+
 // Whole counts, of 5 mm: carried by these, samples would lie where the counts do.
 TEST(AveragedTruth, DoesNotTakeOnTheRoundingOfCoarseCounts) {
   constexpr double kCounts = 125.0, kCount_rad = 2.0 * kPi / kCounts;

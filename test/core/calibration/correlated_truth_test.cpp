@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/random.h"
@@ -55,6 +56,20 @@ TEST(CorrelatedTruth, KeepsSamplesThatAreSoFarApartAndAllThatIsNotTruth) {
   EXPECT_GT(last_s, whole.time_s.back() - 0.2);
   const std::vector<double>&a = whole.channel("left_wheel_rad")->values, &b = fewer.channel("left_wheel_rad")->values;
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i])));
+}
+
+// A scanner of ten poses a second: each second one is kept, or each third, by when the log began.
+TEST(CorrelatedTruth, KeepsTheSameSamplesWheneverTheLogBegan) {
+  for (const double begins_s : {0.0, 2.05, 50.006, 1000.03, 1.7e9}) {
+    Recording r;
+    for (int i = 0; i < 600; ++i) r.time_s.push_back(std::round(1e3 * (begins_s + 0.1 * i)) / 1e3);
+    r.add_channel("truth_x_m").values.assign(r.time_s.size(), 1.0);
+    for (const double apart_s : {0.2, 0.3, 0.5, 1.0}) {
+      const Recording fewer = with_truth_apart(r, apart_s);
+      const std::vector<double>& x_m = fewer.channel("truth_x_m")->values;
+      EXPECT_EQ(std::count(x_m.begin(), x_m.end(), 1.0), std::lround(60.0 / apart_s)) << begins_s << ", " << apart_s;
+    }
+  }
 }
 
 TEST(CorrelatedTruth, OfATrackerThatSmoothsBendsNoCalibration) {

@@ -75,6 +75,22 @@ TEST(EvenStamps, OfAnEvenPeriodThatAreRoundedToHundredthsLieOnOneStraightLine) {
   EXPECT_LT(unevenness_s(even->time_s, taken_s), 1e-5);
 }
 
+// Of twenty rows at 150 Hz none lasts as long as they do, but 0.13 or 0.14 s.
+TEST(EvenStamps, OfAPeriodShorterThanWhatTheyAreRoundedToLieOnOneStraightLine) {
+  for (const double rate_hz : {120.0, 150.0, 240.0}) {
+    Series taken_s, stamps, rad;
+    for (int i = 0; i < 60.0 * rate_hz; ++i) {
+      taken_s.push_back(1e6 + i / rate_hz);
+      stamps.push_back(1e6 + 0.01 * std::round(100.0 * (taken_s.back() - 1e6)));
+      rad.push_back(turned_to_and_fro_rad(i / rate_hz));
+    }
+    const auto even = even_stamps(stamps, {rad, rad}, true);
+    ASSERT_TRUE(even) << rate_hz;
+    EXPECT_NEAR(even->period_s * rate_hz, 1.0, 1e-4);
+    EXPECT_LT(unevenness_s(even->time_s, taken_s), 0.0003) << rate_hz;  // of the 3 ms that rounding leaves
+  }
+}
+
 TEST(EvenStamps, ReadingsThatArriveLateAreGivenTheirEvenTimesBack) {
   Random random(1);
   const Series taken = evenly(), rad = read_at(taken), stamps = arrived(taken, 0.004, random);

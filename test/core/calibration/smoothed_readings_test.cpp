@@ -28,6 +28,24 @@ std::vector<WheelSample> readings() {
   return all;
 }
 
+// Read 20 times a second a window has five readings to either side, the last at its very end, whenever the log began.
+TEST(SmoothedReadings, AreTheSameWheneverTheLogBegan) {
+  const auto smoothed_of_log = [](double begins_s) {
+    std::vector<WheelSample> all;
+    for (int i = 0; i <= 140; ++i) {
+      const double counts = std::floor(turned_rad(0.05 * i) / kSmoothedCount_rad);
+      all.push_back({std::round(1e3 * (begins_s + 0.05 * i)) / 1e3, kSmoothedCount_rad * counts, 0.0});
+    }
+    return smoothed(all);
+  };
+  const std::vector<WheelSample> at_once = smoothed_of_log(0.0);
+  for (const double begins_s : {2.05, 50.006, 1000.03, 1.7e9}) {
+    const std::vector<WheelSample> later = smoothed_of_log(begins_s);
+    for (std::size_t i = 0; i < later.size(); ++i)
+      ASSERT_NEAR(later[i].left_rad, at_once[i].left_rad, 0.01 * kSmoothedCount_rad) << begins_s << " at " << i;
+  }
+}
+
 TEST(SmoothedReadings, KeepTimesAndEnds) {
   const std::vector<WheelSample> raw = readings(), smooth = smoothed(raw);
   ASSERT_EQ(smooth.size(), raw.size());

@@ -1,8 +1,11 @@
+#include "core/diagnosis/advice/advice.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/diagnosis/diagnosis.h"
+#include "test/support/calibrated_model.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -106,6 +109,33 @@ TEST(Advice, ResolvesAPairThatLookedAlikeOnceItIsFollowed) {
   for (const Alternative& a : after->findings[0].alternatives)
     ADD_FAILURE() << a.effect << " " << a.log_likelihood_gain << " of " << after->findings[0].log_likelihood_gain
                   << " after " << before->next_drive;
+}
+
+// What drifts through a session, anew in each recording or towards an end, is told apart by drives to come, which begin
+// a session of their own: stamps of these days are no drift.
+TEST(Advice, IsTheSameWheneverTheLogBegan) {
+  const auto entry_of = [](const std::string& effect, const std::string& component) {
+    return &*std::find_if(catalogue().begin(), catalogue().end(),
+                          [&](const Effect& e) { return e.name == effect && e.component == component; });
+  };
+  const auto advice_of_log = [&](double begins_s) {
+    std::vector<DriveLeg> legs;
+    for (int k = 0; k < 6; ++k) legs.insert(legs.end(), {{5.0, 0.3, k % 2 == 0 ? 0.2 : -0.2}, {1.0, 0.0, 0.0}});
+    std::vector<Recording> recordings = {driven_along_legs(legs, "radius_drift", 1.0, 21),
+                                         driven_along_legs(legs, "radius_drift", 1.0, 22)};
+    for (Recording& r : recordings)
+      for (double& time_s : r.time_s) time_s += begins_s;
+    JointModel joint = calibrated_model(recordings, Vehicle{});
+    joint.accepted.push_back({entry_of("radius_drift", "right_wheel"), {begins_s, 0.0}, {1e-4}});
+    joint.linearise();
+    Confusion confusion;
+    confusion.alternative = entry_of("one_sided_drag", "vehicle");
+    confusion.value = {0.003};
+    return advice(joint, {confusion}, {});
+  };
+  const Advice at_once = advice_of_log(0.0), these_days = advice_of_log(1.7e9);
+  EXPECT_FALSE(at_once.next_legs.empty()) << at_once.next_drive;
+  EXPECT_EQ(these_days.next_legs.size(), at_once.next_legs.size()) << these_days.next_drive;
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "core/diagnosis/generic/groups.h"
 #include "test/support/missing_physics.h"
 
 namespace odolab::test {
@@ -42,6 +44,32 @@ TEST(Bands, ShowAWheelThatShakesAtOneSpeed) {
 }
 
 TEST(Bands, ShowNothingOfAWheelThatRolls) { EXPECT_EQ(shaking(0.0).verdict, Verdict::nothing_missing); }
+
+// What is to the left of a drive is to the right of its mirror image: hats over yaw rates stand as far to the one side
+// of it as to the other of this.
+TEST(Hats, StandInAMirroredDriveWhereTheyStandInTheDrive) {
+  const auto hats_over_yaw_rates = [](double straight_radps, double sense) {
+    DriveView view;
+    Random random(3);
+    for (int i = 0; i < 7000; ++i) {
+      EffectStep s;
+      s.speed_mps = 0.3;
+      s.yaw_rate_radps = sense * (i % 3 == 0 ? random.uniform(-0.5, 1.0) : random.uniform(0.0, 0.25));
+      view.steps.push_back(s);
+    }
+    for (const Group& g : groups_of({view}, {0.03, straight_radps, 0.34}))
+      if (g.variable == "yaw rate [rad/s]") return g.at;
+    return std::vector<double>{};
+  };
+  for (const double straight_radps : {0.1, 0.18, 0.26}) {
+    const std::vector<double> at = hats_over_yaw_rates(straight_radps, 1.0);
+    std::vector<double> mirrored = hats_over_yaw_rates(straight_radps, -1.0);
+    std::reverse(mirrored.begin(), mirrored.end());
+    ASSERT_GE(at.size(), 2u);
+    ASSERT_EQ(mirrored.size(), at.size());
+    for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(-mirrored[k], at[k], 1e-9) << straight_radps << ", " << k;
+  }
+}
 
 }  // namespace
 }  // namespace odolab::test

@@ -135,5 +135,19 @@ TEST(Bump, IsSoughtWhereverAWheelComesTwiceHoweverLongTheWay) {
   }
 }
 
+// Rolled on a way of six centimetres, of which a base that deaf wheels left behind had made sixty millimetres.
+TEST(Bump, TakesNoMoreThanTwoThirdsOfTheWayOverIt) {
+  int asked = 0;
+  for (const Effect& e : catalogue()) {
+    if (e.name != "bump") continue;
+    ++asked;
+    const std::vector<double> at{0.0, 0.0, 0.0};  // in its first form, evenly over 6 cm
+    ASSERT_TRUE(e.form_goes_with) << e.component;
+    EXPECT_TRUE(e.form_goes_with({0.025}, at, 0.0, {})) << e.component;
+    EXPECT_FALSE(e.form_goes_with({0.06}, at, 0.0, {})) << e.component;
+  }
+  EXPECT_EQ(asked, 5);
+}
+
 }  // namespace
 }  // namespace odolab::test

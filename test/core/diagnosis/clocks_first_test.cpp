@@ -152,7 +152,8 @@ TEST(ClocksFirst, MoveNoPatchOfTheFloor) {
   const auto patch_by_clocks_apart = [&](double rate) {
     std::vector<Recording> recordings;
     for (const Recording& r : c.recordings) recordings.push_back(with_truths_clock(r, 0.0, rate));
-    for (const Finding& f : diagnose(recordings, {}, c.nominal).value().findings)
+    const Diagnosis d = diagnose(recordings, {}, c.nominal).value();
+    for (const Finding& f : d.findings)
       if (f.effect == "slip_zone" && f.where.zone) return Vec2{f.where.zone->x_m, f.where.zone->y_m};
     ADD_FAILURE() << rate;
     return Vec2{};

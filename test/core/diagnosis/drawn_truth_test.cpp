@@ -70,5 +70,16 @@ TEST(DrawnTruth, IsNotFoundWhereAVehicleDrivesStraightWithoutNoise) {
   EXPECT_TRUE(drawn_truth(straight_then_circle(0.0)).empty());
 }
 
+// Smooth by itself, and written with three decimals.
+TEST(DrawnTruth, IsNotFoundWhereATruthIsRoundedToWhatItTremblesBy) {
+  std::vector<TruthSample> truth;
+  for (int k = 0; k < 2000; ++k) {
+    const double along_m = 0.004 * k + 0.02 * std::sin(0.01 * k);
+    const auto rounded = [](double m) { return 0.001 * std::round(1000.0 * m); };
+    truth.push_back({0.01 * k, {rounded(along_m), rounded(0.1 * std::sin(along_m))}, 0.0});
+  }
+  EXPECT_TRUE(drawn_truth(truth).empty());
+}
+
 }  // namespace
 }  // namespace odolab

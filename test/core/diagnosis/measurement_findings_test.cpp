@@ -29,14 +29,18 @@ TEST(MeasurementFindings, SayAMarkerThatSitsAMillimetreElsewhere) {
   EXPECT_NEAR(y.value, -0.0006, 4.0 * y.stderr_value);
 }
 
-// A hand that turned it has shifted it; where it sits to the tenth of a millimetre an axle may be at fault as well.
+// A hand that turned it has shifted it; where it sits to the tenth of a millimetre an axle may be at fault as well, but
+// none is crooked by 2.6 degrees.
 TEST(MeasurementFindings, SayOfAMarkerThatIsTurnedWhatElseMayBe) {
-  for (const double shifted_m : {0.0, 0.001}) {
+  struct {
+    double shifted_m, turned_rad;
+    bool is_marker_first;
+  } const cases[] = {{0.0, 0.004, false}, {0.001, 0.004, true}, {0.0, 0.045, true}};
+  for (const auto& [shifted_m, turned_rad, is_marker_first] : cases) {
     TruthMounting truth;
-    truth.axle_T_tracked = {shifted_m, -shifted_m, 0.004};
+    truth.axle_T_tracked = {shifted_m, -shifted_m, turned_rad};
     const Diagnosis d = diagnose(three_runs_of(truth), {}, Vehicle{}).value();
     ASSERT_EQ(d.findings.size(), 1u);
-    const bool is_marker_first = shifted_m > 0.0;
     EXPECT_EQ(d.findings[0].effect, is_marker_first ? "truth_mounting_offset" : "wheel_toe");
     ASSERT_EQ(d.findings[0].alternatives.size(), 1u);
     EXPECT_EQ(d.findings[0].alternatives[0].effect, is_marker_first ? "wheel_toe" : "truth_mounting_offset");

@@ -75,6 +75,29 @@ TEST(HaltingEncoder, IsNoneWhereReadingsAreRepeated) {
       halting_encoder(driven_by_left([](int i) { return 14.0 * (i - i % 5); }), Wheel::left, kStandingDrive).empty());
 }
 
+// Lanes at a pace that comes and goes, seen five times a second; both encoders are silent for 0.4 s. What a changing
+// pace leaves in the truth along the lanes is no noise of it, wherever these lead.
+TEST(StandingEncoder, IsFoundHoweverTheRoomIsTurned) {
+  const auto way_m = [](double t) { return 0.3 * t - 0.1 * std::cos(2.0 * t); };
+  const auto found = [&](double silent_s, double lanes_rad) {
+    std::vector<WheelSample> wheels;
+    for (int i = 0; i <= 1000; ++i) {
+      const double t = 0.02 * i, read_s = t > silent_s && t <= silent_s + 0.4 ? silent_s : t;
+      const double counts = std::floor(way_m(read_s) / kStandingDrive.wheel_radius_left_m / kStandingCount_rad);
+      wheels.push_back({t, kStandingCount_rad * counts, kStandingCount_rad * counts});
+    }
+    std::vector<TruthSample> truth;
+    for (int i = 0; i <= 100; ++i)
+      truth.push_back({0.2 * i, rotated({way_m(0.2 * i), 0.001 * std::sin(9.0 * i * i)}, lanes_rad), lanes_rad});
+    Vehicle vehicle;
+    vehicle.kind = kStandingDrive;
+    return standing_encoder(wheels, Wheel::left, truth, vehicle).size();
+  };
+  for (const double lanes_rad : {0.0, 0.7, 0.5 * kPi, 2.0})
+    for (const double silent_s : {5.0, 6.0, 7.0, 8.0, 9.0, 10.0})
+      EXPECT_EQ(found(silent_s, lanes_rad), 1u) << lanes_rad << " at " << silent_s;
+}
+
 // Both wheels stand after a few counts; the left count goes back by a tenth of a turn, once in one reading and once
 // over a fifth of a second, as where somebody nudges it.
 TEST(MovedAtRest, IsACounterThatNobodyNudges) {

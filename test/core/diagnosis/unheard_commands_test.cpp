@@ -111,5 +111,17 @@ TEST(UnheardCommands, AreNoneWhereTheBaseGoesBackWhereItCameFrom) {
     EXPECT_TRUE(unmoved_base(obeyed(commands), kDeafDrive, followed(commands, 100.0, 100.0, late_s)).empty()) << late_s;
 }
 
+// A total station sees no headings: of a base that turns on the spot, as it is told, it says that it stays there.
+TEST(UnheardCommands, AreNoneWhereTheBaseTurnsOnTheSpotUnderATruthWithoutHeadings) {
+  std::vector<HeldCommand> commands = to_and_fro_commands();
+  for (HeldCommand& c : commands)
+    if (std::fmod(c.time_s, 8.0) > 4.0) c.speed_mps = 0.0, c.yaw_rate_radps = 0.5;
+  std::vector<TruthSample> truth = followed(commands, 100.0, 100.0), blocked = followed(commands, 8.0, 12.0);
+  for (TruthSample& t : truth) t.heading_rad.reset();
+  for (TruthSample& t : blocked) t.heading_rad.reset();
+  EXPECT_TRUE(unmoved_base(obeyed(commands), kDeafDrive, truth).empty());
+  EXPECT_FALSE(unmoved_base(obeyed(commands), kDeafDrive, blocked).empty());  // told to go ahead
+}
+
 }  // namespace
 }  // namespace odolab
