@@ -31,8 +31,21 @@ Recording with_even_stamps(const Recording& recording, const Vehicle& nominal) {
   return even ? std::move(even->recording) : recording;
 }
 
-// Where encoders are at fault, or nobody read them, or the truth and the wheels part: on the truth's clock, and a
-// reading wider at either end.
+const JudgedPart* judged_of(const Diagnosis& diagnosis, const std::string& recording) {
+  for (const JudgedPart& part : diagnosis.judged)
+    if (part.recording == recording) return &part;
+  return nullptr;
+}
+
+// Whether the truth looks on while the vehicle goes.
+bool any_is_looked_at(const std::vector<Recording>& recordings) {
+  constexpr std::size_t kAtTheEnds = 2;
+  return std::any_of(recordings.begin(), recordings.end(),
+                     [](const Recording& r) { return truth_samples(r).size() > kAtTheEnds; });
+}
+
+}  // namespace
+
 WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnosis& diagnosis,
                          const FittedModel& model) {
   constexpr double kWider_s = 0.1;
@@ -45,6 +58,7 @@ WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnos
   for (const Finding& f : diagnosis.findings)
     if (f.effect == "encoder_data_fault" || f.is_parted) add(f.where.recording, f.where.time_s);
   for (const Recording& r : recordings) {
+    if (const JudgedPart* judged = judged_of(diagnosis, r.name)) add(r.name, judged->way_unknown_s);
     std::vector<WheelSample> first;  // all units are read together
     for (const UnitSample& s : unit_samples(r, model.vehicle))
       first.push_back({s.time_s, s.wheels[0].left_rad, s.wheels[0].right_rad});
@@ -53,13 +67,12 @@ WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnos
   return unknown;
 }
 
-}  // namespace
-
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
   constexpr double kSame_s = 1e-6;
   const Residuals* residuals = of_recording(diagnosis.residuals_before, recording.name);
-  if (!residuals) return recording;
-  const std::vector<double>& used_s = residuals->time_s;
+  const JudgedPart* judged = judged_of(diagnosis, recording.name);  // of those held out there are no residuals
+  if (!residuals && !judged) return recording;
+  const std::vector<double>& used_s = residuals ? residuals->time_s : judged->truth_s;
   const Channel* x = recording.channel("truth_x_m");
   if (!x || used_s.empty()) return recording;
   std::vector<char> unused(recording.time_s.size(), 0);
@@ -83,9 +96,9 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
       diagnose(train, held_out, nominal, {}, [&](double share) { return goes_on(progress, kOfDiagnosis * share); });
   if (!diagnosis) return diagnosis.error();
   std::vector<Recording> all;
-  for (const Recording& recording : train)
-    all.push_back(with_truth_that_was_used(with_even_stamps(recording, nominal), *diagnosis));
-  for (const Recording& recording : held_out) all.push_back(with_even_stamps(recording, nominal));
+  for (const auto* recordings : {&train, &held_out})
+    for (const Recording& recording : *recordings)
+      all.push_back(with_truth_that_was_used(with_even_stamps(recording, nominal), *diagnosis));
   const auto& noise_floor =
       diagnosis->held_out.noise_floor ? diagnosis->held_out.noise_floor : diagnosis->train.noise_floor;
   const FittedModel before = calibrated_model_of(*diagnosis);
@@ -98,10 +111,10 @@ Result<Diagnosis> confirmed_diagnosis(const std::vector<Recording>& train, const
   for (const std::string& sentence : replayed->not_switched_on) diagnosis->warnings.push_back(sentence);
   if (!simulator_follows(*diagnosis))
     diagnosis->warnings.push_back(
-        "the simulator, driven by these recordings, errs by more than twice what the calibrated model does: it does "
-        "not "
-        "go the same ways, or all that it is held against are poses at the ends, and so it neither confirms nor "
-        "refutes");
+        std::string("the simulator, driven by these recordings, errs by more than twice what the calibrated model "
+                    "does: ") +
+        (any_is_looked_at(all) ? "it does not go the same ways" : "all that it is held against are poses at the ends") +
+        ", and so it neither confirms nor refutes");
   return diagnosis;
 }
 

@@ -27,21 +27,6 @@ bool has(const ActiveEffect& active, const std::string& name) {
                      [&](const auto& p) { return p.first == name; });
 }
 
-// Where the truth was at a time.
-std::optional<Pose> truth_at(const Recording& recording, double time_s) {
-  Track track;
-  for (const TruthSample& t : truth_samples(recording))
-    track.push_back({t.time_s, {t.position.x_m, t.position.y_m, t.heading_rad.value_or(0.0)}});
-  return pose_at(track, time_s);
-}
-
-// Where a wheel of an axle stands, or the axle's middle.
-Vec2 wheel_at(const Pose& axle, const std::string& component, const Vehicle& vehicle) {
-  const DifferentialDrive* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
-  const double half_m = drive ? 0.5 * drive->wheelbase_m : 0.0;
-  return axle * Vec2{0.0, component == "left_wheel" ? half_m : component == "right_wheel" ? -half_m : 0.0};
-}
-
 // To the last digit; other kinds are not compared.
 bool is_the_same(const Vehicle& a, const Vehicle& b) {
   const auto *of_a = std::get_if<DifferentialDrive>(&a.kind), *of_b = std::get_if<DifferentialDrive>(&b.kind);
@@ -78,30 +63,21 @@ Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects
   return vehicle;
 }
 
+}  // namespace
+
 // Of the truth's samples, those behind a time in which the way is not known begin anew.
-std::optional<TrackError> error_of(const Replay& replay, const WaysUnknown& unknown, const std::string& name) {
+std::optional<TrackError> error_where_known(const Replay& replay, const WaysUnknown& unknown,
+                                            const std::string& recording) {
   if (!replay.truth_has_headings) return std::nullopt;
-  const auto of_recording = unknown.find(name);
+  const auto of_recording = unknown.find(recording);
   if (of_recording == unknown.end()) return replay.simulated_error;
   return track_error(replay.simulated, replay.truth, begins_anew(replay.truth, of_recording->second));
 }
 
-}  // namespace
-
-std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
-                                                const Vehicle& vehicle) {
-  // What is in the calibrated vehicle already would act twice; and no simulated truth has to be smoothed.
-  if (is_of_the_truth(fitted.effect)) return std::nullopt;
-  const EffectEntry* entry = effect_entry(fitted.effect);
-  if (!entry) return std::nullopt;
-  ActiveEffect active{fitted.effect, fitted.component, {}};
-  for (const auto& given : fitted.parameters)
-    if (std::any_of(entry->parameters.begin(), entry->parameters.end(),
-                    [&](const EffectParameter& p) { return p.name == given.first; }))
-      active.parameters.push_back(given);
-  if (fitted.effect == "drivetrain_backlash")
-    if (const auto drag_mps2 = effects::backlash_drag_mps2(form_of(fitted)))
-      active.parameters.emplace_back("drag_mps2", *drag_mps2);
+std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording) {
+  std::optional<ActiveEffect> playable = as_in_a_scenario(fitted);
+  if (!playable) return std::nullopt;
+  ActiveEffect& active = *playable;
   if (const double end_s = fitted.effect == "radius_drift" ? effects::drift_time_constant_s(form_of(fitted)) : 0.0;
       end_s > 0.0) {
     active.parameters.emplace_back("time_constant_s", end_s);
@@ -112,14 +88,7 @@ std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, cons
   if (fitted.effect == "payload_radius_change" && !recording.time_s.empty())
     for (auto& [name, value] : active.parameters)
       if (name == "at_s") value = effects::put_on_s(value, recording.time_s.front());
-  if (fitted.effect == "bump" && !has(fitted, "x_m") && has(fitted, "at_s"))  // found in time, laid on the floor
-    if (const auto tracked = truth_at(recording, fitted.parameter("at_s") + vehicle.truth.time_offset_s)) {
-      const Vec2 place = wheel_at(*tracked * inverse(vehicle.truth.axle_T_tracked), fitted.component, vehicle);
-      active.parameters.emplace_back("x_m", place.x_m);
-      active.parameters.emplace_back("y_m", place.y_m);
-    }
-  if (!problems_in(std::vector<ActiveEffect>{active}).empty()) return std::nullopt;
-  return active;
+  return playable;
 }
 
 std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackError>>& errors,
@@ -186,7 +155,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
   const auto switched_on = [&](const FittedEffect& effect) {
     return std::any_of(recordings.begin(), recordings.end(), [&](const Recording& recording) {
       return (effect.recording.empty() || effect.recording == recording.name) &&
-             effect_for_scenario(effect.active, recording, after.vehicle_in(recording.name));
+             effect_for_scenario(effect.active, recording);
     });
   };
   for (const FittedEffect& effect : after.effects)
@@ -199,9 +168,8 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const Vehicle with = after.vehicle_in(recording.name);
     if (!is_the_same(before.vehicle_in(recording.name), with)) return true;
     const std::vector<ActiveEffect> effects = after.effects_in(recording.name);
-    return std::any_of(effects.begin(), effects.end(), [&](const ActiveEffect& active) {
-      return effect_for_scenario(active, recording, with).has_value();
-    });
+    return std::any_of(effects.begin(), effects.end(),
+                       [&](const ActiveEffect& active) { return effect_for_scenario(active, recording).has_value(); });
   };
   const std::size_t count = recordings.size();
   const bool any_change = std::any_of(recordings.begin(), recordings.end(), changes);
@@ -214,7 +182,7 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
     const Result<Replay> replayed =
         replay_with(model, file, std::make_shared<const Recording>(recording), [&](double) { return !stopped; });
     if (replayed)
-      errors[static_cast<std::size_t>(job)] = error_of(*replayed, unknown, recording.name);
+      errors[static_cast<std::size_t>(job)] = error_where_known(*replayed, unknown, recording.name);
     else
       failures[static_cast<std::size_t>(job)] = replayed.error();
   };
@@ -241,7 +209,7 @@ Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,
   // How the base follows its commands is known from the fit, and what its motors are is not.
   scenario.motor.ideal = true;
   for (const ActiveEffect& fitted : effects)
-    if (const auto active = effect_for_scenario(fitted, *recording, vehicle)) scenario.effects.push_back(*active);
+    if (const auto active = effect_for_scenario(fitted, *recording)) scenario.effects.push_back(*active);
   return replay(scenario, std::make_shared<const Recording>(with_obeyed_commands(*recording, file, vehicle)), progress);
 }
 

@@ -27,6 +27,10 @@ struct ModelReplay {
 // By a recording's name, when its encoders did not tell the way.
 using WaysUnknown = std::map<std::string, std::vector<std::pair<double, double>>>;
 
+// The error of a replay that is gathered across none of these; none where its truth has no headings.
+std::optional<TrackError> error_where_known(const Replay& replay, const WaysUnknown& unknown,
+                                            const std::string& recording);
+
 // Drives the planar vehicle by each recording's own wheels or commands. The normalised chi2 of a replay is its squared
 // error, mean over the two coordinates and the heading, over that which `noise_floor` leaves; not a number without one.
 // `file`: the vehicle that the models were fitted on, by which a base without encoders obeys its commands. No error is
@@ -40,11 +44,9 @@ Result<ModelReplay> replay_model(const std::vector<Recording>& recordings, const
 Result<Replay> replay_with(const FittedModel& model, const Vehicle& file,
                            const std::shared_ptr<const Recording>& recording, const Progress& progress = {});
 
-// The effect as a scenario switches it on: with those of its parameters that a scenario knows, a bump that was found in
-// time laid on the floor. None where the planar world does not have it. Mounting and clock of the truth are the
-// vehicle's and none of a scenario's effects.
-std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording,
-                                                const Vehicle& vehicle);
+// The effect as a scenario switches it on for that recording (as_in_a_scenario): loads and drifts by its clock. None
+// where the planar world does not have it.
+std::optional<ActiveEffect> effect_for_scenario(const ActiveEffect& fitted, const Recording& recording);
 
 // Errors of several recordings as one: the mean over all their windows. None where none was judged.
 std::optional<FitFigures> joined_figures(const std::vector<std::optional<TrackError>>& errors,

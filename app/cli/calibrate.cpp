@@ -70,12 +70,13 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
     };
     LeastSquaresOptions of_others = how;
     of_others.left_out = without(how.left_out);
-    const Result<ExternalCalibration> fitted = calibrate_externally(without(recordings), nominal, {}, of_others);
+    const Result<ExternalCalibration> fitted =
+        calibrate_externally(without(recordings), nominal, until_interrupted(), of_others);
     if (fitted)
       held_out.add(recordings[left_out], by_its_own_clock(fitted->vehicle, of_all, left_out),
                    how.left_out_of(left_out).value_or(TimeStretches{}));
   }
-  return interrupted() ? "stopped" : held_out.text();
+  return held_out.text();
 }
 
 void print_calibration(const LeastSquaresCalibration& calibration) {
@@ -100,7 +101,7 @@ bool has_truth(const Recording& recording) { return truth_samples(recording).siz
 int execute_calibrate(const CalibrateOptions& options) {
   std::vector<std::string> inputs = options.recordings;
   inputs.push_back(options.vehicle);
-  if (const std::optional<Error> lost = overwritten({options.out}, inputs)) return bad_input(*lost);
+  if (const std::optional<Error> unusable = unusable_output({options.out}, inputs)) return bad_input(*unusable);
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
   const bool from_outside = can_calibrate_externally(*nominal), from_inside = can_calibrate_internally(*nominal);
@@ -110,7 +111,7 @@ int execute_calibrate(const CalibrateOptions& options) {
                       "`reproduce k2a-calibration` shows by its squares"});
   std::vector<Recording> recordings;
   for (const std::string& path : options.recordings) {
-    Result<ImportedRecording> loaded = load_recording(path);
+    Result<ImportedRecording> loaded = load_recording(path, until_interrupted());
     if (!loaded) return bad_input(loaded.error());
     for (const std::string& warning : loaded->warnings) print_message("warning: " + path + ": " + warning);
     if (const std::optional<Error> unknown = ticks_of_unknown_size(loaded->recording, *nominal, path))
@@ -128,21 +129,32 @@ int execute_calibrate(const CalibrateOptions& options) {
   if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);
   LeastSquaresOptions how;
   for (Recording& recording : recordings) {
+    if (interrupted()) return stopped_before_its_end();
     BridgedRecording sound = bridged_recording(recording, *nominal, Looks::at_truth_too);
     for (const std::string& fault : sound.said) print_message("warning: " + fault);
     how.left_out.emplace_back();
     if (!sound.said.empty()) how.left_out.back() = std::move(sound.left_out_s);
     recording = std::move(sound.recording);
   }
-  PutRight put_right = mountings_put_right(recordings, *nominal, [](double) { return !interrupted(); });
+  PutRight put_right = mountings_put_right(recordings, *nominal, until_interrupted());
   for (const MovedMounting& m : put_right.moved) print_message("warning: " + m.recording + ": " + m.sentence());
   recordings = std::move(put_right.recordings);
+  if (interrupted()) return stopped_before_its_end();
   const Result<ExternalCalibration> calibration =
       calibrate_externally(recordings, *nominal, terminal_progress("calibrating"), how);
   if (!calibration) return bad_input(calibration.error());
   bool anything = false;
   for (const CalibratedPart& part : calibration->parts)
     for (const ParameterEstimate& p : part.calibration.parameters) anything = anything || p.determined;
+  PerMetre before, after;
+  for (std::size_t i = 0; i < recordings.size() && anything; ++i) {
+    const TimeStretches left_out = how.left_out_of(i).value_or(TimeStretches{});
+    before.add(recordings[i], *nominal, left_out);
+    after.add(recordings[i], by_its_own_clock(calibration->vehicle, *calibration, i), left_out);
+  }
+  const std::string held_out =
+      anything && recordings.size() > 1 ? held_out_text(recordings, *nominal, how, *calibration) : "";
+  if (interrupted()) return stopped_before_its_end();
   if (!options.out.empty() && anything)
     if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written)
       return bad_input(written.error());
@@ -155,23 +167,15 @@ int execute_calibrate(const CalibrateOptions& options) {
     std::printf("\nNothing could be determined, and no vehicle was written.\n");
     return kDone;
   }
-  PerMetre before, after;
-  for (std::size_t i = 0; i < recordings.size(); ++i) {
-    const TimeStretches left_out = how.left_out_of(i).value_or(TimeStretches{});
-    before.add(recordings[i], *nominal, left_out);
-    after.add(recordings[i], by_its_own_clock(calibration->vehicle, *calibration, i), left_out);
-  }
   std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
-  if (recordings.size() > 1)
-    rows.push_back(
-        {"after, each recording predicted from the others", held_out_text(recordings, *nominal, how, *calibration)});
+  if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out});
   print_table(rows);
   for (const CalibratedPart& part : calibration->parts)
     for (const auto* warnings : {&part.calibration.warnings, &part.calibration.of_misfit})
       for (const std::string& warning : *warnings)
         print_message("warning: " + part.name + (part.name.empty() ? "" : ": ") + warning);
-  if (!options.out.empty()) std::printf("\nwritten: %s\n", options.out.c_str());
+  if (!options.out.empty()) std::printf("\nwritten: %s\n", name_of_output(options.out).c_str());
   return kDone;
 }
 
@@ -187,7 +191,7 @@ Command calibrate_command() {
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
     arguments.files("RECORDING", options->recordings, "one run each; OdoLab's CSV or a format that import knows", true);
-    arguments.option("--out", options->out, "the calibrated vehicle to write (TOML)");
+    arguments.output("--out", options->out, "the calibrated vehicle to write (TOML)");
   };
   command.execute = [options] { return execute_calibrate(*options); };
   return command;

@@ -12,6 +12,7 @@ namespace odolab {
 inline constexpr int kDone = 0;
 inline constexpr int kCheckFailed = 1;
 inline constexpr int kBadInput = 2;
+inline constexpr int kStopped = 130;  // by Ctrl-C, as a shell says it
 
 // Where a command declares what it can be given; values are set when the command line is read.
 class Arguments {
@@ -21,6 +22,8 @@ class Arguments {
   virtual void files(const std::string& name, std::vector<std::string>& values, const std::string& about,
                      bool required) = 0;
   virtual void option(const std::string& name, std::string& value, const std::string& about, bool required = false) = 0;
+  // A file to write; "-" is standard output, and what else is printed there goes to standard error then.
+  virtual void output(const std::string& name, std::string& value, const std::string& about, bool required = false) = 0;
   virtual void option(const std::string& name, int& value, const std::string& about) = 0;
   virtual void option(const std::string& name, double& value, const std::string& about) = 0;
   virtual void flag(const std::string& name, bool& value, const std::string& about) = 0;

@@ -41,6 +41,13 @@ class CliArguments : public Arguments {
   void option(const std::string& name, std::string& value, const std::string& about, bool required) override {
     app_.add_option(name, value, about)->required(required);
   }
+  void output(const std::string& name, std::string& value, const std::string& about, bool required) override {
+    app_.add_option(name, value, about + "; - for standard output")
+        ->required(required)
+        ->transform([](std::string path) {
+          return path == "-" || path == "/dev/stdout" ? standard_output_for_a_file() : path;
+        });
+  }
   void option(const std::string& name, int& value, const std::string& about) override {
     app_.add_option(name, value, about)->check(number_as<int>("a whole number"));
   }
@@ -79,8 +86,8 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   app.set_version_flag("--version", "odolab " ODOLAB_VERSION);
   app.footer(
-      "Exit codes: 0 done, 1 a check failed, 2 bad usage or bad input.\nodolab COMMAND --help shows an example of "
-      "each.");
+      "Exit codes: 0 done, 1 a check failed, 2 bad usage or bad input, 130 stopped by Ctrl-C.\n"
+      "odolab COMMAND --help shows an example of each.");
   const std::vector<Command> list = commands();
   std::vector<CLI::App*> subcommands;
   for (const Command& command : list) {
@@ -103,9 +110,12 @@ int run_command_line(int argc, char** argv) {
     print_error(in_words(error, app, subcommands));
     return kBadInput;
   }
-  catch_interrupts();
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (subcommands[i]->parsed()) return list[i].execute();
+    if (subcommands[i]->parsed()) {
+      catch_interrupts(list[i].name);
+      return list[i].execute();
+    }
+  catch_interrupts(list.front().name);
   return list.front().execute();
 }
 

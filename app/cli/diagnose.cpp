@@ -46,7 +46,8 @@ Result<Loaded> load(const std::vector<std::string>& paths, const Vehicle& vehicl
                     std::vector<std::string>& skipped) {
   Loaded loaded;
   for (const std::string& path : paths) {
-    Result<ImportedRecording> one = load_recording(path);
+    Result<ImportedRecording> one = load_recording(path, until_interrupted());
+    if (interrupted()) return Error{path, "a wish to stop", "time to read it"};
     std::optional<Error> problem = one ? unusable(one->recording, vehicle, path) : one.error();
     if (problem && !skip_broken) return *problem;
     if (problem) {
@@ -86,7 +87,7 @@ Result<Done> write_diagnosis(const DiagnoseOptions& options, const Diagnosis& di
   const auto write = [](const std::string& path, const std::function<Result<Done>()>& how) -> Result<Done> {
     if (path.empty()) return Done{};
     Result<Done> done = how();
-    if (done) print_message("written: " + path);
+    if (done) print_message("written: " + name_of_output(path));
     return done;
   };
   if (auto done = write(options.json, [&] { return write_json(options.json, diagnosis_json(diagnosis)); }); !done)
@@ -99,8 +100,8 @@ int execute_diagnose(const DiagnoseOptions& options) {
   std::vector<std::string> inputs = options.recordings;
   inputs.insert(inputs.end(), options.hold_out.begin(), options.hold_out.end());
   inputs.push_back(options.vehicle);
-  if (const std::optional<Error> lost = overwritten({options.json, options.model, options.html}, inputs))
-    return bad_input(*lost);
+  if (const std::optional<Error> unusable = unusable_output({options.json, options.model, options.html}, inputs))
+    return bad_input(*unusable);
   const Result<Vehicle> nominal = read_vehicle(options.vehicle);
   if (!nominal) return bad_input(nominal.error());
   if (const std::optional<Error> other = undiagnosed_kind(*nominal)) return bad_input(*other);
@@ -116,7 +117,9 @@ int execute_diagnose(const DiagnoseOptions& options) {
   if (!held_out) return bad_input(held_out.error());
   std::vector<Recording> given = train->recordings;
   given.insert(given.end(), held_out->recordings.begin(), held_out->recordings.end());
+  if (interrupted()) return stopped_before_its_end();
   const std::vector<std::optional<Error>> faults = faults_in(given, *nominal);
+  if (interrupted()) return stopped_before_its_end();
   const auto first_of_held_out = faults.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
   if (const auto done = leave_out_faulty(*train, {faults.begin(), first_of_held_out}, options.skip_broken, skipped);
       !done)
@@ -133,11 +136,13 @@ int execute_diagnose(const DiagnoseOptions& options) {
   paths.insert(paths.end(), held_out->paths.begin(), held_out->paths.end());
   if (const std::optional<Error> twice = given_twice(all, paths)) return bad_input(*twice);
   make_names_differ(all, paths);
+  if (interrupted()) return stopped_before_its_end();
   const auto first_held_out = all.begin() + static_cast<std::ptrdiff_t>(train->recordings.size());
 
   Result<Diagnosis> diagnosis = confirmed_diagnosis({all.begin(), first_held_out}, {first_held_out, all.end()},
                                                     *nominal, terminal_progress("diagnosing"));
   if (!diagnosis) return bad_input(diagnosis.error());
+  if (interrupted()) return stopped_before_its_end();
 
   for (const std::string& line : summary_lines(*diagnosis)) std::printf("%s\n", line.c_str());
   std::fflush(stdout);
@@ -166,9 +171,9 @@ Command diagnose_command() {
                     "one run each, with outside truth; OdoLab's CSV or a format that import knows", true);
     arguments.files("--hold-out", options->hold_out,
                     "recordings that are looked at only to prove what was found on the others", false);
-    arguments.option("--json", options->json, "the diagnosis to write for scripts (JSON)");
-    arguments.option("--model", options->model, "the fitted model to write, for predict --model (TOML)");
-    arguments.option("--html", options->html, "the report with pictures to write, one page (HTML)");
+    arguments.output("--json", options->json, "the diagnosis to write for scripts (JSON)");
+    arguments.output("--model", options->model, "the fitted model to write, for predict --model (TOML)");
+    arguments.output("--html", options->html, "the report with pictures to write, one page (HTML)");
     arguments.flag("--skip-broken", options->skip_broken, "go on without recordings that cannot be used");
   };
   command.execute = [options] { return execute_diagnose(*options); };

@@ -69,15 +69,11 @@ Result<Done> write_export(const ExportOptions& options) {
 }
 
 int execute_export(const ExportOptions& options) {
-  if (const std::optional<Error> lost = overwritten({options.out}, {options.source, options.nominal}))
-    return bad_input(*lost);
+  if (const std::optional<Error> unusable = unusable_output({options.out}, {options.source, options.nominal}))
+    return bad_input(*unusable);
   const Result<Done> done = write_export(options);
-  if (!done && interrupted()) {
-    print_error("stopped; nothing was written");
-    return kBadInput;
-  }
   if (!done) return bad_input(done.error());
-  std::printf("%s\n", options.out.c_str());
+  std::printf("%s\n", name_of_output(options.out).c_str());
   return kDone;
 }
 
@@ -95,7 +91,7 @@ Command export_command() {
   command.declare = [options](Arguments& arguments) {
     arguments.file("SOURCE", options->source, "a recording or track (tum), a recording (plotjuggler), a vehicle");
     arguments.option("--to", options->to, "tum, plotjuggler or diff_drive_controller", true);
-    arguments.option("--out", options->out, "the file to write", true);
+    arguments.output("--out", options->out, "the file to write", true);
     arguments.option(
         "--nominal", options->nominal,
         "diff_drive_controller: the vehicle before it was calibrated; its lengths stay, the rest goes into "

@@ -91,18 +91,15 @@ int execute_import(ImportOptions& options) {
   if (options.out.empty()) return bad_input({"import", "no --out", "--out with the recording to write, or --list"});
   std::vector<std::string> inputs = options.sources;
   inputs.insert(inputs.end(), {options.mapping, options.wishes.times});
-  if (const std::optional<Error> lost = overwritten({options.out}, inputs)) return bad_input(*lost);
+  if (const std::optional<Error> unusable = unusable_output({options.out}, inputs)) return bad_input(*unusable);
   if (const auto error = read_words(options)) return bad_input(*error);
   const Result<ImportedFile> imported =
       import_into_csv(options.sources, options.wishes, options.out, terminal_progress("import"));
-  if (interrupted() && !imported) {
-    print_error("stopped; nothing was written");
-    return kBadInput;
-  }
   if (!imported) return bad_input(imported.error());
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);
-  std::printf("%s: %llu rows over %.1f s, %s\n", options.out.c_str(), static_cast<unsigned long long>(imported->rows),
-              imported->duration_s, joined(imported->channels).c_str());
+  std::printf("%s: %llu rows over %.1f s, %s\n", name_of_output(options.out).c_str(),
+              static_cast<unsigned long long>(imported->rows), imported->duration_s,
+              joined(imported->channels).c_str());
   return kDone;
 }
 
@@ -122,7 +119,7 @@ Command import_command() {
   command.declare = [options](Arguments& arguments) {
     arguments.files("SOURCE", options->sources, "one run: a file, a bag's folder, or the files that belong together",
                     true);
-    arguments.option("--out", options->out, "the recording to write (CSV)");
+    arguments.output("--out", options->out, "the recording to write (CSV)");
     arguments.flag("--list", options->list, "only say what a bag holds: topics, joints, transforms");
     arguments.option("--wheels", options->wishes.wheels, "bags: the topic of the wheels' joint states");
     arguments.option("--joints", options->joints, "bags: the joints of the drive wheels, LEFT,RIGHT");

@@ -13,6 +13,7 @@ int calibrate_from_inside(const std::vector<Recording>& recordings, const Vehicl
   const Result<InternalCalibration> calibration =
       calibrate_internally(recordings, nominal, terminal_progress("calibrating"));
   if (!calibration) return bad_input(calibration.error());
+  if (interrupted()) return stopped_before_its_end();
   const bool anything = std::any_of(calibration->parameters.begin(), calibration->parameters.end(),
                                     [](const ParameterEstimate& p) { return p.determined; });
   if (!out.empty() && anything)
@@ -30,7 +31,7 @@ int calibrate_from_inside(const std::vector<Recording>& recordings, const Vehicl
   if (!anything)
     std::printf("\nNothing could be determined, and no vehicle was written.\n");
   else if (!out.empty())
-    std::printf("\nwritten: %s\n", out.c_str());
+    std::printf("\nwritten: %s\n", name_of_output(out).c_str());
   return kDone;
 }
 

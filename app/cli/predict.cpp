@@ -44,11 +44,12 @@ void warn_of_what_others_had(const FittedModel& model, const std::string& path) 
 }
 
 int execute_predict(const PredictOptions& options) {
-  if (const std::optional<Error> lost = overwritten({options.out}, {options.recording, options.vehicle, options.model}))
-    return bad_input(*lost);
+  if (const std::optional<Error> unusable =
+          unusable_output({options.out}, {options.recording, options.vehicle, options.model}))
+    return bad_input(*unusable);
   const Result<Vehicle> vehicle = read_vehicle(options.vehicle);
   if (!vehicle) return bad_input(vehicle.error());
-  const Result<ImportedRecording> loaded = load_recording(options.recording);
+  const Result<ImportedRecording> loaded = load_recording(options.recording, until_interrupted());
   if (!loaded) return bad_input(loaded.error());
   if (const std::optional<Error> unknown = ticks_of_unknown_size(loaded->recording, *vehicle, options.recording))
     return bad_input(*unknown);
@@ -64,19 +65,22 @@ int execute_predict(const PredictOptions& options) {
   // What a calibration refuses is predicted all the same: a prediction claims nothing of the recording.
   if (const std::optional<Error> fault = fault_in(loaded->recording, *vehicle))
     print_message("warning: " + fault->message());
+  if (interrupted()) return stopped_before_its_end();
   const BridgedRecording sound = bridged_recording(loaded->recording, *vehicle, Looks::at_wheels_alone);
   for (const std::string& fault : sound.said) print_message("warning: " + fault);
   const Recording recording = with_obeyed_commands(sound.recording, *vehicle, model.vehicle);
+  if (interrupted()) return stopped_before_its_end();
   const std::optional<std::string> fitted_as = model.fitted_as(loaded->recording);
   if (!fitted_as) warn_of_what_others_had(model, options.recording);
   const std::string name = fitted_as.value_or("");
   const Result<Track> track = predicted_track(recording, model.vehicle_in(name), model.effects_in(name));
   if (!track) return bad_input(track.error());
+  if (interrupted()) return stopped_before_its_end();
   if (Result<Done> written = write_track_csv(options.out, *track); !written) return bad_input(written.error());
   if (const std::vector<TruthSample> truth = truth_samples(loaded->recording);
       !truth.empty() && !truth.front().heading_rad)
     print_message("warning: " + options.recording + ": its truth begins without a heading; the track begins with 0");
-  std::printf("%s: %zu poses over %.1f s\n", options.out.c_str(), track->size(),
+  std::printf("%s: %zu poses over %.1f s\n", name_of_output(options.out).c_str(), track->size(),
               track->back().time_s - track->front().time_s);
   if (const auto error = track_error(*track, truth_track(loaded->recording)))
     std::printf("against the recorded truth: %.2f mm and %.3f degrees per metre, %.1f mm at the end\n",
@@ -97,7 +101,7 @@ Command predict_command() {
     arguments.option("--vehicle", options->vehicle, "the vehicle (TOML)", true);
     arguments.option("--model", options->model, "calibration and effects that diagnose found on it (TOML)");
     arguments.file("RECORDING", options->recording, "the recording");
-    arguments.option("--out", options->out, "the track to write (CSV)", true);
+    arguments.output("--out", options->out, "the track to write (CSV)", true);
   };
   command.execute = [options] { return execute_predict(*options); };
   return command;

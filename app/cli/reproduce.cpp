@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app/cli/command.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/terminal.h"
 #include "core/io/summary_json.h"
 #include "physics/experiments/experiment.h"
@@ -122,6 +123,7 @@ int execute_reproduce(const ReproduceOptions& options) {
   if (options.cases < 0) return bad_input({"--cases", std::to_string(options.cases), "0 (its own number) or more"});
   const Result<std::vector<const Experiment*>> list = chosen(options.names);
   if (!list) return bad_input(list.error());
+  if (const std::optional<Error> unusable = unusable_output({options.json}, {})) return bad_input(*unusable);
   const ExperimentOptions drawn{static_cast<std::uint64_t>(options.seed), options.cases, options.recordings};
   Json json = Json::object();
   json["schema"] = "odolab.reproduction/1";
@@ -131,10 +133,7 @@ int execute_reproduce(const ReproduceOptions& options) {
   for (const Experiment* experiment : *list) {
     const Result<ExperimentReport> report = experiment->run(drawn, terminal_progress(experiment->name));
     if (!report) return bad_input(report.error());
-    if (interrupted()) {
-      print_error("stopped during " + experiment->name);
-      return kBadInput;
-    }
+    if (interrupted()) return stopped_before_its_end();
     print_report(*experiment, *report);
     std::fflush(stdout);
     json["experiments"].push_back(json_of(*experiment, *report));
@@ -161,7 +160,7 @@ Command reproduce_command() {
                      "how many cases are drawn, where an experiment draws; 0: its own number");
     arguments.option("--recordings", options->recordings,
                      "the folder of real recordings; else ODOLAB_RECORDINGS or ../shared/recordings");
-    arguments.option("--json", options->json, "the reports to write for scripts (JSON)");
+    arguments.output("--json", options->json, "the reports to write for scripts (JSON)");
   };
   command.execute = [options] { return execute_reproduce(*options); };
   return command;

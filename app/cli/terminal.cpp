@@ -14,6 +14,8 @@ namespace odolab {
 
 namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
+std::string interrupted_command;
+std::string standard_output;  // where a file goes there
 int letters_of_progress = 0;  // on the terminal's last line
 
 void wipe_progress() {
@@ -28,7 +30,13 @@ void print_error(const std::string& line) {
 }
 void print_message(const std::string& line) { print_error(line); }
 
+int stopped_before_its_end() {
+  print_error(interrupted_command + ": stopped before its end; nothing was written");
+  return kStopped;
+}
+
 int bad_input(const Error& error) {
+  if (interrupted()) return stopped_before_its_end();
   print_error(error.message());
   return kBadInput;
 }
@@ -60,6 +68,20 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
   }
 }
 
+std::string standard_output_for_a_file() {
+  if (standard_output.empty()) {
+    std::fflush(stdout);
+    const int kept = ::dup(STDOUT_FILENO);
+    if (kept < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return "/dev/stdout";  // one of them is closed
+    standard_output = "/dev/fd/" + std::to_string(kept);
+  }
+  return standard_output;
+}
+
+std::string name_of_output(const std::string& path) {
+  return !path.empty() && path == standard_output ? "standard output" : path;
+}
+
 Progress terminal_progress(const std::string& label) {
   const bool shown = isatty(STDERR_FILENO) != 0;
   return [label, shown, most = 0.0](double share) mutable {
@@ -74,7 +96,12 @@ Progress terminal_progress(const std::string& label) {
   };
 }
 
-void catch_interrupts() {
+Progress until_interrupted() {
+  return [](double) { return !interrupted(); };
+}
+
+void catch_interrupts(const std::string& command) {
+  interrupted_command = command;
   std::signal(SIGINT, [](int) {
     interrupt_seen = 1;
     std::signal(SIGINT, SIG_DFL);  // a second one ends what does not listen

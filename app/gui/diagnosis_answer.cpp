@@ -156,7 +156,9 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
         const auto r = static_cast<std::size_t>(job);
         Recording recording = named_recording(answer.runs[r]);
         const std::vector<TruthSample> recorded = truth_samples(recording);
-        if (r < answer.fitted_on) recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
+        const std::string name = recording.name;
+        const WaysUnknown unknown = ways_unknown({recording}, answer.diagnosis, *model);
+        recording = with_truth_that_was_used(std::move(recording), answer.diagnosis);
         const Result<Replay> replayed =
             replay_with(*model, answer.nominal, std::make_shared<const Recording>(std::move(recording)),
                         [&](double) { return !stopped; });
@@ -166,7 +168,7 @@ SimulatedRuns DiagnosisDesk::simulated(const Answer& answer, const Choice& choic
         }
         out.tracks[r] = at_times_of(replayed->simulated, recorded);
         if (!has_units(answer.nominal)) out.tracks[r] = axle_of(std::move(out.tracks[r]), model->vehicle.truth);
-        if (replayed->truth_has_headings) errors[r] = replayed->simulated_error;
+        errors[r] = error_where_known(*replayed, unknown, name);
       },
       {}, progress);
   for (const std::string& words : problems)

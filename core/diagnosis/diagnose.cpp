@@ -23,6 +23,7 @@
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
+#include "core/diagnosis/unnamed_part.h"
 #include "core/diagnosis/warnings.h"
 #include "core/diagnosis/where.h"
 
@@ -135,6 +136,9 @@ void advise(Diagnosis& d, const Named& names, double family_wise_error) {
   const std::vector<Visible> looks = visible(names.joint, family_wise_error);
   const Advice next = advice(names.joint, confused, unseen(looks));
   d.asked = asked_effects(names.joint, names.selected, looks);
+  for (AskedEffect& a : d.asked)  // names that do not suffice were let in, and are none
+    a.named = a.named &&
+              std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) { return f.effect == a.effect; });
   d.not_testable = next.not_testable;
   std::erase_if(d.not_testable, [&](const NotTestable& n) { return is_said(n.effect, d.findings); });
   d.cannot_judge = d.cannot_judge || are_most_effects(d.not_testable);
@@ -172,6 +176,14 @@ void draw(Diagnosis& d, const JointModel& calibrated, const JointModel& said) {
                                                          : "place where it happened";
   Response about = zone_response(*first.where.zone, what, d.residuals_before, d.residuals_after);
   if (!about.at.empty()) d.responses.insert(d.responses.begin(), std::move(about));
+}
+
+JudgedPart judged_of(const InnovationRun& run) {
+  const InnovationRun& all = run.as_recorded ? *run.as_recorded : run;
+  JudgedPart judged{run.name, {}, run.left_out};
+  for (std::size_t i = 0; i < all.truth.size(); ++i)
+    if (all.set_aside.empty() || !all.set_aside[i]) judged.truth_s.push_back(all.truth[i].time_s);
+  return judged;
 }
 
 // Of the recordings that `d` was fitted to, and of those it was not.
@@ -327,6 +339,8 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
         adequacy.generic.front().as_effect, train);
   if (found.empty() || !known) stand_by_calibration(d);
   draw(d, calibrated, said);
+  for (const auto* runs : {&calibrated.runs(), &predictor.held_out()})
+    for (const InnovationRun& run : *runs) d.judged.push_back(judged_of(run));
   name_recordings(d, train, held_out);
   if (!parted.empty()) add_parted(d, parted, *ready);
   return d;
@@ -381,6 +395,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (has_units(nominal)) {
     Result<Diagnosis> d = diagnose_units(train, held_out, nominal, options, progress);
     if (d) name_recordings(*d, train, held_out);
+    if (d) say_parts_of_unnamed(*d, true);
     return d;
   }
   if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
@@ -389,9 +404,11 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
     return Error{nominal.name, "", problems.front()};
   bool shows_beside_held_out = false;
   Result<Diagnosis> d = diagnosed(train, held_out, nominal, options, progress, &shows_beside_held_out);
-  if (!d || !shows_beside_held_out) return d;
-  std::optional<Diagnosis> named = named_beside_held_out(*d, train, held_out, nominal, options, progress);
-  return named ? std::move(*named) : std::move(d);
+  if (d && shows_beside_held_out)
+    if (std::optional<Diagnosis> named = named_beside_held_out(*d, train, held_out, nominal, options, progress))
+      d = std::move(*named);
+  if (d) say_parts_of_unnamed(*d, false);
+  return d;
 }
 
 }  // namespace odolab

@@ -128,6 +128,14 @@ struct Residuals {
   std::vector<double> time_s, x_m, y_m, along_m, across_m, heading_rad, squared;  // squared: normalised, 1 per scalar
 };
 
+// What of a recording is judged: the truth's samples that count, and where the way of the wheels is not known, by which
+// no error is gathered.
+struct JudgedPart {
+  std::string recording;
+  std::vector<double> truth_s;                           // on the truth's clock
+  std::vector<std::pair<double, double>> way_unknown_s;  // on the wheels'
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::cannot_say;
   std::vector<std::string> fitted_on, held_out_runs;  // names of recordings
@@ -154,6 +162,7 @@ struct Diagnosis {
   std::vector<std::string> warnings;
   std::vector<Response> responses;                           // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
+  std::vector<JudgedPart> judged;                            // of the recordings fitted on, and of those held out
 };
 
 struct TruthError;  // core/diagnosis/generic/truth_errors.h

@@ -92,6 +92,17 @@ void add_nearest(Finding& unknown, const std::vector<ScoredCandidate>& first_loo
 
 }  // namespace
 
+void leave_out_what_it_hardly_resembles(Finding& unknown) {
+  constexpr double kLeastAlike = 0.25;  // of the evidence; of several pushes that of all
+  const std::vector<Alternative> all = unknown.alternatives;
+  std::erase_if(unknown.alternatives, [&](const Alternative& a) {
+    double gain = 0.0;
+    for (const Alternative& b : all)
+      if (b.effect == a.effect && b.component == a.component) gain += b.log_likelihood_gain;
+    return gain < kLeastAlike * unknown.log_likelihood_gain;
+  });
+}
+
 std::vector<Finding> findings_of(const Named& names, const Adequacy& adequacy, const ReadyRecordings& ready,
                                  const Vehicle& nominal) {
   const JointModel& joint = names.joint;
@@ -145,6 +156,7 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
         unknown.where.regime = more.where.regime;
       }
   if (unknown.alternatives.empty()) add_nearest(unknown, names.selected.first_look, family_wise_error);
+  leave_out_what_it_hardly_resembles(unknown);
   findings.insert(findings.begin(), std::move(unknown));
   return findings;
 }

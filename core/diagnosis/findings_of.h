@@ -24,4 +24,8 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
                                              JointModel without, const ReadyRecordings& ready, const Vehicle& nominal,
                                              double family_wise_error);
 
+// Takes off the names of which each says too little of the evidence for it to be like them: no drive that tells it from
+// these is worth driving.
+void leave_out_what_it_hardly_resembles(Finding& unknown);
+
 }  // namespace odolab

@@ -42,6 +42,7 @@ class Predictor {
   // With that noise in the place of the model's own, so that models can be compared.
   Predicted of(const JointModel& model, const FittedNoise& noise, Fit fit = Fit::to_recordings) const;
   bool leaves_out_in_turn() const { return runs_.empty(); }
+  const std::vector<InnovationRun>& held_out() const { return runs_; }
   // The same model fitted to what was held out as well, to ask whether it suffices. Unset where nothing was held out,
   // or where an effect there is not known: a load that may be gone, the phase of a wheel.
   std::optional<JointModel> fitted_to_all(const JointModel& model) const;

@@ -1,6 +1,8 @@
 // Whether what nobody fitted speaks against an answer.
 #pragma once
 
+#include <vector>
+
 #include "core/diagnosis/diagnosis.h"
 
 namespace odolab {
@@ -12,12 +14,13 @@ bool is_refuted_by_unseen(const Diagnosis& diagnosis);
 bool is_refuted_by_simulator(const Diagnosis& diagnosis);
 
 // Whether the simulator goes the ways that were recorded: by the calibration alone it errs by no more than twice what
-// the calibrated model does, in place or in heading. Castors that turn over to another side, or poses at both ends
-// alone, of which its error is a whole run's, make it err by more: then it neither confirms nor refutes.
+// the calibrated model does, in place or in heading, of what was fitted or what was held out, whichever is worse.
+// Castors that turn over to another side, or poses at both ends alone, of which its error is a whole run's, make it err
+// by more: then it neither confirms nor refutes.
 bool simulator_follows(const Diagnosis& diagnosis);
 
-// Whether something was found in a form that the simulator does not have: on its floor a wheel slips where that wheel
-// is, and not where the axle's middle is. Then it does not refute either.
-bool simulator_lacks_the_form(const Diagnosis& diagnosis);
+// What was found that the simulator cannot play: of a form or size that it does not have. Then it
+// does not refute either.
+std::vector<Finding> beyond_the_simulator(const Diagnosis& diagnosis);
 
 }  // namespace odolab

@@ -38,8 +38,9 @@ const std::vector<double>* CsvTable::column(std::string_view name) const {
 }
 
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
-                                const std::function<CsvCells(std::string_view name)>& cells_of) {
-  const Result<std::string> file = read_whole_file(path);
+                                const std::function<CsvCells(std::string_view name)>& cells_of,
+                                const Progress& progress) {
+  const Result<std::string> file = read_whole_file(path, progress);
   if (!file) return file.error();
   std::string_view rest = *file;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);
@@ -59,6 +60,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   const auto number_in = [&](std::string_view cell) {
     return number_from(delimiter == ',' ? cell : with_decimal_point(cell, pointed));
   };
+  constexpr std::size_t kLinesAtOnce = 4096;
   std::size_t line_number = 0;
   while (!rest.empty()) {
     const void* newline = std::memchr(rest.data(), '\n', rest.size());
@@ -68,6 +70,9 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
     const std::string_view line = rest.substr(0, size);
     rest.remove_prefix(ended ? size + 1 : size);
     ++line_number;
+    if (line_number % kLinesAtOnce == 0 &&
+        !goes_on(progress, 1.0 - static_cast<double>(rest.size()) / static_cast<double>(file->size())))
+      return stopped_reading(path);
     if (trimmed(line).empty()) continue;
     if (table.names.empty() && line.front() == '#') continue;  // a comment above the header
     if (table.names.empty()) delimiter = divider_of(line);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 
 namespace odolab {
@@ -30,7 +31,8 @@ enum class CsvCells {
 // file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
 // many cells, a last line that is cut off, time that goes back, no row at all.
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
-                                const std::function<CsvCells(std::string_view name)>& cells_of);
+                                const std::function<CsvCells(std::string_view name)>& cells_of,
+                                const Progress& progress = {});
 
 // The text of such a file; NaN becomes an empty cell, and numbers are exact.
 std::string csv_text(const CsvTable& table);

@@ -203,10 +203,11 @@ void add_evidence(HtmlReport& report, const Diagnosis& d) {
 }
 
 // Why an effect that was asked for stands in no finding.
-std::string why_not_named(const AskedEffect& a, double named_gain) {
+std::string why_not_named(const AskedEffect& a, double named_gain, bool beside_unknown) {
   constexpr double kChance = 0.02, kTold = 10.0, kTrace = 0.15;
   if (a.named) return "";
   if (a.p_value > kChance) return "no more than chance";
+  if (beside_unknown) return "does not suffice: what is there has no name";
   if (!a.gain_beside_findings || named_gain <= 0.0) return "";
   if (*a.gain_beside_findings < kTold) return "what was found says it, too";
   if (*a.gain_beside_findings < kTrace * named_gain)
@@ -239,7 +240,7 @@ void add_asked(HtmlReport& report, const Diagnosis& d) {
     if (any_named)
       row.push_back(a.named ? "named" : a.gain_beside_findings ? number_text("%.1f", *a.gain_beside_findings) : "");
     row.push_back(a.p_value < kCertain ? "under 1e-15" : number_text("%.2g", a.p_value));
-    row.push_back(why_not_named(a, named_gain));
+    row.push_back(why_not_named(a, named_gain, d.verdict == Verdict::unknown_effect));
     row.push_back(a.survives ? number_text(*a.survives < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * *a.survives) : "");
     row.push_back(a.bends ? parameter_words(a.bends->name) : "");
     row.push_back(a.least_seen ? size_text(a.least_seen->value, a.least_seen->unit) : a.named ? "" : "none would show");
@@ -299,7 +300,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
         {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
   };
   add_simulated("calibrated", d.simulation.calibrated, ink::kOrange);
-  add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
+  if (is_switched_on(d.simulation))
+    add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
   if (!simulated.bars.empty()) bars.groups.push_back(simulated);
   if (table.empty()) return;
   report.heading("The proof: before and after");

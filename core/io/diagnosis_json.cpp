@@ -33,6 +33,7 @@ Json where_json(const WhereFound& where) {
   Json json = Json::object();
   for (const auto& [from_s, to_s] : where.time_s) json["time_s"].push_back(std::vector<double>{from_s, to_s});
   if (!where.recording.empty()) json["recording"] = where.recording;
+  for (const std::string& other : where.other_recordings) json["other_recordings"].push_back(other);
   if (where.zone) {
     Json& zone = json["zone"];
     zone["x_m"] = where.zone->x_m;

@@ -139,6 +139,15 @@ bool is_fault(const Finding& finding) {
          (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
 }
 
+bool is_switched_on(const FitTable& simulation) {
+  const std::optional<FitFigures>&before = simulation.calibrated, &after = simulation.with_findings;
+  if (!before || !after) return after.has_value();
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  return !same(before->position_rms_m, after->position_rms_m) ||
+         !same(before->heading_rms_rad, after->heading_rms_rad) ||
+         !same(before->normalised_chi2, after->normalised_chi2);
+}
+
 std::string figures_text(const FitFigures& f) {
   return number_text("%.2f mm", 1e3 * f.position_rms_m) +
          (f.has_heading() ? number_text(", %.3f\xC2\xB0", degrees(f.heading_rms_rad)) : "");
@@ -326,10 +335,15 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
                   " with the findings (log-likelihood)");
   if (diagnosis.simulation.calibrated && diagnosis.simulation.with_findings) {
     const FitFigures &before = *diagnosis.simulation.calibrated, &after = *diagnosis.simulation.with_findings;
-    end.push_back("   simulator: calibrated " + figures_text(before) + "  ->  with findings " + figures_text(after) +
-                  (is_refuted_by_simulator(diagnosis)    ? ": it does not confirm this"
-                   : simulator_lacks_the_form(diagnosis) ? "; its floor has no patch of that form"
-                                                         : ""));
+    std::vector<std::string> beyond;
+    for (const Finding& f : beyond_the_simulator(diagnosis)) beyond.push_back(effect_text(f.effect, f.component));
+    const std::string with_findings =
+        is_switched_on(diagnosis.simulation) ? "  ->  with findings " + figures_text(after) : "";
+    end.push_back("   simulator: calibrated " + figures_text(before) + with_findings +
+                  (is_refuted_by_simulator(diagnosis) ? ": it does not confirm this" : ""));
+    if (!beyond.empty())
+      append_wrapped(end, "   it neither confirms nor refutes: it cannot play " + list_of(beyond, "and"), columns,
+                     "      ");
   }
   if (!diagnosis.not_testable.empty()) {
     std::vector<std::string> names;

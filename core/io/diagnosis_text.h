@@ -15,6 +15,9 @@ std::string list_of(const std::vector<std::string>& words, const char* last_word
 bool is_fault(const Finding& finding);
 
 // "3.41 mm, 0.401 degrees".
+// Whether anything that was found is switched on in the simulator: where nothing is it does the same to the last digit.
+bool is_switched_on(const FitTable& simulation);
+
 std::string figures_text(const FitFigures& figures);
 
 // "wheel eccentricity of the left wheel".

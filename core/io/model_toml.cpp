@@ -39,7 +39,7 @@ FittedEffect read_fitted_effect(TomlTable& table) {
   TomlTable errors = table.table("stderr");
   std::vector<std::string> keys;
   for (const EffectParameter& parameter : entry.parameters) {
-    if (parameter.required && !at_a_time) table.require(parameter.name.c_str());
+    if (is_wanted(parameter, at_a_time)) table.require(parameter.name.c_str());
     keys.push_back(parameter.name);
   }
   if (at_a_time) keys.push_back("at_s");

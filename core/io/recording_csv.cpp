@@ -49,10 +49,11 @@ std::optional<std::pair<std::string, std::string>> without_partner(const std::ve
   return std::nullopt;
 }
 
-Result<Recording> read_recording_csv(const std::string& path) {
-  Result<CsvTable> table = read_csv_table(path, {"time_s"}, [](std::string_view name) {
+Result<Recording> read_recording_csv(const std::string& path, const Progress& progress) {
+  const auto cells_of = [](std::string_view name) {
     return is_recording_column(name) ? CsvCells::numbers_or_empty : CsvCells::anything;
-  });
+  };
+  Result<CsvTable> table = read_csv_table(path, {"time_s"}, cells_of, progress);
   if (!table) return table.error();
   if (const auto lonely = without_partner(table->names))
     return Error{path + ":1", "the column '" + lonely->first + "' alone", "a column '" + lonely->second + "' with it"};

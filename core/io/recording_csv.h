@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/base/result.h"
 #include "core/recording/recording.h"
 
@@ -19,8 +20,9 @@ bool is_recording_column(std::string_view name);
 // A column that says nothing without another (a left wheel without the right one), and that other.
 std::optional<std::pair<std::string, std::string>> without_partner(const std::vector<std::string>& names);
 
-// Errors name file, line and column, what was found and what was expected. The recording takes the file's name.
-Result<Recording> read_recording_csv(const std::string& path);
+// Errors name file, line and column, what was found and what was expected. The recording takes the file's name. Where
+// `progress` says stop the result is an Error.
+Result<Recording> read_recording_csv(const std::string& path, const Progress& progress = {});
 
 // Numbers read back to the same bits. A recording with problems is not written.
 Result<Done> write_recording_csv(const std::string& path, const Recording& recording);

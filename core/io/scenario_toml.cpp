@@ -227,7 +227,7 @@ ActiveEffect read_effect(TomlTable& table) {
   table.field("component", active.component);
   if (!may_act_on(entry, active.component)) table.index_of_choice("component", 0, entry.components);
   for (const EffectParameter& parameter : entry.parameters) {
-    if (parameter.required) table.require(parameter.name.c_str());
+    if (is_wanted(parameter, table.has("at_s"))) table.require(parameter.name.c_str());
     std::optional<double> value;
     table.field(parameter.name.c_str(), value);
     if (value) active.parameters.emplace_back(parameter.name, *value);

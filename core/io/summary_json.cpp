@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/formatted.h"
+#include "core/base/valid_utf8.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 
@@ -49,7 +50,7 @@ struct JsonWriter {
 
   void put(const std::string& value) {
     text += '"';
-    for (char c : value) {
+    for (char c : valid_utf8(value)) {
       if (c == '"' || c == '\\') {
         text += '\\';
         text += c;

@@ -56,6 +56,7 @@ class Json {
 };
 
 // Readable text, indented, short arrays on one line. Numbers read back to the same bits; what is not finite is null.
+// Bytes that are no UTF-8, as a file's name may have, become U+FFFD.
 std::string to_text(const Json& value);
 
 Result<Done> write_json(const std::string& path, const Json& value);

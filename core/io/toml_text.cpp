@@ -1,6 +1,7 @@
 #include "core/io/toml_text.h"
 
 #include "core/base/formatted.h"
+#include "core/base/valid_utf8.h"
 #include "core/io/number_text.h"
 
 namespace odolab {
@@ -16,7 +17,7 @@ std::string float_text(double value) {
 
 std::string quoted_text(const std::string& value) {
   std::string text = "\"";
-  for (char c : value) {
+  for (char c : valid_utf8(value)) {
     if (c == '"' || c == '\\') {
       text += '\\';
       text += c;
@@ -33,7 +34,7 @@ std::string quoted_text(const std::string& value) {
 
 }  // namespace
 
-void TomlText::comment(const std::string& text) { text_ += "# " + text + "\n"; }
+void TomlText::comment(const std::string& text) { text_ += "# " + valid_utf8(text) + "\n"; }
 void TomlText::table(const std::string& path) { text_ += (text_.empty() ? "[" : "\n[") + path + "]\n"; }
 void TomlText::table_element(const std::string& path) { text_ += (text_.empty() ? "[[" : "\n[[") + path + "]]\n"; }
 

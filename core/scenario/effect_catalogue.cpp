@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/formatted.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab {
 
@@ -27,6 +29,14 @@ std::vector<EffectParameter> with_when(std::vector<EffectParameter> parameters) 
   return parameters;
 }
 
+// The number of one of its ways of showing (core/diagnosis/effects/README.md).
+EffectParameter number_of_form(std::size_t forms) { return {"form", 0.0, static_cast<double>(forms) - 1.0}; }
+
+bool gives(const ActiveEffect& active, const std::string& name) {
+  return std::any_of(active.parameters.begin(), active.parameters.end(),
+                     [&](const auto& given) { return given.first == name; });
+}
+
 std::string joined_by_or(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -43,8 +53,8 @@ bool is_part(const std::string& word) {
   return word.size() == 7 && word.rfind("castor", 0) == 0 && word[6] >= '1' && word[6] <= '9';
 }
 
-void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
-                      std::vector<std::string>& problems) {
+void check_given(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
+                 std::vector<std::string>& problems) {
   for (const auto& [name, value] : active.parameters) {
     const auto known = std::find_if(entry.parameters.begin(), entry.parameters.end(),
                                     [&, &wanted = name](const EffectParameter& p) { return p.name == wanted; });
@@ -53,57 +63,87 @@ void check_parameters(const ActiveEffect& active, const EffectEntry& entry, cons
       for (const EffectParameter& p : entry.parameters) names.push_back(p.name);
       problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " +
                          joined_by_or(names));
+    } else if (name == "form") {
+      const double most = entry.name == "bump" && gives(active, "at_s")
+                              ? static_cast<double>(std::size(effects::kBumpsOnce)) - 1.0
+                              : known->at_most;
+      if (!(value >= 0.0 && value <= most && value == std::floor(value)))
+        problems.push_back(key + formatted(".form: found %g, expected a whole number from 0 to %g", value, most));
     } else if (!(value >= known->at_least && value <= known->at_most)) {
       problems.push_back(key + "." + name +
                          formatted(": found %g, expected %g to %g", value, known->at_least, known->at_most));
     }
   }
-  for (const EffectParameter& p : entry.parameters) {
-    const bool given = std::any_of(active.parameters.begin(), active.parameters.end(),
-                                   [&](const auto& g) { return g.first == p.name; });
-    if (p.required && !given) problems.push_back(key + "." + p.name + ": found nothing, expected a number");
-  }
+}
+
+void check_parameters(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
+                      std::vector<std::string>& problems) {
+  check_given(active, entry, key, problems);
+  for (const EffectParameter& p : entry.parameters)
+    if (is_wanted(p, gives(active, "at_s")) && !gives(active, p.name))
+      problems.push_back(key + "." + p.name + ": found nothing, expected a number");
 }
 
 }  // namespace
+
+bool is_wanted(const EffectParameter& parameter, bool at_a_time) {
+  const bool is_of_a_place = parameter.name == "x_m" || parameter.name == "y_m";
+  return parameter.required && !(at_a_time && is_of_a_place);
+}
 
 const std::vector<EffectEntry>& effect_catalogue() {
   static const std::vector<EffectEntry> entries = {
       {"wheel_eccentricity", kWheels, {{"amplitude", 0.0, 0.5, kRequired}, {"phase_rad"}}},
       {"encoder_missed_counts", kWheels, {{"fraction", 0.0, 0.99, kRequired}, {"above_radps", 0.0, 1e4}}},
-      {"drivetrain_backlash", kWheels, {{"gap_rad", 0.0, 3.0, kRequired}, {"drag_mps2", 0.0, 100.0}}},
+      {"drivetrain_backlash",
+       kWheels,
+       {{"gap_rad", 0.0, 3.0, kRequired}, {"drag_mps2", 0.0, 100.0}, number_of_form(std::size(effects::kPlayForms))}},
       {"wheel_toe", kVehicleOrWheels, {{"sideways_per_metre", -0.5, 0.5, kRequired}}},
-      {"castor_reversal_kick", kVehicle, {{"kick_rad", -1.0, 1.0, kRequired}, {"over_m", 1e-3, 1.0}}},
-      {"radius_drift", kWheels, {{"per_s", -0.1, 0.1, kRequired}, {"time_constant_s", 1e-3, kFar}}},
-      {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}}},
-      {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}}},
+      {"castor_reversal_kick",
+       kVehicle,
+       {{"kick_rad", -1.0, 1.0, kRequired}, {"over_m", 1e-3, 1.0}, number_of_form(std::size(effects::kKickForms))}},
+      {"radius_drift",
+       kWheels,
+       {{"per_s", -0.1, 0.1, kRequired}, {"time_constant_s", 1e-3, kFar}, number_of_form(std::size(effects::kDriftForms))}},
+      {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}, number_of_form(2)}},
+      {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}, number_of_form(2)}},
       {"payload_radius_change",
        kVehicleOrWheels,
        {{"left", -0.5, 0.5}, {"right", -0.5, 0.5}, {"at_s", -kEver_s, kEver_s, kRequired}}},
-      {"lateral_slip", kVehicleOrWheels, {{"m_per_s_per_mps2", -1.0, 1.0, kRequired}}},
-      {"traction_slip", kVehicleOrAnyWheel, {{"per_mps2", -1.0, 1.0, kRequired}}},
-      {"turn_scrub", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}}},
+      {"lateral_slip",
+       kVehicleOrWheels,
+       {{"m_per_s_per_mps2", -1.0, 1.0, kRequired},
+        {"at_mps", 1e-3, 1e3},
+        number_of_form(std::size(effects::kLateralSlipForms))}},
+      {"traction_slip",
+       kVehicleOrAnyWheel,
+       {{"per_mps2", -1.0, 1.0, kRequired}, number_of_form(std::size(effects::kTractionForms))}},
+      {"turn_scrub", kVehicleOrWheels, {{"per_radps", -0.5, 0.5, kRequired}, number_of_form(2)}},
       {"one_sided_drag", kVehicle, {{"rad_per_m", -1.0, 1.0, kRequired}}},
       {"bump",
        kWheels,
        {{"extra_distance_m", 0.0, 0.04, kRequired},
         {"x_m", -kFar, kFar, kRequired},
         {"y_m", -kFar, kFar, kRequired},
-        {"radius_m", 1e-3, kFar}}},
+        {"radius_m", 1e-3, kFar},
+        {"at_s", -kEver_s, kEver_s},
+        number_of_form(std::size(effects::kBumpsLying))}},
       {"slip_zone",
        {"floor", "vehicle", "both_wheels"},
        {{"slip", 0.0, 1.0, kRequired},
         {"x_m", -kFar, kFar, kRequired},
         {"y_m", -kFar, kFar, kRequired},
-        {"radius_m", 1e-3, kFar, kRequired}}},
-      {"floor_slope_creep", {"floor", "vehicle"}, {{"direction_rad"}, {"creep_mps", -1.0, 1.0, kRequired}}},
+        {"radius_m", 1e-3, kFar, kRequired},
+        number_of_form(3)}},
+      {"floor_slope_creep", {"floor", "vehicle"}, {{"direction_rad"}, {"creep_mps", -1.0, 1.0, kRequired}, number_of_form(2)}},
       {"collision",
        kVehicle,
        {{"dx_m", -2.0, 2.0},
         {"dy_m", -2.0, 2.0},
         {"dheading_rad", -4.0, 4.0},
         {"at_s", -kEver_s, kEver_s, kRequired},
-        {"lasts_s", 0.01, 10.0}}},
+        {"lasts_s", 0.01, 10.0},
+        number_of_form(std::size(effects::kCollisionLasts_s))}},
       {"turn_speed_loss", kVehicleOrWheels, {{"per_radps", -3.0, 3.0, kRequired}}},
       {"clock_rate", {"vehicle", "both_wheels", "truth"}, {{"rate", -0.5, 0.5, kRequired}}},
       {"truth_frozen", kTruth, kWhen},
@@ -172,6 +212,37 @@ std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects) {
     check_parameters(active, *entry, key, problems);
   }
   return problems;
+}
+
+namespace {
+
+// With the parameters that a scenario knows.
+ActiveEffect in_its_words(const ActiveEffect& fitted, const EffectEntry& entry) {
+  ActiveEffect active{fitted.effect, fitted.component, {}};
+  for (const EffectParameter& p : entry.parameters)
+    if (p.name == "form")  // a model leaves out that of the catalogue's own
+      active.parameters.emplace_back("form", fitted.parameter("form"));
+    else if (gives(fitted, p.name))
+      active.parameters.emplace_back(p.name, fitted.parameter(p.name));
+  return active;
+}
+
+}  // namespace
+
+bool can_be_played(const ActiveEffect& fitted) {
+  const EffectEntry* entry = effect_entry(fitted.effect);
+  std::vector<std::string> problems;
+  if (entry) check_given(in_its_words(fitted, *entry), *entry, "", problems);
+  return entry && problems.empty();
+}
+
+std::optional<ActiveEffect> as_in_a_scenario(const ActiveEffect& fitted) {
+  // What is in the calibrated vehicle already would act twice; and no simulated truth has to be smoothed.
+  const EffectEntry* entry = is_of_the_truth(fitted.effect) ? nullptr : effect_entry(fitted.effect);
+  if (!entry) return std::nullopt;
+  ActiveEffect active = in_its_words(fitted, *entry);
+  if (!problems_in(std::vector<ActiveEffect>{active}).empty()) return std::nullopt;
+  return active;
 }
 
 }  // namespace odolab

@@ -1,6 +1,7 @@
 // The words by which effects are switched on in a scenario: names, components and parameters of the catalogue.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct EffectParameter {
   double at_most = 1e9;
   bool required = false;
 };
+
+// Whether it has to be given: what happens at a time needs no place.
+bool is_wanted(const EffectParameter& parameter, bool at_a_time);
 
 // An effect as it may be written down. physics/effects/README.md says what each one does.
 struct EffectEntry {
@@ -43,5 +47,13 @@ const EffectEntry* effect_entry(const std::string& name);
 
 // What is wrong with a list of effects, each a sentence that starts with the key, "effect[2].amplitude".
 std::vector<std::string> problems_in(const std::vector<ActiveEffect>& effects);
+
+// Whether the planar world has an effect of that name, in that form and of that size.
+bool can_be_played(const ActiveEffect& fitted);
+
+// What was found, as the planar world plays it: with those of its parameters that a scenario knows, its form among
+// them. None where it has no such effect, or none of that size. Mounting, clock and smoothing of the truth are none of
+// its effects.
+std::optional<ActiveEffect> as_in_a_scenario(const ActiveEffect& fitted);
 
 }  // namespace odolab

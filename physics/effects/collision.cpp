@@ -1,17 +1,23 @@
 // A push from outside: a force that takes the vehicle aside and lets it come to rest there, while the wheels slide.
 #include <algorithm>
 
+#include "core/diagnosis/effects/forms.h"
 #include "physics/effects/effect.h"
 
 namespace odolab::planar {
 
 namespace {
 
+double lasts_in_form_s(const ActiveEffect& a) {
+  constexpr double kAtOnce_s = 0.01;
+  return std::max(kAtOnce_s, effects::kCollisionLasts_s[form_of(a).value_or(1)]);
+}
+
 class Collision final : public Effect {
  public:
   Collision(const ActiveEffect& a, double step_s)
       : way_{a.parameter("dx_m"), a.parameter("dy_m"), a.parameter("dheading_rad")},
-        lasts_s_(a.parameter("lasts_s", 0.25)),
+        lasts_s_(a.parameter("lasts_s", lasts_in_form_s(a))),
         begins_s_(a.parameter("at_s") - 0.5 * lasts_s_),
         step_s_(step_s) {}
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "core/diagnosis/active_effect.h"
 #include "core/geometry/pose.h"
@@ -17,9 +19,11 @@ struct VehicleMotion {
   double time_s = 0.0;  // of the run; in a replay on the recording's clock
   double since_start_s = 0.0;
   double heading_rad = 0.0;
+  Vec2 position;                // of the axle's centre on the floor
   double speed_mps = 0.0;       // of the axle's centre along the vehicle, in the step before
   double yaw_rate_radps = 0.0;  // in the step before
-  // What the wheels of this step would give the vehicle if they rolled truly.
+  // What the wheels of this step would give the vehicle if they rolled truly: while they are rolled, with the radii
+  // that no effect has changed.
   double rolled_speed_mps = 0.0;
   double rolled_yaw_rate_radps = 0.0;
 };
@@ -27,9 +31,11 @@ struct VehicleMotion {
 // One wheel in the coming step.
 struct RollingWheel {
   Side side = Side::left;
+  Vec2 contact;               // on the floor
   double rotation_rad = 0.0;  // at the middle of the step
   double speed_radps = 0.0;
   double radius_m = 0.075;  // rolling; effects change it
+  bool yields = false;      // to the floor, by what its motor gives way
   double slip_mps = 0.0;    // effects add to it: the floor under the wheel moves by so much less than the wheel rolls
 };
 
@@ -79,6 +85,12 @@ struct Machine {
   ActualDrive actual;
   double step_s = 0.001;
 };
+
+// The form in which an effect is switched on (core/diagnosis/effects/forms.h); none: as README.md says.
+inline std::optional<int> form_of(const ActiveEffect& active) {
+  const double form = active.parameter("form", -1.0);
+  return form < 0.0 ? std::nullopt : std::optional(static_cast<int>(form));
+}
 
 // True where an effect on a component ("left_wheel", "both_wheels", "vehicle", ...) is one on this wheel.
 inline bool acts_on(const std::string& component, Side side) {

@@ -71,7 +71,7 @@ concealed::RunPlan robot_of(const FittedModel& model, const FittedNoise& noise) 
   plan.robot.rolling_noise_m_per_sqrt_m = noise.wheel_m_per_sqrt_m;
   for (const FittedEffect& fitted : model.effects) {
     if (!fitted.recording.empty()) continue;
-    const std::optional<ActiveEffect> active = effect_for_scenario(fitted.active, Recording{}, model.vehicle);
+    const std::optional<ActiveEffect> active = effect_for_scenario(fitted.active, Recording{});
     if (!active) continue;
     concealed::DrawnEffect effect;
     effect.active = *active;

@@ -62,8 +62,7 @@ void DrivenAxle::turn_motors(WheelPair set) {
 }
 
 bool DrivenAxle::is_held(const Wheel& wheel) const {
-  return std::all_of(effects_->begin(), effects_->end(),
-                     [&](const auto& effect) { return effect->holds(wheel.side); });
+  return std::all_of(effects_->begin(), effects_->end(), [&](const auto& effect) { return effect->holds(wheel.side); });
 }
 
 void DrivenAxle::turn_exactly(WheelPair speed) {
@@ -171,6 +170,8 @@ void DrivenAxle::after_step() {
 
 planar::VehicleMotion DrivenAxle::motion(double heading_rad) const {
   planar::VehicleMotion motion;
+  motion.position = world_->pose(body_).position() + (0.5 * step_s_) * world_->velocity_mps(body_) +
+                    rotated(0.5 * (wheels_[0].place + wheels_[1].place), heading_rad);
   motion.since_start_s = (static_cast<double>(steps_) + 0.5) * step_s_;
   motion.time_s = begin_s_ + motion.since_start_s;
   motion.heading_rad = heading_rad;
@@ -182,13 +183,20 @@ planar::VehicleMotion DrivenAxle::motion(double heading_rad) const {
 
 // The rolling radius of each wheel in this step, and what it slips along its way.
 void DrivenAxle::roll_with_effects(double heading_rad) {
-  const planar::VehicleMotion now = motion(heading_rad);
+  planar::VehicleMotion now = motion(heading_rad);
+  const Vec2 body = world_->pose(body_).position() + (0.5 * step_s_) * world_->velocity_mps(body_);
+  const double left_mps = wheels_[0].radius_m * wheels_[0].mean_speed_radps,
+               right_mps = wheels_[1].radius_m * wheels_[1].mean_speed_radps;
+  now.rolled_speed_mps = 0.5 * (left_mps + right_mps);
+  now.rolled_yaw_rate_radps = (right_mps - left_mps) / wheelbase_m_;
   for (Wheel& wheel : wheels_) {
     planar::RollingWheel rolling;
+    rolling.contact = body + rotated(wheel.place, heading_rad);
     rolling.side = wheel.side;
     rolling.speed_radps = wheel.mean_speed_radps;
     rolling.rotation_rad = wheel.state.rotation_rad - 0.5 * step_s_ * wheel.mean_speed_radps;
     rolling.radius_m = wheel.radius_m;
+    rolling.yields = wheel.drive.unloaded().inertia_kgm2 > 0.0;
     for (const auto& effect : *effects_) effect->roll(now, rolling);
     wheel.rolling_radius_m = rolling.radius_m;
     wheel.slip_in_effect_mps = rolling.slip_mps;

@@ -37,10 +37,13 @@ void FreeAxle::after_step(const Ground& ground) {
     wheel.travelled_m += rolled_m;
     planar::RollingWheel rolling;
     rolling.side = wheel.side;
+    rolling.contact = middle + rotated(wheel.place, heading_rad);
     rolling.rotation_rad = wheel.state.rotation_rad;
     rolling.speed_radps = rolled_m / (wheel.radius_m * step_s_);
     rolling.radius_m = wheel.radius_m;
     planar::VehicleMotion motion;
+    motion.heading_rad = heading_rad;
+    motion.position = middle;
     motion.since_start_s = (static_cast<double>(steps_) + 0.5) * step_s_;
     motion.time_s = begin_s_ + motion.since_start_s;
     for (const auto& effect : *effects_) effect->roll(motion, rolling);

@@ -1,8 +1,12 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 
 #include "source_dir.h"
 #include "test/end_to_end/program.h"
@@ -177,6 +181,80 @@ TEST(CommandLine, RefusesBadInputWithOneLine) {
   expect_refused("no_such_command", {"no_such_command"});
   expect_refused("diagnoze x.csv", {"diagnoze", "the nearest is diagnose"});
   expect_refused("import " + path("cut.toml") + " --out " + path("i.csv"), {"cut.toml"}, folder / "i.csv");
+}
+
+// Runs the program on a recording that is a pipe, and interrupts it while it reads.
+Outcome interrupted_while_reading(std::vector<std::string> words, const fs::path& folder) {
+  const std::string pipe = (folder / "pipe.csv").string(), said = (folder / "said").string();
+  ::mkfifo(pipe.c_str(), 0600);
+  words.insert(words.begin(), ODOLAB_PROGRAM);
+  words.push_back(pipe);
+  const pid_t program = ::fork();
+  if (program == 0) {
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+      ::dup2(::open((said + std::to_string(stream)).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), stream);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    ::execv(ODOLAB_PROGRAM, arguments.data());
+    ::_exit(127);
+  }
+  const int feed = ::open(pipe.c_str(), O_WRONLY);  // waits until the program reads
+  ::kill(program, SIGINT);
+  const std::string more = "time_s,left_wheel_rad,right_wheel_rad\n0,0,0\n";
+  EXPECT_EQ(::write(feed, more.data(), more.size()), static_cast<ssize_t>(more.size()));
+  int status = 0, tenths = 0;
+  while (::waitpid(program, &status, WNOHANG) == 0 && ++tenths < 100) ::usleep(100000);
+  ::close(feed);  // and not before: it must not wait for the end of the file
+  if (tenths == 100) ::waitpid(program, &status, 0);
+  ::unlink(pipe.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(said + "1"), text_of_file(said + "2")};
+}
+
+TEST(CommandLine, StopsCleanlyWhenInterruptedWhileItReads) {
+  const fs::path folder = fresh_folder("interrupted");
+  const std::string out = (folder / "out").string(), vehicle = ODOLAB_SOURCE_DIR "/assets/vehicles/labmate.toml";
+  for (const auto& [command, option] :
+       {std::pair{"predict", "--out"}, {"calibrate", "--out"}, {"diagnose", "--json"}}) {
+    const Outcome outcome = interrupted_while_reading({command, "--vehicle", vehicle, option, out}, folder);
+    EXPECT_EQ(outcome.exit_code, 130) << command;
+    EXPECT_EQ(outcome.errors, std::string(command) + ": stopped before its end; nothing was written\n");
+    EXPECT_EQ(outcome.output, "") << command;
+    EXPECT_FALSE(fs::exists(out)) << command;
+  }
+}
+
+TEST(CommandLine, RefusesWhatCannotBeWrittenBeforeTheWork) {
+  const fs::path folder = fresh_folder("unwritable");
+  write(folder / "file", "");
+  const std::string run = "assets/recordings/simulated_eight.csv", json = (folder / "out.json").string();
+  const std::string below_a_file = (folder / "file/x").string();
+  for (const std::string& command :
+       {"diagnose --vehicle " + kLabMate + " " + run + " --json " + json + " --html " + below_a_file,
+        "diagnose --vehicle absent.toml " + run + " --json " + json + " --model " + below_a_file,
+        "calibrate --vehicle " + kLabMate + " " + run + " --out " + below_a_file,
+        "predict --vehicle " + kLabMate + " " + run + " --out " + below_a_file,
+        "run assets/scenarios/no_error.toml --out " + below_a_file, "import " + run + " --out " + below_a_file})
+    expect_refused(command, {below_a_file, "found not a directory", "a file that can be written"}, folder / "out.json");
+}
+
+TEST(CommandLine, TakesADashForStandardOutputAndMixesNothingIntoIt) {
+  const std::string run = "assets/recordings/simulated_eight.csv", given = " --vehicle " + kLabMate + " " + run;
+  const Outcome track = odolab("predict" + given + " --out -");
+  EXPECT_EQ(track.exit_code, 0) << track.errors;
+  EXPECT_EQ(track.output.rfind("time_s,x_m,y_m,heading_rad\n", 0), 0u) << track.output.substr(0, 200);
+  EXPECT_EQ(track.output.find("poses"), std::string::npos);
+  EXPECT_NE(track.errors.find("standard output: "), std::string::npos) << track.errors;
+
+  const Outcome vehicle = odolab("calibrate" + given + " --out -");
+  EXPECT_EQ(vehicle.exit_code, 0) << vehicle.errors;
+  EXPECT_NE(vehicle.output.find("kind = \"differential_drive\""), std::string::npos) << vehicle.output;
+  EXPECT_EQ(vehicle.output.find("written:"), std::string::npos);
+  EXPECT_NE(vehicle.errors.find("written: standard output"), std::string::npos) << vehicle.errors;
+
+  expect_refused("diagnose" + given + " --json - --html -", {"standard output", "one file for two outputs"});
+  expect_refused("run assets/scenarios/no_error.toml --out -", {"--out", "found '-'", "a folder"});
+  EXPECT_FALSE(fs::exists(ODOLAB_SOURCE_DIR "/-"));
 }
 
 TEST(CommandLine, HelpShowsAnExampleOfEachCommand) {

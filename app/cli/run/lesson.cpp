@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/cli/command.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/run/judge.h"
 #include "app/cli/run/outputs.h"
 #include "app/cli/terminal.h"
@@ -32,6 +33,8 @@ Result<RunOutputs> mystery_outputs(const Mystery& mystery, const Progress& progr
 int run_lesson(const std::string& path, const std::string& out, bool check) {
   const Result<Lesson> lesson = read_lesson(path);
   if (!lesson) return bad_input(lesson.error());
+  if (!out.empty())
+    if (const std::optional<Error> unusable = unusable_output({out + "/summary.json"}, {})) return bad_input(*unusable);
   bool all_hold = true;
   Json summary = Json::object();
   summary["lesson"] = lesson->title;
@@ -58,6 +61,7 @@ int run_lesson(const std::string& path, const std::string& out, bool check) {
     for (const auto& [name, value] : outputs->figures) figures["figures"][name] = value;
     summary["steps"].push_back(figures);
   }
+  if (interrupted()) return stopped_before_its_end();
   if (!out.empty())
     if (Result<Done> written = write_json(out + "/summary.json", summary); !written) return bad_input(written.error());
   return check && !all_hold ? kCheckFailed : kDone;

@@ -47,7 +47,7 @@ void add_error(RunOutputs& out, const std::string& who, const std::string& words
 Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& scenario_path,
                                   const Progress& progress) {
   const std::string file = beside(scenario_path, std::get<ReplayPath>(scenario.path).recording);
-  Result<ImportedRecording> loaded = load_recording(file);
+  Result<ImportedRecording> loaded = load_recording(file, until_interrupted());
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) print_message("warning: " + file + ": " + warning);
   const auto recording = std::make_shared<const Recording>(std::move(loaded->recording));

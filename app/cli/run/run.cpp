@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "app/cli/command.h"
+#include "app/cli/overwriting.h"
 #include "app/cli/run/judge.h"
 #include "app/cli/run/lesson.h"
 #include "app/cli/run/outputs.h"
@@ -71,6 +72,7 @@ std::vector<std::vector<std::string>> what_was_run(const Scenario& scenario) {
 }
 
 int execute_run(const RunOptions& options) {
+  if (options.out == "-") return bad_input({"--out", "'-'", "a folder: a run writes several files"});
   if (file_kind(options.scenario) == FileKind::lesson) return run_lesson(options.scenario, options.out, options.check);
   Result<Scenario> scenario = read_scenario(options.scenario);
   if (!scenario) return bad_input(scenario.error());
@@ -80,6 +82,10 @@ int execute_run(const RunOptions& options) {
         read.ec != std::errc() || read.ptr != end)
       return bad_input({"--seed", "'" + options.seed + "'", "a whole number from 0 to 18446744073709551615"});
   }
+  const std::string folder =
+      options.out.empty() ? "out/" + std::filesystem::path(options.scenario).stem().string() : options.out;
+  if (const std::optional<Error> unusable = unusable_output({folder + "/summary.json"}, {}))
+    return bad_input(*unusable);
   Result<RunOutputs> out = run_outputs(*scenario, options.scenario, terminal_progress("running"));
   if (!out) return bad_input(out.error());
 
@@ -100,8 +106,7 @@ int execute_run(const RunOptions& options) {
                            scenario->floor.friction));
   out->report = report;
 
-  const std::string folder =
-      options.out.empty() ? "out/" + std::filesystem::path(options.scenario).stem().string() : options.out;
+  if (interrupted()) return stopped_before_its_end();
   if (Result<Done> written = write_run(*out, *scenario, folder); !written) return bad_input(written.error());
   for (const std::string& sentence : out->sentences) std::printf("%s\n", sentence.c_str());
   std::printf("written: %s/report.html, summary.json, recordings and pictures\n", folder.c_str());

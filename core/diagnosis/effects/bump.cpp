@@ -7,40 +7,11 @@
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/floor.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
 namespace {
-
-// How the extra distance is rolled: evenly over so much of the way, or as a wheel of radius r climbs something that
-// takes it e further: up and down at angles that are steepest where it meets it and leaves it.
-struct Climb {
-  double evenly_over_m = 0.0, e_m = 0.0;
-  double length_m(double r_m) const;
-  double share_before(double share_of_way) const;  // of the extra distance; of the length
-};
-constexpr Climb kOnce[] = {{0.06}, {0.02}, {0.2}, {0.1}, {0.0, 0.004}, {0.0, 0.015}};
-
-// A wheel that turns by the angle a to either side of something's top goes r sin a and rolls r a, so that e = 2 r (a -
-// sin a), which is r a^3 / 3, and its way 2 r a: the cube of that is 24 r^2 e.
-double Climb::length_m(double r_m) const { return e_m > 0.0 ? std::cbrt(24.0 * r_m * r_m * e_m) : evenly_over_m; }
-
-// At u from the top it rolls 1 / cos a - 1 further for each metre, with sin a = u / r: that is u^2 / (2 r^2).
-double Climb::share_before(double share_of_way) const {
-  if (e_m <= 0.0) return share_of_way;
-  const double u = 2.0 * share_of_way - 1.0;
-  return 0.5 * (1.0 + u * u * u);
-}
-
-// What lies at a place: met within so far of it, and climbed so, in its middle or at its edge; no length: as long as it
-// is met.
-struct Lying {
-  double reach_m;
-  Climb climb;
-  bool at_its_edge = false;
-};
-constexpr Lying kLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}},       {0.1, {0.1}},
-                            {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {0.06}, true}, {0.1, {}}};
 
 // Of the way over something it takes two thirds at most: a wheel that climbs as high as its axle takes one.
 bool is_climbed(double extra_m, const Climb& climb) {
@@ -81,8 +52,6 @@ void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, st
 struct Steps {
   std::size_t first, last;
 };
-
-constexpr double kLongestBump_s = 1.0;
 
 // So much of a wheel's way about the middle of a step.
 Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
@@ -193,11 +162,11 @@ Effect once(Wheel wheel) {
   e.of_one_recording = true;
   e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
                         const std::vector<DriveView>&) {
-    return is_climbed(value[0], kOnce[static_cast<int>(shape.back())]);
+    return is_climbed(value[0], kBumpsOnce[static_cast<int>(shape.back())]);
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     if (view.number != static_cast<int>(shape[0])) return motions_by_number(Motions());
-    return motions_by_number(at_moment(view, wheel, shape[1], kOnce[static_cast<int>(shape.back())]));
+    return motions_by_number(at_moment(view, wheel, shape[1], kBumpsOnce[static_cast<int>(shape.back())]));
   };
   e.scan = [](const std::vector<DriveView>& views) {
     return moments(views, 0.15,
@@ -251,14 +220,14 @@ Effect each_time(Wheel wheel) {
   if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
   e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
                         const std::vector<DriveView>&) {
-    return is_climbed(value[0], kLying[static_cast<int>(shape.back())].climb);
+    return is_climbed(value[0], kBumpsLying[static_cast<int>(shape.back())].climb);
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    return motions_by_number(at_place(view, wheel, {shape[0], shape[1]}, kLying[static_cast<int>(shape.back())]));
+    return motions_by_number(at_place(view, wheel, {shape[0], shape[1]}, kBumpsLying[static_cast<int>(shape.back())]));
   };
   // It is met anywhere within reach, and no wheel comes to the same line twice.
   e.place_known_to_m = [](const std::vector<double>& shape) {
-    return kLying[static_cast<int>(shape.back())].reach_m / std::sqrt(3.0);
+    return kBumpsLying[static_cast<int>(shape.back())].reach_m / std::sqrt(3.0);
   };
   // Only places near which wheels came more than once: else it is a moment.
   e.scan = [wheel](const std::vector<DriveView>& views) { return places_met_again(views, wheel); };

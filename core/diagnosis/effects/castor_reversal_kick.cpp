@@ -1,48 +1,19 @@
 // A heading kick each time that the direction of travel reverses, as the castors swing round.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/forms.h"
 #include "core/diagnosis/effects/mean_rate.h"
 #include "core/diagnosis/effects/reversals.h"
 
 namespace odolab::effects {
 
 namespace {
-enum class Course { evenly, fading, of_a_castor, shortly };
-constexpr struct {
-  const char* in_words;
-  bool to_one_side;
-  Course course;
-  double length_m = 0.0;  // over which it is even, or falls to a third; or a castor's trail
-} kKickForms[] = {
-    {"always to the same side, within 5 cm of way", true, Course::evenly, 0.05},
-    {"to one side forwards and the other in reverse, within 5 cm", false, Course::evenly, 0.05},
-    {"always to the same side, within 20 cm", true, Course::evenly, 0.2},
-    {"to one side forwards and the other in reverse, within 20 cm", false, Course::evenly, 0.2},
-    {"always to the same side, at once", true, Course::evenly, 0.001},
-    {"to one side forwards and the other in reverse, at once", false, Course::evenly, 0.001},
-    {"always to the same side, as a castor of 2 cm trail swings", true, Course::of_a_castor, 0.02},
-    {"to one side forwards and the other in reverse, as a castor of 2 cm trail swings", false, Course::of_a_castor,
-     0.02},
-    {"always to the same side, as a castor of 5 cm trail swings", true, Course::of_a_castor, 0.05},
-    {"to one side forwards and the other in reverse, as a castor of 5 cm trail swings", false, Course::of_a_castor,
-     0.05},
-    {"always to the same side, as a castor of 3 cm trail swings", true, Course::of_a_castor, 0.032},
-    {"to one side forwards and the other in reverse, as a castor of 3 cm trail swings", false, Course::of_a_castor,
-     0.032},
-    {"always to the same side, within 0.15 s, also of a stop that swings back", true, Course::shortly},
-    {"always to the same side, fading over 7 cm of way", true, Course::fading, 0.07},
-    {"to one side forwards and the other in reverse, fading over 7 cm", false, Course::fading, 0.07},
-    {"always to the same side, fading over 2 cm of way", true, Course::fading, 0.02},
-    {"to one side forwards and the other in reverse, fading over 2 cm", false, Course::fading, 0.02},
-};
-
 // The steps from which on it goes the other way by its speed: a stop that swings back faster than so much is one, too,
 // however short.
 std::vector<std::size_t> reversals_by_speed(const DriveView& view) {
-  constexpr double kHalfWindow_s = 0.05, kLeast_mps = 0.01;
+  constexpr double kHalfWindow_s = 0.05;
   // As read: smoothed, a swing is gone.
   const std::vector<double> speed_mps = mean_rate(view, kHalfWindow_s, [&](const EffectStep& s) {
     return 0.5 *
@@ -51,7 +22,7 @@ std::vector<std::size_t> reversals_by_speed(const DriveView& view) {
   std::vector<std::size_t> found;
   int direction = 0;
   for (std::size_t i = 0; i < speed_mps.size(); ++i) {
-    const int now = speed_mps[i] > kLeast_mps ? 1 : speed_mps[i] < -kLeast_mps ? -1 : 0;
+    const int now = speed_mps[i] > kLeastSwing_mps ? 1 : speed_mps[i] < -kLeastSwing_mps ? -1 : 0;
     if (now == 0 || now == direction) continue;
     if (direction != 0) found.push_back(i);
     direction = now;
@@ -61,13 +32,12 @@ std::vector<std::size_t> reversals_by_speed(const DriveView& view) {
 
 // A kick that lasts so long at each of them, always to the same side: by direction those of a swing would cancel.
 Motions short_kicks(const DriveView& view) {
-  constexpr double kLasts_s = 0.15;
   Motions m(view.steps.size());
   for (const std::size_t reversed : reversals_by_speed(view)) {
     double since_s = 0.0;
-    for (std::size_t i = reversed; i < view.steps.size() && since_s < kLasts_s; ++i) {
-      const double lasts_s = std::min(view.steps[i].duration_s, kLasts_s - since_s);
-      m[i].turn_rad += lasts_s / kLasts_s;
+    for (std::size_t i = reversed; i < view.steps.size() && since_s < kShortKick_s; ++i) {
+      const double lasts_s = std::min(view.steps[i].duration_s, kShortKick_s - since_s);
+      m[i].turn_rad += lasts_s / kShortKick_s;
       since_s += view.steps[i].duration_s;
     }
   }
@@ -127,20 +97,18 @@ Motions fading_kicks(const DriveView& view, bool to_one_side, double over_m) {
 // pivot goes. Turned about, it stands at half a turn and is pushed off by what little it is off that. Where the vehicle
 // turns back before it is round, it swings back.
 Motions kicks_of_a_castor(const DriveView& view, bool to_one_side, double trail_m) {
-  constexpr double kOff = 0.06;    // the sine of what it is off
-  constexpr double kRound = 0.02;  // of half a turn: so near it is round
   Motions m(view.steps.size());
   const std::vector<Reversal> all = reversals(view);
   double left = 0.0, sense = 1.0;  // of half a turn
   for (std::size_t n = 0; n < all.size(); ++n) {
-    const bool turned_back = left > kRound;
+    const bool turned_back = left > kCastorRound;
     sense = turned_back ? -sense : 1.0;
     left = turned_back ? 1.0 - left : 1.0;
     const std::size_t end = n + 1 < all.size() ? all[n + 1].first : view.steps.size();
     WayBack way_back(all[n]);
     for (std::size_t i = all[n].first; i < end && left > 0.0; ++i) {
       const double way_m = way_back.of_step(view, i);
-      const double swung = std::min(left, way_m / trail_m * (std::sin(kPi * left) + kOff) / kPi);
+      const double swung = std::min(left, way_m / trail_m * (std::sin(kPi * left) + kCastorOff) / kPi);
       m[i].turn_rad += (to_one_side ? sense : all[n].direction) * swung;
       left -= swung;
     }
@@ -174,13 +142,13 @@ std::vector<Effect> castor_reversal_kick() {
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     const auto& [in_words, to_one_side, course, length_m] = kKickForms[static_cast<std::size_t>(shape.back())];
     switch (course) {
-      case Course::evenly:
+      case KickCourse::evenly:
         return motions_by_number(even_kicks(view, to_one_side, length_m));
-      case Course::fading:
+      case KickCourse::fading:
         return motions_by_number(fading_kicks(view, to_one_side, length_m));
-      case Course::of_a_castor:
+      case KickCourse::of_a_castor:
         return motions_by_number(kicks_of_a_castor(view, to_one_side, length_m));
-      case Course::shortly:
+      case KickCourse::shortly:
         break;
     }
     return motions_by_number(short_kicks(view));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
@@ -23,9 +24,8 @@ std::vector<Effect> collision() {
   e.forms_of_the_scan = {1};  // half of the others' length is found by both
   e.of_one_recording = true;
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
-    constexpr double kLasts_s[3] = {0.0, 0.25, 0.5};
     if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(3);
-    const double lasts_s = kLasts_s[static_cast<int>(shape.back())];
+    const double lasts_s = kCollisionLasts_s[static_cast<int>(shape.back())];
     double total_s = 0.0;
     // How much of the way is done: it begins and ends softly, and `at_s` is its middle. At least the interval in which
     // that lies.

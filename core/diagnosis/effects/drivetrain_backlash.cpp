@@ -1,35 +1,14 @@
 // Play between encoder and wheel: after a reversal the encoder turns through the gap before the wheel follows.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/forms.h"
 #include "core/diagnosis/effects/mean_rate.h"
 
 namespace odolab::effects {
 
 namespace {
-// How a wheel runs while neither flank of the play touches, braked by so much until it stands; and over what turn at
-// least the play is crossed by a drive that yields: a swing back at a stop by less crosses it in part.
-constexpr double kAtOnce = 0.0, kStiff_rad = 1e-4;
-constexpr struct {
-  const char* in_words;
-  double drag_mps2 = kAtOnce, yields_rad = kStiff_rad;
-} kPlayForms[] = {
-    {"engaged at the start"},
-    {"in the middle of the play at the start"},
-    {"crossed too where it brakes harder than 0.05 m/s2", 0.05},
-    {"crossed too where it brakes harder than 0.08 m/s2", 0.08},
-    {"crossed too where it brakes harder than 0.12 m/s2", 0.12},
-    {"crossed too where it brakes harder than 0.18 m/s2", 0.18},
-    {"crossed too where it brakes harder than 0.25 m/s2", 0.25},
-    {"crossed too where it brakes harder than 0.35 m/s2", 0.35},
-    {"crossed too where it brakes harder than 0.5 m/s2", 0.5},
-    {"crossed over a turn of 0.04 rad, as of a drive that yields", kAtOnce, 0.04},
-    {"crossed over a turn of 0.12 rad, as of a drive that yields more", kAtOnce, 0.12},
-};
-constexpr std::size_t kMiddleAtTheStart = 1;
-
 // Which way a wheel turns first.
 double first_direction(const DriveView& view, bool left) {
   for (const EffectStep& s : view.steps)
@@ -141,11 +120,6 @@ Effect play_of(Wheel wheel) {
   return e;
 }
 }  // namespace
-
-std::optional<double> backlash_drag_mps2(int form) {
-  const double drag_mps2 = kPlayForms[form].drag_mps2;
-  return drag_mps2 == kAtOnce ? std::nullopt : std::optional(drag_mps2);
-}
 
 std::vector<Effect> drivetrain_backlash() {
   return {play_of(Wheel::left), play_of(Wheel::right), play_of(Wheel::both)};

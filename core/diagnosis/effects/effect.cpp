@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diagnosis/effects/forms.h"
+
 namespace odolab {
 
 const char* component_of(Wheel wheel) {
@@ -40,7 +42,6 @@ std::size_t DriveView::step_at(double time_s) const {
 }
 
 std::vector<char> DriveView::turning() const {
-  constexpr double kClose_s = 0.1;
   const auto n = steps.size();
   std::vector<char> out(n, 0);
   std::size_t from = 0, to = 0;  // of the steps close by
@@ -49,8 +50,8 @@ std::vector<char> DriveView::turning() const {
     return steps[i].left_read_rad != 0.0 || steps[i].right_read_rad != 0.0 ? 1 : 0;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    while (to < n && steps[to].time_s <= steps[i].time_s + kClose_s) turns += counted(to++);
-    while (steps[from].time_s < steps[i].time_s - kClose_s) turns -= counted(from++);
+    while (to < n && steps[to].time_s <= steps[i].time_s + effects::kTurningWithin_s) turns += counted(to++);
+    while (steps[from].time_s < steps[i].time_s - effects::kTurningWithin_s) turns -= counted(from++);
     out[i] = turns > 0;
   }
   return out;

@@ -161,8 +161,6 @@ const Effect* catalogue_entry(const ActiveEffect& active);
 
 // The entries, one file each.
 namespace effects {
-// How hard a wheel is braked that neither flank of its play touches, in that form; nothing where it stands at once.
-std::optional<double> backlash_drag_mps2(int form);
 // Of a drift in that form: whether it goes on from one recording to the next, and how soon it nears its end; 0: never.
 bool drifts_through_the_session(int form);
 double drift_time_constant_s(int form);

@@ -6,24 +6,11 @@
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
 namespace {
-
-struct LateralSlipForm {
-  const char* in_words;
-  bool at_an_angle;
-  double settles_s = 0.0;
-};
-constexpr LateralSlipForm kLateralSlipForms[] = {
-    {"at a speed in proportion to the lateral acceleration", false},
-    {"at an angle in proportion to it", true},
-    {"at a speed in proportion to it, which it comes to within 0.06 s", false, 0.06},
-    {"at a speed in proportion to it, which it comes to within 0.1 s", false, 0.1},
-    {"at a speed in proportion to it, which it comes to within 0.17 s", false, 0.17},
-    {"at a speed in proportion to it, which it comes to within 0.28 s", false, 0.28},
-};
 
 Motions slipped_by(const DriveView& view, const LateralSlipForm& form) {
   Motions m;

@@ -5,25 +5,13 @@
 #include <cmath>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
 namespace {
 constexpr std::size_t kFrom = 0, kForm = 1;  // of a shape
 
-struct DriftForm {
-  const char* in_words;
-  bool through_the_session;
-  double time_constant_s;  // 0: for ever
-};
-constexpr DriftForm kDriftForms[] = {
-    {"anew in each recording", false, 0.0},
-    {"on through all recordings, by their stamps", true, 0.0},
-    {"anew in each recording, towards an end that is half reached after 40 s", false, 60.0},
-    {"on through all recordings, by their stamps, towards an end that is half reached after 40 s", true, 60.0},
-    {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true,
-     240.0},
-};
 const DriftForm& form_of(const std::vector<double>& shape) {
   return kDriftForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];
 }

@@ -1,41 +1,15 @@
 // Traction slip: the share of a step that is lost is in proportion to the acceleration along the travel.
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
 namespace {
-
-// What a wheel pushes with is its share of the vehicle's mass times the vehicle's acceleration, and the moment of
-// inertia's part of it where the vehicle turns more quickly: `of_turning` is that part beside what it would be if the
-// mass stood over the wheels, 4 I / (m b^2), some 0.6 for a body as long as it is wide and 0 for a mast. `of_bends`:
-// a mass that stands ahead of the axle by d is held in a bend by wheels that push unlike each other, by m d v w in all
-// about the axle's middle: 2 d / b of the lateral acceleration at either wheel. `gives_way_s_per_mps`: a vehicle whose
-// wheels slip speeds up by less than they do, s' = k v (a - s'') of the way s that is lost, so that s' stays behind
-// k v a by k v; and by what a tyre's relaxation length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
-struct TractionForm {
-  const char* in_words;
-  double of_turning, of_bends;
-  std::optional<double> gives_way_s_per_mps = std::nullopt;
-};
-constexpr double kRelaxes_s = 0.03;
-constexpr TractionForm kTractionForms[] = {
-    {"each wheel by its own acceleration", 1.0, 0.0},
-    {"the vehicle by its acceleration", 0.0, 0.0},
-    {"each wheel by what it pushes of a body as long as it is wide", 0.6, 0.0},
-    {"each wheel by its own acceleration, which it gives way to a little later", 1.0, 0.0, 0.0},
-    {"each wheel by its own acceleration, which slip of 4 % per m/s2 holds back", 1.0, 0.0, 0.04},
-    {"each wheel by its own acceleration, which slip of 8 % per m/s2 holds back", 1.0, 0.0, 0.08},
-    {"each wheel by its own acceleration, which slip of 16 % per m/s2 holds back", 1.0, 0.0, 0.16},
-    {"each wheel by what it pushes of a body whose mass stands ahead of the axle", 0.6, 0.3},
-    {"each wheel by what it pushes of a body whose mass stands well ahead of the axle", 0.6, 0.6},
-    {"each wheel by what it pushes of a body whose mass stands behind the axle", 0.6, -0.4},
-};
 
 struct Tyre {
   double owed = 0.0;  // way that is still to be lost, for one per m/s2
@@ -43,7 +17,7 @@ struct Tyre {
   double slip(double way_m, double acceleration_mps2, double duration_s, const TractionForm& form) {
     owed += std::abs(way_m) * acceleration_mps2;
     if (!form.gives_way_s_per_mps || duration_s <= 0.0) return std::exchange(owed, 0.0);
-    const double behind_s = kRelaxes_s + *form.gives_way_s_per_mps * std::abs(way_m) / duration_s;
+    const double behind_s = kTyreRelaxes_s + *form.gives_way_s_per_mps * std::abs(way_m) / duration_s;
     const double lost = (1.0 - std::exp(-duration_s / behind_s)) * owed;
     owed -= lost;
     return lost;

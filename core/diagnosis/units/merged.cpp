@@ -55,6 +55,15 @@ bool any_cannot_say(const std::vector<Diagnosis>& diagnoses) {
                      [](const Diagnosis& d) { return d.verdict == Verdict::cannot_say; });
 }
 
+std::string said_of_unit(const std::string& warning, const VehicleUnit& unit, OutsideTruth truth) {
+  if (unit.name.empty()) return warning;
+  if (unit.carries_truth || warning.find("truth") == std::string::npos) return part_words(unit.name) + ": " + warning;
+  return part_words(unit.name) +
+         (truth == OutsideTruth::poses ? " (its truth is told through the joints): "
+                                       : " (its truth is the way of the other units, through the joints): ") +
+         warning;
+}
+
 Verdict verdict_by(const std::vector<Finding>& findings, bool cannot_say) {
   const auto any = [&](const auto& is) { return std::any_of(findings.begin(), findings.end(), is); };
   if (any([](const Finding& f) { return f.effect == "unknown"; })) return Verdict::unknown_effect;
@@ -85,7 +94,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     }
     add_findings_of(one, units[u], rounding_of_joints(nominal, u), d.findings);
     const std::string of = units[u].name.empty() ? "" : part_words(units[u].name) + ": ";
-    for (const std::string& w : one.warnings) d.warnings.push_back(of + w);
+    for (const std::string& w : one.warnings) d.warnings.push_back(said_of_unit(w, units[u], truth));
     // What has no name is drawn first.
     auto next = one.verdict == Verdict::unknown_effect ? d.responses.begin() : d.responses.end();
     for (Response r : one.responses) {
@@ -97,6 +106,14 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
         if (!units[u].name.empty()) r.recording += ", " + units[u].name;
         (d.*residuals).push_back(std::move(r));
       }
+    for (const JudgedPart& part : one.judged) {
+      const auto whole = std::find_if(d.judged.begin(), d.judged.end(),
+                                      [&](const JudgedPart& w) { return w.recording == part.recording; });
+      if (whole == d.judged.end())
+        d.judged.push_back(part);
+      else
+        whole->way_unknown_s.insert(whole->way_unknown_s.end(), part.way_unknown_s.begin(), part.way_unknown_s.end());
+    }
     d.left_out_in_turn = d.left_out_in_turn || one.left_out_in_turn;
     if (one.unseen_gain) d.unseen_gain = d.unseen_gain.value_or(0.0) + *one.unseen_gain;
     if (!one.next_drive.empty() && (d.next_drive.empty() || one.verdict == Verdict::ambiguous)) {

@@ -159,7 +159,7 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
 
 Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes,
                                            const Progress& progress) {
-  if (is_own_recording(sources, wishes)) return load_recording(sources.front());
+  if (is_own_recording(sources, wishes)) return load_recording(sources.front(), progress);
   const auto formats = formats_of(sources, wishes);
   if (!formats) return formats.error();
   if (!formats->front()->stream) return formats->front()->read(sources);
@@ -177,10 +177,9 @@ Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, co
     if (!formats) return formats.error();
     if (formats->front()->stream) {
       std::error_code failure;
-      const fs::path folder = fs::path(out).parent_path();
-      if (!folder.empty()) fs::create_directories(folder, failure);
-      Result<SampleStreams> streams =
-          streams_of(sources, *formats, wishes, folder.empty() ? "." : folder.string(), progress);
+      const std::string folder = spill_folder_of(out);
+      fs::create_directories(folder, failure);
+      Result<SampleStreams> streams = streams_of(sources, *formats, wishes, folder, progress);
       if (!streams) return streams.error();
       Result<WrittenRecording> written = write_streams_csv(out, *streams);
       if (!written) return written.error();
@@ -188,7 +187,8 @@ Result<ImportedFile> import_into_csv(const std::vector<std::string>& sources, co
                           std::move(streams->warnings)};
     }
   }
-  Result<ImportedRecording> imported = import_recording(sources, wishes);
+  Result<ImportedRecording> imported = import_recording(sources, wishes, progress);
+  if (!goes_on(progress, 1.0)) return stopped(out);
   if (!imported) return imported.error();
   const Recording& recording = imported->recording;
   if (Result<Done> written = write_recording_csv(out, recording); !written) return written.error();
@@ -201,7 +201,7 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   if (is_foreign_recording(path)) return import_recording({path}, {}, progress);
   std::error_code failure;
   if (fs::is_directory(path, failure)) return folder_given(path);
-  Result<Recording> recording = read_recording_csv(path);
+  Result<Recording> recording = read_recording_csv(path, progress);
   if (!recording) return recording.error();
   std::vector<std::string> warnings = unread_columns(*recording);
   std::erase_if(recording->channels, [&](const Channel& c) {

@@ -20,8 +20,8 @@ struct ImportedRecording {
 
 // Finds out the format from names and content. One run is one file, or two where a format keeps wheels and truth apart
 // (in either order; the second is found beside the first where its name says which it is).
-// Sources that are read as streams (bags, text) may be given together where they share a clock. Streams can be stopped
-// by `progress`, here and below; the result is an Error then.
+// Sources that are read as streams (bags, text) may be given together where they share a clock. Recordings of
+// our own and streams can be stopped by `progress`, here and below; the result is an Error then.
 Result<ImportedRecording> import_recording(const std::vector<std::string>& sources, const ImportWishes& wishes = {},
                                            const Progress& progress = {});
 

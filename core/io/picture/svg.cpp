@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/base/valid_utf8.h"
+
 namespace odolab {
 
 namespace {
@@ -32,7 +34,7 @@ std::string name_by_content(const std::string& body) {
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (char c : text) {
+  for (char c : valid_utf8(text)) {
     if (c == '&')
       result += "&amp;";
     else if (c == '<')

@@ -15,6 +15,7 @@ namespace odolab::concealed {
 namespace {
 
 std::string label(const std::string& effect, const std::string& component) {
+  if (effect == "unknown") return effect;
   return component == "left_wheel" || component == "right_wheel" ? effect + "." + component : effect;
 }
 

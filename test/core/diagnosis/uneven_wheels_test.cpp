@@ -85,6 +85,7 @@ TEST(UnevenWheels, AreUnknownByABeltThatGoesRoundMoreSlowlyThanItsWheel) {
                {}, Vehicle{});
   ASSERT_TRUE(d);
   ASSERT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d->findings.front().component, "left_wheel");
   const std::string& regime = d->findings.front().where.regime;
   EXPECT_EQ(regime.find("way of the left wheel per metre [1] that depends on its angle, 0.37"), 0u) << regime;
 }

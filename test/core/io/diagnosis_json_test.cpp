@@ -53,6 +53,15 @@ TEST(DiagnosisJson, SaysOfEveryEffectThatWasAskedForOnlyWhatIsKnown) {
       "bends_calibration": {"parameter": "truth_mounting.x_m", "value": 0.0031, "unit": "m"}}])"));
 }
 
+TEST(DiagnosisJson, TellsInWhichOtherRecordingsItWasFoundToo) {
+  Diagnosis d = test::diagnosis_by_hand();
+  EXPECT_FALSE(parsed(d)["findings"][1]["where"].contains("other_recordings"));
+  d.findings[1].where.other_recordings = {"run_4.csv", "run_7.csv"};
+  const nlohmann::json where = parsed(d)["findings"][1]["where"];
+  EXPECT_EQ(where["recording"], "run_3.csv");
+  EXPECT_EQ(where["other_recordings"], (nlohmann::json{"run_4.csv", "run_7.csv"}));
+}
+
 TEST(DiagnosisJson, WhereHoldsOnlyWhatApplies) {
   const nlohmann::json json = parsed(test::diagnosis_by_hand());
   EXPECT_EQ(json["findings"][0]["where"],

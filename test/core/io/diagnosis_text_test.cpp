@@ -204,6 +204,17 @@ TEST(DiagnosisReport, IsOnePageWithEveryPart) {
   }
 }
 
+// Of what has no name nothing can be switched on.
+TEST(DiagnosisReport, SaysNothingOfASimulatorInWhichNothingWasSwitchedOn) {
+  Diagnosis d = test::diagnosis_by_hand();
+  EXPECT_NE(diagnosis_report(d).text().find("with what was found switched on"), std::string::npos);
+  d.simulation.with_findings = d.simulation.calibrated;
+  EXPECT_EQ(diagnosis_report(d).text().find("with what was found switched on"), std::string::npos);
+  EXPECT_NE(diagnosis_report(d).text().find("Simulator: calibrated"), std::string::npos);
+  for (const std::string& line : summary_lines(d))
+    if (line.find("simulator:") != std::string::npos) EXPECT_EQ(line.find("with findings"), std::string::npos) << line;
+}
+
 TEST(DiagnosisReport, DrawsNoErrorsWhereNoneCouldBeGathered) {
   // As of a truth without headings: chi-square is known, the error over a metre is not.
   Diagnosis d = test::diagnosis_by_hand();

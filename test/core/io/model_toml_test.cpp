@@ -52,6 +52,18 @@ TEST(ModelToml, ReadsBackWhatItWroteToTheBit) {
   EXPECT_EQ(model_text(*read), model_text(model));
 }
 
+TEST(ModelToml, IsReadBackWhateverBytesTheNameOfARecordingHas) {
+  const ScratchFolder folder;
+  FittedModel model = eccentric_robot();
+  model.truth_clock_s = {{"caf\xE9.csv", 0.02}};
+  model.effects.back().recording = "caf\xE9.csv";
+  ASSERT_TRUE(write_model(folder.path("m.toml"), model));
+  const Result<FittedModel> read = read_model(folder.path("m.toml"));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->truth_clock_s.front().first, "caf\xEF\xBF\xBD.csv");
+  EXPECT_EQ(read->effects.back().recording, "caf\xEF\xBF\xBD.csv");
+}
+
 TEST(ModelToml, AVehicleWithoutFindingsIsAModelToo) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_model(folder.path("m.toml"), {}));

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/valid_utf8.h"
 #include "core/io/picture/axis.h"
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
@@ -189,6 +190,17 @@ TEST(ReportHtml, IsOnePageThatNeedsNothingElse) {
   EXPECT_EQ(count(html, "<td>"), 6u);
   EXPECT_EQ(html.find("src="), std::string::npos);
   EXPECT_EQ(html.find("href="), std::string::npos);
+}
+
+// What it says of itself, whatever bytes the name of a recording has.
+TEST(ReportHtml, IsUtf8WhateverBytesATextHas) {
+  HtmlReport report("caf\xE9.csv");
+  report.table({"recording"}, {{"na\xEFve & caf\xE9"}});
+  TrackPicture picture = square_with_everything();
+  picture.title = "caf\xE9";
+  report.picture(track_picture(picture));
+  EXPECT_EQ(report.text(), valid_utf8(report.text()));
+  EXPECT_NE(report.text().find("na\xEF\xBF\xBDve &amp; caf\xEF\xBF\xBD"), std::string::npos);
 }
 
 }  // namespace

@@ -220,5 +220,20 @@ TEST(TrackCsv, NeedsAllColumnsAndUnwrapsHeadings) {
   EXPECT_NEAR((*track)[1].pose.heading_rad, 2.0 * kPi - 3.0, 1e-15);  // one rounding of a sum of order one
 }
 
+TEST(RecordingCsv, StopsReadingWhereItIsTold) {
+  const ScratchFolder folder;
+  std::string text = "time_s,left_wheel_rad,right_wheel_rad\n";
+  for (int i = 0; i < 20000; ++i) text += std::to_string(i) + ",0,0\n";
+  const std::string path = folder.write("long.csv", text);
+  double most = 0.0;
+  EXPECT_TRUE(read_recording_csv(path, [&](double share) { return most = std::max(most, share), true; }).ok());
+  EXPECT_GT(most, 0.75);
+  EXPECT_LE(most, 1.0);
+  const Result<Recording> stopped = read_recording_csv(path, [](double share) { return share < 0.5; });
+  ASSERT_FALSE(stopped.ok());
+  EXPECT_EQ(stopped.error().found, "a wish to stop");
+  EXPECT_FALSE(read_recording_csv(path, [](double) { return false; }).ok());
+}
+
 }  // namespace
 }  // namespace odolab

@@ -153,6 +153,24 @@ TEST(ScenarioToml, AnEffectThatIsMisspeltIsNamedWithTheNearest) {
             "s.toml:2: sensors.record_encoders: found 0, expected true, or else record_commands = true");
 }
 
+TEST(ScenarioToml, AFormThatAnEffectDoesNotHaveIsRefused) {
+  Scene scene;
+  const std::string good =
+      "seed = 1\n[[effect]]\neffect = \"castor_reversal_kick\"\ncomponent = \"vehicle\"\nkick_rad = 0.01\nform = 14\n";
+  ASSERT_TRUE(scene.read(good).ok());
+  EXPECT_EQ(scene.complaint(replaced(good, "14", "17")),
+            "s.toml:6: effect[1].form: found 17, expected a whole number from 0 to 16");
+  EXPECT_EQ(scene.complaint(replaced(good, "14", "1.5")),
+            "s.toml:6: effect[1].form: found 1.5, expected a whole number from 0 to 16");
+  const std::string bump =
+      "[[effect]]\neffect = \"bump\"\ncomponent = \"left_wheel\"\nextra_distance_m = 0.01\nat_s = 4.0\nform = 5\n";
+  ASSERT_TRUE(scene.read(bump).ok());
+  EXPECT_EQ(scene.complaint(replaced(bump, "form = 5", "form = 6")),
+            "s.toml:6: effect[1].form: found 6, expected a whole number from 0 to 5");
+  EXPECT_EQ(scene.complaint(replaced(bump, "at_s = 4.0", "y_m = 1.0")),
+            "s.toml:1: found no key 'x_m', expected it to be given");
+}
+
 TEST(ScenarioToml, AnErrorInTheVehicleNamesTheVehiclesFile) {
   Scene scene;
   scene.folder.write(

@@ -43,6 +43,13 @@ TEST(SummaryJson, EscapesText) {
   EXPECT_EQ(to_text(Json("a \"b\" \\ c\n\x01 \xC3\xA9")), "\"a \\\"b\\\" \\\\ c\\n\\u0001 \xC3\xA9\"\n");
 }
 
+// A name of a file may be any bytes; of JSON they would be none.
+TEST(SummaryJson, IsValidWhateverBytesATextHas) {
+  Json json = Json::object();
+  json["r\xE9\x73um\xE9"] = "caf\xE9.csv";
+  EXPECT_EQ(to_text(json), "{\n  \"r\xEF\xBF\xBDsum\xEF\xBF\xBD\": \"caf\xEF\xBF\xBD.csv\"\n}\n");
+}
+
 TEST(SummaryJson, PutsArraysOfObjectsOnLinesOfTheirOwn) {
   Json list = Json::array();
   Json& run = list.push_back(Json::object());

@@ -44,6 +44,99 @@ TEST(CastorReversalKick, GivesItsWholeKickWithinAFewCentimetresOfEachReversal) {
   EXPECT_LT(s.state().true_pose.heading_rad, 0.027);
 }
 
+TEST(CastorReversalKick, OfAFormToTwoSidesTakesBackInReverseWhatItGaveForwards) {
+  const auto turned_rad = [](std::vector<WheelSpeeds> phases, double form) {
+    return end_pose(table_drive(std::move(phases),
+                                {{"castor_reversal_kick", "vehicle", {{"kick_rad", 0.03}, {"form", form}}}}))
+        .heading_rad;
+  };
+  const std::vector<WheelSpeeds> back = {phase(5.0, 0.2, 0.0), phase(5.0, -0.2, 0.0)};
+  std::vector<WheelSpeeds> and_forth = back;
+  and_forth.push_back(phase(5.0, 0.2, 0.0));
+  // A metre behind each reversal all is over, also what fades: exp(-1 / 0.07).
+  for (const double form : {0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 13.0, 15.0}) {
+    EXPECT_NEAR(turned_rad(back, form), 0.03, 1e-4) << form;
+    EXPECT_NEAR(turned_rad(and_forth, form), 0.06, 2e-4) << form;
+    EXPECT_NEAR(turned_rad(back, form + 1.0), -0.03, 1e-4) << form;
+    EXPECT_NEAR(turned_rad(and_forth, form + 1.0), 0.0, 2e-4) << form;
+  }
+  EXPECT_NEAR(turned_rad(and_forth, 12.0), 0.06, 2e-4);
+}
+
+TEST(CastorReversalKick, ThatFadesGivesTheShareOfItsExponential) {
+  Simulation s(table_drive({phase(5.0, 0.2, 0.0), phase(5.0, -0.2, 0.0)},
+                           {{"castor_reversal_kick", "vehicle", {{"kick_rad", 0.03}, {"form", 13.0}}}}),
+               1);
+  while (s.state().time_s < 5.25) s.step();  // ramps from 0.2 to -0.2 m/s within half a second
+  const double turned_back_at_m = kRadius_m * s.state().left.rotation_rad;
+  while (turned_back_at_m - kRadius_m * s.state().left.rotation_rad < 0.07) s.step();
+  EXPECT_NEAR(s.state().true_pose.heading_rad, 0.03 * (1.0 - std::exp(-1.0)), 0.03 * 0.003);  // steps of 0.2 mm
+}
+
+TEST(TurnScrub, ByTheWheelsIsAShareOfTheRateThatTheyRoll) {
+  const double k = 0.03;
+  const auto turned_rad = [&](double seconds) {
+    return end_pose(
+               table_drive({phase(seconds, 0.0, 1.0)}, {{"turn_scrub", "vehicle", {{"per_radps", k}, {"form", 1.0}}}}))
+        .heading_rad;
+  };
+  EXPECT_NEAR(turned_rad(12.0) - turned_rad(2.0), 10.0 / (1.0 + k), 1e-4);
+}
+
+TEST(LateralSlip, AtAnAngleGrowsWithTheSpeedAndIsStatedAtOne) {
+  // In a circle of 0.8 m radius at 0.4 m/s; a slip angle that at 0.2 m/s would be as large as the creep of 0.02 s.
+  Simulation s(table_drive({phase(10.0, 0.4, 0.5)},
+                           {{"lateral_slip", "vehicle", {{"m_per_s_per_mps2", 0.02}, {"at_mps", 0.2}, {"form", 1.0}}}}),
+               1);
+  while (s.state().time_s < 5.0) s.step();
+  const Pose before = s.state().true_pose;
+  s.step();
+  const Pose after = s.state().true_pose;
+  const Vec2 moved = rotated(after.position() - before.position(), -0.5 * (before.heading_rad + after.heading_rad));
+  EXPECT_NEAR(moved.y_m / 1e-3, -0.02 * 0.4 * 0.5 * 0.4 / 0.2, 8e-5);  // 8 mm/s, to a hundredth
+}
+
+TEST(FloorSlopeCreep, WhileAWheelTurnsLeavesAVehicleAtRestWhereItIs) {
+  const auto moved_m = [](double form) {
+    return end_pose(table_drive({phase(10.0, 0.0, 0.0)},
+                                {{"floor_slope_creep", "floor", {{"creep_mps", 0.003}, {"form", form}}}}))
+        .x_m;
+  };
+  EXPECT_NEAR(moved_m(0.0), 0.03, 2e-3);
+  EXPECT_NEAR(moved_m(1.0), 0.0, 1e-9);
+}
+
+TEST(BumpEffect, OfATimeTakesItsExtraDistanceWhereverTheWheelIs) {
+  for (const double form : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    const ActiveEffect bump{"bump", "left_wheel", {{"extra_distance_m", 0.003}, {"at_s", 5.0}, {"form", form}}};
+    Simulation s(table_drive({phase(10.0, 0.2, 0.0)}, {bump}), 1);
+    while (s.state().time_s < 4.0) s.step();
+    EXPECT_NEAR(s.state().true_pose.heading_rad, 0.0, 1e-6) << form;
+    while (s.state().time_s < 5.0) s.step();  // half of it is rolled at its time
+    EXPECT_NEAR(s.state().true_pose.heading_rad, 0.5 * 0.003 / kBase_m, 0.1 * 0.003 / kBase_m) << form;
+    while (s.state().time_s < 7.0) s.step();
+    EXPECT_NEAR(s.state().true_pose.heading_rad, 0.003 / kBase_m, 0.01 * 0.003 / kBase_m) << form;
+  }
+}
+
+TEST(SlipZoneEffect, UnderTheMiddleTakesItsShareOfBothWheelsOrOfTheWayAlone) {
+  const auto end = [](double form) {
+    const ActiveEffect zone{
+        "slip_zone", "floor", {{"slip", 0.1}, {"x_m", 1.0}, {"y_m", 0.0}, {"radius_m", 0.3}, {"form", form}}};
+    return end_pose(table_drive({phase(10.0, 0.2, 0.0)}, {zone}));
+  };
+  // Over 0.6 m of floor, of which 0.9 is rolled by 1: the wheels roll 0.6 / 0.9 there.
+  for (const double form : {1.0, 2.0}) EXPECT_NEAR(end(form).x_m, 2.0 - 0.6 * (1.0 / 0.9 - 1.0), 1e-3) << form;
+  // Turning on the spot it takes of the turn, or nothing.
+  const auto turned_rad = [](double form) {
+    const ActiveEffect zone{
+        "slip_zone", "floor", {{"slip", 0.1}, {"x_m", 0.0}, {"y_m", 0.0}, {"radius_m", 0.1}, {"form", form}}};
+    return end_pose(table_drive({phase(5.0, 0.0, 1.0)}, {zone})).heading_rad;
+  };
+  EXPECT_NEAR(turned_rad(1.0), 0.9 * turned_rad(2.0), 1e-3);
+  EXPECT_NEAR(turned_rad(2.0), 5.0, 1e-3);
+}
+
 TEST(TurnSpeedLoss, TakesAShareOfTheSpeedInTurnsAlone) {
   const ActiveEffect loss{"turn_speed_loss", "vehicle", {{"per_radps", 0.05}}};
   EXPECT_NEAR(end_pose(table_drive({phase(10.0, 0.2, 0.0)}, {loss})).x_m, 2.0, 1e-5);

@@ -110,6 +110,93 @@ TEST(TractionSlip, OfAFastAndSlipperyVehicleLetsNoWheelRunAway) {
   EXPECT_LT(fastest_mps, 1.3 * 0.9);  // the motors' loop alone overshoots by a quarter at most
 }
 
+TEST(TractionSlip, OfNoFormLetsAWheelWithARealMotorRunAway) {
+  const double per_mps2 = 0.074;
+  for (double form = 0.0; form < 10.0; ++form) {
+    Scenario scenario = table_drive({phase(6.0, 0.9, 0.0)},
+                                    {{"traction_slip", "both_wheels", {{"per_mps2", per_mps2}, {"form", form}}}});
+    scenario.motor = {.ideal = false,
+                      .wheel_inertia_kgm2 = 0.02,
+                      .torque_limit_nm = 8.0,
+                      .proportional_gain = 4.0,
+                      .integral_gain = 40.0};
+    Simulation s(scenario, 1);
+    double fastest_mps = 0.0;
+    while (s.state().time_s < 4.0) {
+      s.step();
+      fastest_mps = std::max(fastest_mps, kRadius_m * s.state().left.speed_radps);
+    }
+    const double slipped_m = kRadius_m * s.state().left.rotation_rad - s.state().true_pose.x_m;
+    EXPECT_NEAR(slipped_m, 0.5 * per_mps2 * 0.9 * 0.9, 0.02 * 0.5 * per_mps2 * 0.9 * 0.9) << form;
+    EXPECT_LT(fastest_mps, 1.3 * 0.9) << form;
+  }
+}
+
+TEST(TractionSlip, ByWhatIsPushedLosesItsShareOfATurn) {
+  const double k = 0.05, u = 0.5 * kBase_m * 2.0;  // a rim's speed at 2 rad/s on the spot
+  const auto lost_rad = [&](double form) {
+    Simulation s(
+        table_drive({phase(5.0, 0.0, 2.0)}, {{"traction_slip", "both_wheels", {{"per_mps2", k}, {"form", form}}}}), 1);
+    while (s.state().time_s < 3.0) s.step();
+    return kRadius_m * (s.state().right.rotation_rad - s.state().left.rotation_rad) / kBase_m -
+           s.state().true_pose.heading_rad;
+  };
+  // Each wheel loses k u^2 / 2 of its way by its own acceleration, a mast's none, a long body's 0.6 of it.
+  const double own_rad = k * u * u / kBase_m;
+  EXPECT_NEAR(lost_rad(0.0), own_rad, 0.01 * own_rad);
+  EXPECT_NEAR(lost_rad(1.0), 0.0, 0.01 * own_rad);
+  EXPECT_NEAR(lost_rad(2.0), 0.6 * own_rad, 0.01 * own_rad);
+  for (const double form : {3.0, 4.0, 5.0, 6.0}) EXPECT_NEAR(lost_rad(form), own_rad, 0.01 * own_rad) << form;
+}
+
+TEST(SpeedDependentRadius, ByTheVehiclesSpeedLeavesATurnOnTheSpotAlone) {
+  const auto turned_rad = [](double form) {
+    return end_pose(table_drive({phase(5.0, 0.0, 2.0)},
+                                {{"speed_dependent_radius", "both_wheels", {{"per_mps", 0.1}, {"form", form}}}}))
+        .heading_rad;
+  };
+  EXPECT_NEAR(turned_rad(1.0), 10.0, 1e-3);
+  EXPECT_GT(turned_rad(0.0), 10.1);
+  EXPECT_NEAR(end_pose(table_drive({phase(10.0, 0.3, 0.0)},
+                                   {{"speed_dependent_radius", "both_wheels", {{"per_mps", 0.1}, {"form", 1.0}}}}))
+                  .x_m,
+              3.0 * 1.03, 0.003);  // the ramps go slower
+}
+
+TEST(TyreCompression, OfBothTyresTurnsWiderByBoth) {
+  const auto turned_rad = [](std::vector<ActiveEffect> effects) {
+    return end_pose(table_drive({phase(20.0, 0.4, 0.8)}, std::move(effects))).heading_rad;
+  };
+  const double lost_rad =
+      turned_rad({}) -
+      turned_rad({{"tyre_compression", "vehicle", {{"radius_change_m_per_mps2", 1e-3}, {"form", 1.0}}}});
+  const double both_mps = 2.0 * 0.4;  // of the outer rim and the inner one
+  const double expected_rad = 1e-3 * 0.32 / kRadius_m * both_mps / kBase_m * 19.5;
+  EXPECT_NEAR(lost_rad, expected_rad, 0.04 * expected_rad);  // as of the outer one alone
+}
+
+TEST(DrivetrainBacklash, BeginsMidwayOrIsCrossedOverALongerTurnInItsForms) {
+  const auto ahead_rad = [](double form, double turned_rad) {
+    Simulation s(table_drive({phase(5.0, -0.2, 0.0)},
+                             {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}, {"form", form}}}}),
+                 1);
+    while (s.state().left.counted_rad > -turned_rad) s.step();
+    return s.state().left.rotation_rad - s.state().left.counted_rad;
+  };
+  EXPECT_NEAR(ahead_rad(0.0, 1.0), 0.0, 1e-9);  // engaged in the direction in which it sets off
+  EXPECT_NEAR(ahead_rad(1.0, 1.0), 0.025, 1e-9);
+  Simulation s(table_drive({phase(2.0, 0.2, 0.0), phase(5.0, -0.2, 0.0)},
+                           {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}, {"form", 10.0}}}}),
+               1);
+  double furthest_rad = 0.0;
+  while (s.state().left.counted_rad > furthest_rad - 0.06 || s.state().time_s < 2.0) {
+    s.step();
+    furthest_rad = std::max(furthest_rad, s.state().left.counted_rad);
+  }
+  EXPECT_NEAR(s.state().left.rotation_rad - s.state().left.counted_rad, 0.025,
+              2e-3);  // half of the 0.12 rad; a step turns 2.7 mrad
+}
+
 TEST(DrivetrainBacklash, WheelsLagByTheGapAfterAReversalWhileTheEncoderTurns) {
   const Simulation s = finished(table_drive({phase(5.0, 0.2, 0.0), phase(5.5, -0.2, 0.0)}, {{"drivetrain_backlash", "both_wheels", {{"gap_rad", 0.05}}}}));
   // Forward 5 s and back 5.5 s with ramps: the motor is where it was, the wheel a gap ahead of it.

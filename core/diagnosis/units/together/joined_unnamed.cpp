@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/parallel.h"
+#include "core/diagnosis/findings_of.h"
 #include "core/diagnosis/gathered_evidence.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/generic/truth_errors.h"
@@ -69,6 +70,7 @@ std::optional<Finding> strongest_of(const std::vector<JoinedGroup>& groups, cons
   unknown.gathered = gathered_evidence(with.evidence_of(columns, with.test(columns).value), model.names(),
                                        unknown.log_likelihood_gain);
   for (const ScoredTogether& s : names) unknown.alternatives.push_back(as_alternative(s));
+  leave_out_what_it_hardly_resembles(unknown);
   return unknown;
 }
 

@@ -1,0 +1,152 @@
+// The ways in which an effect shows (README, "Forms"), by number, as the planar world plays them too
+// (physics/effects/README.md). The catalogue's own stands first.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+namespace odolab::effects {
+
+enum class KickCourse { evenly, fading, of_a_castor, shortly };
+struct KickForm {
+  const char* in_words;
+  bool to_one_side;
+  KickCourse course;
+  double length_m = 0.0;  // over which it is even, or falls to a third; or a castor's trail
+};
+inline constexpr KickForm kKickForms[] = {
+    {"always to the same side, within 5 cm of way", true, KickCourse::evenly, 0.05},
+    {"to one side forwards and the other in reverse, within 5 cm", false, KickCourse::evenly, 0.05},
+    {"always to the same side, within 20 cm", true, KickCourse::evenly, 0.2},
+    {"to one side forwards and the other in reverse, within 20 cm", false, KickCourse::evenly, 0.2},
+    {"always to the same side, at once", true, KickCourse::evenly, 0.001},
+    {"to one side forwards and the other in reverse, at once", false, KickCourse::evenly, 0.001},
+    {"always to the same side, as a castor of 2 cm trail swings", true, KickCourse::of_a_castor, 0.02},
+    {"to one side forwards and the other in reverse, as a castor of 2 cm trail swings", false, KickCourse::of_a_castor,
+     0.02},
+    {"always to the same side, as a castor of 5 cm trail swings", true, KickCourse::of_a_castor, 0.05},
+    {"to one side forwards and the other in reverse, as a castor of 5 cm trail swings", false, KickCourse::of_a_castor,
+     0.05},
+    {"always to the same side, as a castor of 3 cm trail swings", true, KickCourse::of_a_castor, 0.032},
+    {"to one side forwards and the other in reverse, as a castor of 3 cm trail swings", false, KickCourse::of_a_castor,
+     0.032},
+    {"always to the same side, within 0.15 s, also of a stop that swings back", true, KickCourse::shortly},
+    {"always to the same side, fading over 7 cm of way", true, KickCourse::fading, 0.07},
+    {"to one side forwards and the other in reverse, fading over 7 cm", false, KickCourse::fading, 0.07},
+    {"always to the same side, fading over 2 cm of way", true, KickCourse::fading, 0.02},
+    {"to one side forwards and the other in reverse, fading over 2 cm", false, KickCourse::fading, 0.02},
+};
+// Of a castor that was turned about: the sine of what it is off half a turn, by which it is pushed off at all; and of
+// half a turn, so near it is round.
+inline constexpr double kCastorOff = 0.06, kCastorRound = 0.02;
+inline constexpr double kShortKick_s = 0.15, kLeastSwing_mps = 0.01;  // a stop that swings back faster reverses
+
+// What a wheel pushes with is its share of the vehicle's mass times the vehicle's acceleration, and the moment of
+// inertia's part of it where the vehicle turns more quickly: `of_turning` is that part beside what it would be if the
+// mass stood over the wheels, 4 I / (m b^2), some 0.6 for a body as long as it is wide and 0 for a mast. `of_bends`:
+// a mass that stands ahead of the axle by d is held in a bend by wheels that push unlike each other, by m d v w in all
+// about the axle's middle: 2 d / b of the lateral acceleration at either wheel. `gives_way_s_per_mps`: a vehicle whose
+// wheels slip speeds up by less than they do, s' = k v (a - s'') of the way s that is lost, so that s' stays behind
+// k v a by k v; and by what a tyre's relaxation length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
+struct TractionForm {
+  const char* in_words;
+  double of_turning, of_bends;
+  std::optional<double> gives_way_s_per_mps = std::nullopt;
+};
+inline constexpr double kTyreRelaxes_s = 0.03;
+inline constexpr TractionForm kTractionForms[] = {
+    {"each wheel by its own acceleration", 1.0, 0.0},
+    {"the vehicle by its acceleration", 0.0, 0.0},
+    {"each wheel by what it pushes of a body as long as it is wide", 0.6, 0.0},
+    {"each wheel by its own acceleration, which it gives way to a little later", 1.0, 0.0, 0.0},
+    {"each wheel by its own acceleration, which slip of 4 % per m/s2 holds back", 1.0, 0.0, 0.04},
+    {"each wheel by its own acceleration, which slip of 8 % per m/s2 holds back", 1.0, 0.0, 0.08},
+    {"each wheel by its own acceleration, which slip of 16 % per m/s2 holds back", 1.0, 0.0, 0.16},
+    {"each wheel by what it pushes of a body whose mass stands ahead of the axle", 0.6, 0.3},
+    {"each wheel by what it pushes of a body whose mass stands well ahead of the axle", 0.6, 0.6},
+    {"each wheel by what it pushes of a body whose mass stands behind the axle", 0.6, -0.4},
+};
+
+// How a wheel runs while neither flank of the play touches, braked by so much until it stands; and over what turn at
+// least the play is crossed by a drive that yields: a swing back at a stop by less crosses it in part.
+inline constexpr double kAtOnce = 0.0, kStiff_rad = 1e-4;
+struct PlayForm {
+  const char* in_words;
+  double drag_mps2 = kAtOnce, yields_rad = kStiff_rad;
+};
+inline constexpr PlayForm kPlayForms[] = {
+    {"engaged at the start"},
+    {"in the middle of the play at the start"},
+    {"crossed too where it brakes harder than 0.05 m/s2", 0.05},
+    {"crossed too where it brakes harder than 0.08 m/s2", 0.08},
+    {"crossed too where it brakes harder than 0.12 m/s2", 0.12},
+    {"crossed too where it brakes harder than 0.18 m/s2", 0.18},
+    {"crossed too where it brakes harder than 0.25 m/s2", 0.25},
+    {"crossed too where it brakes harder than 0.35 m/s2", 0.35},
+    {"crossed too where it brakes harder than 0.5 m/s2", 0.5},
+    {"crossed over a turn of 0.04 rad, as of a drive that yields", kAtOnce, 0.04},
+    {"crossed over a turn of 0.12 rad, as of a drive that yields more", kAtOnce, 0.12},
+};
+inline constexpr std::size_t kMiddleAtTheStart = 1;
+
+struct LateralSlipForm {
+  const char* in_words;
+  bool at_an_angle;
+  double settles_s = 0.0;
+};
+inline constexpr LateralSlipForm kLateralSlipForms[] = {
+    {"at a speed in proportion to the lateral acceleration", false},
+    {"at an angle in proportion to it", true},
+    {"at a speed in proportion to it, which it comes to within 0.06 s", false, 0.06},
+    {"at a speed in proportion to it, which it comes to within 0.1 s", false, 0.1},
+    {"at a speed in proportion to it, which it comes to within 0.17 s", false, 0.17},
+    {"at a speed in proportion to it, which it comes to within 0.28 s", false, 0.28},
+};
+
+struct DriftForm {
+  const char* in_words;
+  bool through_the_session;
+  double time_constant_s;  // 0: for ever
+};
+inline constexpr DriftForm kDriftForms[] = {
+    {"anew in each recording", false, 0.0},
+    {"on through all recordings, by their stamps", true, 0.0},
+    {"anew in each recording, towards an end that is half reached after 40 s", false, 60.0},
+    {"on through all recordings, by their stamps, towards an end that is half reached after 40 s", true, 60.0},
+    {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true,
+     240.0},
+};
+
+// How the extra distance over a bump is rolled: evenly over so much of the way, or as a wheel of radius r climbs
+// something that takes it e further: up and down at angles that are steepest where it meets it and leaves it.
+struct Climb {
+  double evenly_over_m = 0.0, e_m = 0.0;
+
+  // A wheel that turns by the angle a to either side of something's top goes r sin a and rolls r a, so that e = 2 r (a
+  // - sin a), which is r a^3 / 3, and its way 2 r a: the cube of that is 24 r^2 e.
+  double length_m(double r_m) const { return e_m > 0.0 ? std::cbrt(24.0 * r_m * r_m * e_m) : evenly_over_m; }
+  // Of the extra distance; of the length. At u from the top it rolls 1 / cos a - 1 further for each metre, with sin a =
+  // u / r: that is u^2 / (2 r^2).
+  double share_before(double share_of_way) const {
+    if (e_m <= 0.0) return share_of_way;
+    const double u = 2.0 * share_of_way - 1.0;
+    return 0.5 * (1.0 + u * u * u);
+  }
+};
+inline constexpr Climb kBumpsOnce[] = {{0.06}, {0.02}, {0.2}, {0.1}, {0.0, 0.004}, {0.0, 0.015}};
+inline constexpr double kLongestBump_s = 1.0;  // to either side of its moment
+
+// What lies at a place: met within so far of it, and climbed so, in its middle or at its edge; no length: as long as it
+// is met.
+struct Lying {
+  double reach_m;
+  Climb climb;
+  bool at_its_edge = false;
+};
+inline constexpr Lying kBumpsLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}},       {0.1, {0.1}},
+                                        {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {0.06}, true}, {0.1, {}}};
+
+inline constexpr double kCollisionLasts_s[] = {0.0, 0.25, 0.5};
+inline constexpr double kTurningWithin_s = 0.1;  // slow wheels do not count at each reading
+
+}  // namespace odolab::effects
