@@ -69,7 +69,7 @@ WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnos
 
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
   constexpr double kSame_s = 1e-6;
-  const Residuals* residuals = of_recording(diagnosis.residuals_before, recording.name);
+  const Residuals* residuals = of_recording(diagnosis.residuals_after, recording.name);
   const JudgedPart* judged = judged_of(diagnosis, recording.name);  // of those held out there are no residuals
   if (!residuals && !judged) return recording;
   const std::vector<double>& used_s = residuals ? residuals->time_s : judged->truth_s;

@@ -6,8 +6,28 @@
 #include "core/base/parallel.h"
 #include "core/calibration/run_fit.h"
 #include "core/geometry/angles.h"
+#include "core/odometry/differential_drive.h"
 
 namespace odolab {
+
+namespace {
+
+// Where a run came to, against where its truth says, each as seen from how it stood at first: that is enough of one
+// that is measured at both ends alone, if it came far. Nothing where both do not come equally far.
+std::optional<double> turned_by_ends(const Recording& recording, const DifferentialDrive& drive) {
+  constexpr double kFar_m = 0.5, kAsFar = 0.15;
+  const std::vector<WheelSample> wheels = wheel_samples(recording, drive);
+  const std::vector<TruthSample> truth = truth_samples(recording);
+  if (wheels.size() < 2 || truth.size() < 2 || !truth.front().heading_rad) return std::nullopt;
+  const Pose came_to = dead_reckoned(wheels, drive, Pose{}).back().pose;
+  const Vec2 by_wheels{came_to.x_m, came_to.y_m},
+      by_truth = rotated(truth.back().position - truth.front().position, -*truth.front().heading_rad);
+  if (length(by_wheels) < kFar_m || std::abs(length(by_truth) - length(by_wheels)) > kAsFar * length(by_wheels))
+    return std::nullopt;
+  return wrapped(std::atan2(by_wheels.y_m, by_wheels.x_m) - std::atan2(by_truth.y_m, by_truth.x_m));
+}
+
+}  // namespace
 
 Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle& nominal) {
   constexpr double kFar_rad = 1.0, kAlike_rad = 0.2, kExplained = 0.9;
@@ -26,6 +46,17 @@ Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle
     if (turned_rad && std::abs(wrapped(own_rad - *turned_rad)) > kAlike_rad) return nominal;
     if (!turned_rad) turned_rad = own_rad;
   }
+  constexpr int kFewest = 2;  // measured at both ends alone
+  int by_ends = 0;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    if (fits[r] || !problems_in(recordings[r]).empty()) continue;
+    const std::optional<double> own_rad = turned_by_ends(recordings[r], std::get<DifferentialDrive>(nominal.kind));
+    if (!own_rad) continue;
+    if (turned_rad && std::abs(wrapped(*own_rad - *turned_rad)) > kAlike_rad) return nominal;
+    if (!turned_rad) turned_rad = own_rad;
+    ++by_ends;
+  }
+  if (by_ends > 0 && by_ends < kFewest) return nominal;
   Vehicle turned = nominal;
   double& heading_rad = turned.truth.axle_T_tracked.heading_rad;
   if (turned_rad && std::abs(wrapped(*turned_rad - heading_rad)) > kFar_rad) heading_rad = wrapped(*turned_rad);

@@ -281,10 +281,15 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   if (shows_beside_held_out) *shows_beside_held_out = adequacy.shows_beside_held_out;
   // One incident that has no name hides all else.
   if (adequacy.unnamed && parted.empty()) {
-    if (const Incidents apart = parted_stretches(*ready, as_mounted); !apart.empty())
-      return diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, apart);
+    // Drawn with what is left out: there the mismatch is.
+    const auto without = [&](const Incidents& incidents) {
+      Result<Diagnosis> d = diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, incidents);
+      if (d) d->residuals_before = residuals_of(calibrated.under(d->calibration_alone.noise));
+      return d;
+    };
+    if (const Incidents apart = parted_stretches(*ready, as_mounted); !apart.empty()) return without(apart);
     if (const Incidents of = incidents_of(*adequacy.unnamed, train.size() + held_out.size()); !of.empty()) {
-      Result<Diagnosis> beside = diagnosed(train, held_out, nominal, options, progress, shows_beside_held_out, of);
+      Result<Diagnosis> beside = without(of);
       if (beside && std::none_of(beside->findings.begin(), beside->findings.end(), is_met_again)) return beside;
       if (!goes_on(progress, 0.9)) return Error{"diagnosis", "stopped before its end", ""};
     }

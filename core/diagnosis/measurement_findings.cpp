@@ -79,14 +79,9 @@ bool may_be_toe(const FoundMounting& m) {
 
 // Markers are put on by hand, axles in a workshop; but a hand that turned a marker has shifted it, too: by as little as
 // shows, and it comes first. Software that puts the tracked point on the axle turns it by more than any axle is
-// crooked.
-bool is_toe_first(const FoundMounting& m, const Vehicle& nominal) {
-  const std::vector<FoundParameter>& found = m.finding.parameters;
-  if (found.size() != 3) return false;  // of straights alone nobody knows whether it is shifted
-  const bool sits_where_it_should = m.away_m + 2.0 * std::hypot(found[0].stderr_value, found[1].stderr_value) <
-                                    sits_right_m(std::get<DifferentialDrive>(nominal.kind).wheelbase_m);
-  constexpr double kMostOfACrookedAxle_rad = 0.03;
-  return !m.is_shifted && std::abs(m.turned_rad) < (sits_where_it_should ? kMostOfACrookedAxle_rad : kMostOfAnAxle_rad);
+// crooked; and of straights alone nobody knows whether it is shifted.
+bool is_toe_first(const FoundMounting& m) {
+  return m.finding.parameters.size() == 3 && !m.is_shifted && std::abs(m.turned_rad) < kMostOfAnAxle_rad;
 }
 
 // The toe that crawls as the tracked point that is turned seems to.
@@ -117,7 +112,7 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
     return;
   }
   Finding first = toe_instead(mounting), second = mounting.finding;
-  if (!is_toe_first(mounting, nominal)) std::swap(first, second);
+  if (!is_toe_first(mounting)) std::swap(first, second);
   first.alternatives.push_back({second.effect, second.component, second.log_likelihood_gain,
                                 "a look at how the markers sit: the motion is the same"});
   findings.push_back(first);

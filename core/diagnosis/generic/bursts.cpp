@@ -82,6 +82,13 @@ double beyond_noise(const std::vector<Burst>& bursts) {
   return sum_of_bursts(bursts) - kByNoise * static_cast<double>(bursts.size());
 }
 
+double doubt_of_moments(const JointModel& joint) {
+  constexpr double kPerOdds = 2.0;  // as of names that stand though doubted
+  const double distrust = joint.distrust(true);
+  const double wider = joint.wider_by_correlation();
+  return distrust < 1.0 ? std::min(1.0 + kPerOdds * distrust / (1.0 - distrust), wider) : wider;
+}
+
 bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint) {
   constexpr double kCounts = 1.5;
   const double displaced_m = std::hypot(push[0], push[1]) + 0.5 * joint.model.drive.wheelbase_m * std::abs(push[2]);
@@ -97,7 +104,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   const CandidateScan scan(joint, JointModel::kNone);
   const SearchedShapes moments = best_shape(joint.views(), scan, *push);
   if (moments.statistics.empty()) return std::nullopt;
-  const double scatter = std::max(1.0, scatter_of_statistics(moments.statistics, kFreedom));
+  const double scatter = std::max(doubt_of_moments(joint), scatter_of_statistics(moments.statistics, kFreedom));
   const TremblingTruth truth(joint);
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {

@@ -28,6 +28,9 @@ double chance_of(const std::vector<Burst>& bursts);
 // Their sum, beyond what so many come to by such noise.
 double beyond_noise(const std::vector<Burst>& bursts);
 
+// By how much the statistics of moments are divided where innovations are correlated (Eq. 7); 1 where they are white.
+double doubt_of_moments(const JointModel& joint);
+
 // Whether a push (x and y in m, heading in rad) displaces a rim by no more than rounded readings hide of it, where it
 // begins and where it ends: wheels that set off have turned by most of a count before any is read.
 bool hides_behind_counts(const std::vector<double>& push, const JointModel& joint);

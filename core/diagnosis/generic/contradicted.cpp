@@ -6,6 +6,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
+#include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 
 namespace odolab {
@@ -191,6 +192,13 @@ std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   // no wheel's.
   const double heading_rad = scatter * std::sqrt(2.0 * rolled_m / samples) / joint.model.drive.wheelbase_m;
   if (heading_rad > kTold_rad) return std::nullopt;
+  // Under a truth that errs by as much as wheels roll noise may have come to rest anywhere.
+  constexpr double kPlainly = 10.0;
+  FittedNoise most = joint.model.noise;
+  most.wheel_m_per_sqrt_m = kMost_m_per_sqrt_m;
+  JointModel scatters_less = joint.under(most);
+  scatters_less.fit(3);
+  if (likelier_by(joint, scatters_less) < kPlainly) return std::nullopt;
   Unnamed u;
   u.where.regime = formatted(
       "what the wheels say scatters by %.0f mm per root metre, more than any wheel does that rolls", 1e3 * scatter);

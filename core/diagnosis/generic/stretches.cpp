@@ -129,7 +129,7 @@ std::vector<Displaced> displaced_by_more(const JointModel& joint, const Candidat
   for (const CandidateTest& t : tests)
     if (t.freedom == 3 && t.survives > 0.0) statistics.push_back(t.statistic);
   // By the median, which what happens for a while does not move.
-  const double scatter = std::max(1.0, median(statistics) / kMiddle);
+  const double scatter = std::max(doubt_of_moments(joint), median(statistics) / kMiddle);
   std::vector<Displaced> all;
   for (std::size_t k = 0; k < tests.size(); ++k) {
     CandidateTest& t = tests[k];

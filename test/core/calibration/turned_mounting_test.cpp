@@ -45,6 +45,21 @@ TEST(TurnedMounting, ByAnyAngleIsFoundAsItIs) {
   }
 }
 
+// Measured by tape before and after each run: where it came to, against how it stood, is enough.
+TEST(TurnedMounting, IsFoundByPosesAtBothEndsAlone) {
+  CaseSettings settings;
+  settings.truth = CaseSettings::Truth::ends;
+  settings.runs = 6;
+  settings.duration_s = 25.0;
+  const Case c = generated_case(settings, 9108);
+  constexpr double kTurned_rad = -2.8;
+  const std::vector<Recording> recordings = with_headings_turned(c, kTurned_rad);
+  EXPECT_NEAR(turned_as_driven(recordings, c.nominal).truth.axle_T_tracked.heading_rad, kTurned_rad, 0.2);
+  const Result<Diagnosis> d = diagnose(recordings, {}, c.nominal);
+  ASSERT_TRUE(d) << d.error().message();
+  EXPECT_NE(d->verdict, Verdict::unknown_effect) << d->findings.front().where.regime;
+}
+
 TEST(TurnedMounting, IsSaidAndNothingElse) {
   const Case c = three_runs_of_it();
   const Result<Diagnosis> d = diagnose(with_headings_turned(c, 2.0), {}, c.nominal);
