@@ -23,7 +23,6 @@
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
-#include "core/diagnosis/unnamed_part.h"
 #include "core/diagnosis/warnings.h"
 #include "core/diagnosis/where.h"
 
@@ -400,7 +399,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (has_units(nominal)) {
     Result<Diagnosis> d = diagnose_units(train, held_out, nominal, options, progress);
     if (d) name_recordings(*d, train, held_out);
-    if (d) say_parts_of_unnamed(*d, true);
     return d;
   }
   if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
@@ -412,7 +410,6 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (d && shows_beside_held_out)
     if (std::optional<Diagnosis> named = named_beside_held_out(*d, train, held_out, nominal, options, progress))
       d = std::move(*named);
-  if (d) say_parts_of_unnamed(*d, false);
   return d;
 }
 

@@ -38,6 +38,14 @@ const char* name_of_channel(int channel) {
   return kNames[channel];
 }
 
+std::string part_of_channel(const std::string& channel) {
+  if (channel.rfind("truth", 0) == 0 || channel.find("the truth's frame") != std::string::npos) return "truth";
+  const bool left = channel.find("left wheel") != std::string::npos,
+             right = channel.find("right wheel") != std::string::npos;
+  if (channel.find("left and the right") != std::string::npos || left == right) return "vehicle";
+  return component_of(left ? Wheel::left : Wheel::right);
+}
+
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel) {
   if (channel == kLeftWheelAlone) return by_wheel(Wheel::left, step.left_m, wheelbase_m);
   if (channel == kRightWheelAlone) return by_wheel(Wheel::right, step.right_m, wheelbase_m);
@@ -69,6 +77,7 @@ void ask(GenericTest& t, const AskedModel& asked, std::shared_ptr<const Effect> 
   CandidateColumns columns = asked.joint.columns_of(*term, {});
   columns.how = how;
   const std::vector<CandidateTest> tests = asked.joint.tests(columns, asked.with_and_without);
+  if (t.component == "vehicle") t.component = part_of_channel(t.channel);
   t.test = tests.front();
   t.instead = tests.back();
   t.tests = looked_at;

@@ -67,6 +67,8 @@ constexpr int kTurnForwards = 6;
 // way.
 constexpr int kWayItself = 7;
 const char* name_of_channel(int channel);
+// Of which part a channel says something, by its name: "truth", "left_wheel", "right_wheel"; else "vehicle".
+std::string part_of_channel(const std::string& channel);
 BodyMotion unit_of_channel(const EffectStep& step, double wheelbase_m, int channel);
 
 // Many columns find whatever direction calibration nearly takes up, and a derivative by smoothed readings is not known

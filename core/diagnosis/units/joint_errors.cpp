@@ -166,7 +166,8 @@ bool is_of_floor_or_truth(const Finding& f) {
 }
 
 bool is_of_a_joint(const Finding& f) {
-  return f.effect == "unknown" && f.component != "vehicle" && !is_of_floor_or_truth(f);
+  const bool is_of_a_wheel = f.component == component_of(Wheel::left) || f.component == component_of(Wheel::right);
+  return f.effect == "unknown" && f.component != "vehicle" && !is_of_a_wheel && !is_of_floor_or_truth(f);
 }
 
 JointName name_of_joint(const Vehicle& vehicle, std::size_t joint) {

@@ -125,6 +125,7 @@ void add_findings_of(const Diagnosis& d, const VehicleUnit& unit, const JointRou
       all.push_back(biased);
       continue;
     }
+    if (f.effect == "unknown" && f.component == "truth" && !unit.carries_truth) f.component = "vehicle";
     if (!is_of_a_joint(f)) rename(f.component);
     for (Alternative& a : f.alternatives) rename(a.component);
     if (is_common(f.effect) && f.component != "floor" && f.component != "truth")
