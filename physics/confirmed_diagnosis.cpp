@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/stamp_digits.h"
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
 #include "core/diagnosis/fitted_model.h"
@@ -68,7 +69,6 @@ WaysUnknown ways_unknown(const std::vector<Recording>& recordings, const Diagnos
 }
 
 Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnosis) {
-  constexpr double kSame_s = 1e-6;
   const Residuals* residuals = of_recording(diagnosis.residuals_after, recording.name);
   const JudgedPart* judged = judged_of(diagnosis, recording.name);  // of those held out there are no residuals
   if (!residuals && !judged) return recording;
@@ -79,8 +79,8 @@ Recording with_truth_that_was_used(Recording recording, const Diagnosis& diagnos
   std::size_t found = 0;
   for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
     if (std::isnan(x->values[i])) continue;
-    const auto at = std::lower_bound(used_s.begin(), used_s.end(), recording.time_s[i] - kSame_s);
-    const bool is_used = at != used_s.end() && *at <= recording.time_s[i] + kSame_s;
+    const auto at = std::lower_bound(used_s.begin(), used_s.end(), recording.time_s[i] - kStampDigits_s);
+    const bool is_used = at != used_s.end() && *at <= recording.time_s[i] + kStampDigits_s;
     unused[i] = !is_used;
     found += is_used;
   }

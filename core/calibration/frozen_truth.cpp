@@ -4,7 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "core/odometry/differential_drive.h"
+
 namespace odolab {
+
+double least_step_m(const std::vector<TruthSample>& truth) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const Vec2 by = truth[i].position - truth[i - 1].position;
+    for (const double step_m : {std::abs(by.x_m), std::abs(by.y_m)})
+      if (step_m > 1e-9) least_m = std::min(least_m, step_m);
+  }
+  return least_m;
+}
 
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
                            const DifferentialDrive& drive, double truth_late_s) {
@@ -12,15 +24,12 @@ TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vec
   const bool has_headings = std::any_of(
       truth.begin(), truth.end(), [&](const TruthSample& t) { return t.heading_rad != truth.front().heading_rad; });
   std::vector<double> rolled_m{0.0};
-  std::vector<Vec2> place{Vec2{}};  // as the wheels say
-  double heading_rad = 0.0;
   for (std::size_t i = 1; i < wheels.size(); ++i) {
     const double left_m = drive.wheel_radius_left_m * (wheels[i].left_rad - wheels[i - 1].left_rad),
                  right_m = drive.wheel_radius_right_m * (wheels[i].right_rad - wheels[i - 1].right_rad);
     rolled_m.push_back(rolled_m.back() + 0.5 * (std::abs(left_m) + std::abs(right_m)));
-    heading_rad += (right_m - left_m) / drive.wheelbase_m;
-    place.push_back(place.back() + rotated({0.5 * (left_m + right_m), 0.0}, heading_rad));
   }
+  const Track track = dead_reckoned(wheels, drive, Pose{});
   // By the readings between the stamps alone: a wheel may set off just behind the last one.
   const auto moved_between = [&](double from_s, double to_s) {
     const auto earlier = [](const WheelSample& w, double t) { return w.time_s < t; };
@@ -30,14 +39,12 @@ TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vec
                    std::lower_bound(wheels.begin(), wheels.end() - 1, to_s - truth_late_s, earlier) - wheels.begin();
     const auto to = std::max(from, behind - 1);
     const auto begin = static_cast<std::size_t>(from), end = static_cast<std::size_t>(to);
-    return has_headings ? rolled_m[end] - rolled_m[begin] : length(place[end] - place[begin]);
+    const Pose &was = track[begin].pose, &is = track[end].pose;
+    return has_headings ? rolled_m[end] - rolled_m[begin] : std::hypot(is.x_m - was.x_m, is.y_m - was.y_m);
   };
   // Of a truth that is rounded, poses within one step of it are the same.
-  double step_m = 0.01;
-  for (std::size_t i = 1; i < truth.size(); ++i)
-    if (const double by = std::abs(truth[i].position.x_m - truth[i - 1].position.x_m); by > 0.0)
-      step_m = std::min(step_m, by);
-  const double least_rolled_m = std::max(0.005, 2.0 * step_m);
+  constexpr double kCoarsest_m = 0.01;
+  const double least_rolled_m = std::max(0.005, 2.0 * std::min(kCoarsest_m, least_step_m(truth)));
   TimeStretches repeated;
   double shortest_s = std::numeric_limits<double>::infinity();  // of those on the way
   for (std::size_t i = 0; i < truth.size();) {

@@ -15,6 +15,10 @@ namespace odolab {
 TimeStretches frozen_truth(const std::vector<TruthSample>& truth, const std::vector<WheelSample>& wheels,
                            const DifferentialDrive& drive, double truth_late_s);
 
+// The least by which neighbours differ along an axis: of a truth that is rounded, the step to which it is. Infinite
+// where none differ.
+double least_step_m(const std::vector<TruthSample>& truth);
+
 // What is said of so many of them.
 std::string in_words_of_frozen(std::size_t times);
 

@@ -10,7 +10,7 @@ namespace odolab {
 
 namespace {
 
-constexpr double kHalfWindow_s = 0.25 + kStampDigits_s;
+constexpr double kHalfWindow_s = 0.25 + kStampDigits_s;  // what lies at its end is within it
 constexpr int kFewestForACurve = 2;  // to either side; a parabola through three readings smooths nothing
 
 }  // namespace

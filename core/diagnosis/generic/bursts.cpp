@@ -18,8 +18,6 @@ namespace odolab {
 
 namespace {
 
-constexpr int kFreedom = 3;             // of a push: x, y, heading
-constexpr double kNinetySeven = 8.947;  // of that chi-square
 constexpr double kBurstsApart_s = 1.0;
 // The mean excess of one moment is 2.16, and so is that of the largest of each second: 2.17 over 122 sets of five
 // programs in which nothing is missing. Noise with a heavier tail is noise still: with this mean the least likely of
@@ -43,7 +41,6 @@ std::string bursts_in_words(const std::vector<Burst>& bursts, const JointModel& 
 
 // How much wider than chi-square the moments about one scatter, by their median, which no burst moves.
 double scatter_about(const SearchedShapes& moments, std::size_t n) {
-  constexpr double kMiddle = 2.366;  // the median of chi-square of kFreedom
   const std::vector<double>& at = moments.shapes[moments.of_shape[n]];
   std::vector<double> about;
   for (std::size_t k = 0; k < moments.statistics.size(); ++k) {
@@ -52,7 +49,7 @@ double scatter_about(const SearchedShapes& moments, std::size_t n) {
     if (shape[0] == at[0] && away_s < TremblingTruth::kAbout_s && away_s > kBurstsApart_s)
       about.push_back(moments.statistics[k]);
   }
-  return median(std::move(about)) / kMiddle;
+  return median(std::move(about)) / kMiddleOfAPush;
 }
 
 }  // namespace
@@ -61,7 +58,7 @@ std::vector<Burst> bursts_of(std::vector<Burst> statistics) {
   std::vector<Burst> bursts;
   double last_s = 0.0;
   for (Burst& b : statistics) {
-    b.excess -= kNinetySeven;
+    b.excess -= kNinetySevenOfAPush;
     if (b.excess <= 0.0) continue;
     if (bursts.empty() || bursts.back().run != b.run || b.at_s - last_s > kBurstsApart_s)
       bursts.push_back(b);
@@ -104,13 +101,13 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   const CandidateScan scan(joint, JointModel::kNone);
   const SearchedShapes moments = best_shape(joint.views(), scan, *push);
   if (moments.statistics.empty()) return std::nullopt;
-  const double scatter = std::max(doubt_of_moments(joint), scatter_of_statistics(moments.statistics, kFreedom));
+  const double scatter = std::max(doubt_of_moments(joint), scatter_of_statistics(moments.statistics, kFreedomOfAPush));
   const TremblingTruth truth(joint);
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
     double statistic = moments.statistics[n] / scatter;
-    if (statistic > kNinetySeven) {
+    if (statistic > kNinetySevenOfAPush) {
       if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
       // Both must say so: the moments about it are wide by what goes on for seconds, too, and a truth that trembles
       // more need not make them wide.

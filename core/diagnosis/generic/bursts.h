@@ -9,6 +9,10 @@
 
 namespace odolab {
 
+inline constexpr int kFreedomOfAPush = 3;  // x, y, heading
+// Of that chi-square.
+inline constexpr double kMiddleOfAPush = 2.366, kNinetySevenOfAPush = 8.947;
+
 // Where motion of a sudden kind, as by a push, is larger at the moments at which it is largest than noise makes it:
 // noise that fits what is usual has a tail that falls off as it is known to. `explained`: twice the log-likelihood that
 // names gain; bursts that say little beside it are what their forms leave. `error`: of what p-values must be below.

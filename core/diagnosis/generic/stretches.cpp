@@ -106,6 +106,12 @@ struct Displaced {
   double to_s() const { return burst.at_s + 0.5 * lasts_s; }
 };
 
+std::vector<Burst> bursts_in(const std::vector<Displaced>& stretches) {
+  std::vector<Burst> bursts;
+  for (const Displaced& d : stretches) bursts.push_back(d.burst);
+  return bursts;
+}
+
 // Those of one length that are further beyond noise than any that they share time with; the largest first.
 std::vector<Displaced> standing_apart(std::vector<Displaced> all) {
   std::stable_sort(all.begin(), all.end(),
@@ -122,18 +128,17 @@ std::vector<Displaced> standing_apart(std::vector<Displaced> all) {
 
 std::vector<Displaced> displaced_by_more(const JointModel& joint, const CandidateScan& scan,
                                          const TremblingTruth& truth, double lasts_s, Goes goes) {
-  constexpr double kMiddle = 2.366, kNinetySeven = 8.947;  // of the chi-square of three numbers
   const std::vector<std::vector<double>> shapes = stretches_of(joint.views(), lasts_s, goes);
   std::vector<CandidateTest> tests = scan.tests(displacement(), shapes);
   std::vector<double> statistics;
   for (const CandidateTest& t : tests)
-    if (t.freedom == 3 && t.survives > 0.0) statistics.push_back(t.statistic);
+    if (t.freedom == kFreedomOfAPush && t.survives > 0.0) statistics.push_back(t.statistic);
   // By the median, which what happens for a while does not move.
-  const double scatter = std::max(doubt_of_moments(joint), median(statistics) / kMiddle);
+  const double scatter = std::max(doubt_of_moments(joint), median(statistics) / kMiddleOfAPush);
   std::vector<Displaced> all;
   for (std::size_t k = 0; k < tests.size(); ++k) {
     CandidateTest& t = tests[k];
-    if (t.freedom < 3 || t.survives <= 0.0 || t.statistic <= kNinetySeven * scatter) continue;
+    if (t.freedom < kFreedomOfAPush || t.survives <= 0.0 || t.statistic <= kNinetySevenOfAPush * scatter) continue;
     const auto run = static_cast<int>(shapes[k][0]);
     Displaced d{{run, shapes[k][1], 0.0}, lasts_s, goes, std::move(t.value)};
     const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
@@ -142,7 +147,7 @@ std::vector<Displaced> displaced_by_more(const JointModel& joint, const Candidat
                                 : std::vector{displaced_wheels_m(view, d.from_s(), d.to_s(), d.by), d.by[1], 0.0};
     if (hides_behind_counts(push, joint)) continue;
     d.inflation = std::max(scatter, truth.worse(run, d.burst.at_s));
-    d.burst.excess = t.statistic / d.inflation - kNinetySeven;
+    d.burst.excess = t.statistic / d.inflation - kNinetySevenOfAPush;
     if (d.burst.excess > 0.0) all.push_back(std::move(d));
   }
   return standing_apart(std::move(all));
@@ -167,7 +172,7 @@ void find_ends(Displaced& d, const CandidateScan& scan) {
     std::vector<CandidateTest> tests = scan.tests(displacement(), shapes);
     moved = false;
     for (std::size_t k = 0; k < shapes.size(); ++k) {
-      if (tests[k].freedom < 3 || tests[k].statistic <= statistic) continue;
+      if (tests[k].freedom < kFreedomOfAPush || tests[k].statistic <= statistic) continue;
       d.burst.excess += (tests[k].statistic - statistic) / d.inflation;
       statistic = tests[k].statistic;
       d.burst.at_s = shapes[k][1], d.lasts_s = shapes[k][2], d.by = tests[k].value;
@@ -223,8 +228,7 @@ std::optional<Unnamed> what_goes_on_for_a_while(const JointModel& joint, double 
   for (const double lasts_s : kLasts_s)
     for (const Goes goes : kBoth) {
       std::vector<Displaced> of = displaced_by_more(joint, scan, truth, lasts_s, goes);
-      std::vector<Burst> bursts;
-      for (const Displaced& d : of) bursts.push_back(d.burst);
+      const std::vector<Burst> bursts = bursts_in(of);
       if (bursts.empty()) continue;
       const double by_chance = kWaysToLook * chance_of(bursts), more = beyond_noise(bursts);
       if (by_chance >= p_value || more < kMostLeft * explained) continue;
@@ -240,11 +244,9 @@ std::optional<Unnamed> what_goes_on_for_a_while(const JointModel& joint, double 
   found.resize(std::min(static_cast<std::size_t>(beside_it), kMostSaid));
   for (Displaced& d : found) find_ends(d, scan);
   found = standing_apart(std::move(found));
-  std::vector<Burst> with_their_ends;
-  for (const Displaced& d : found) with_their_ends.push_back(d.burst);
   Unnamed u;
   u.p_value = p_value;
-  u.gain = std::max(gain, beyond_noise(with_their_ends));
+  u.gain = std::max(gain, beyond_noise(bursts_in(found)));
   u.where.recording = joint.runs()[static_cast<std::size_t>(found.front().burst.run)].name;
   u.where.time_s = {{found.front().from_s(), found.front().to_s()}};
   u.where.regime = "for a while the vehicle goes elsewhere than its wheels roll, further than noise takes it (" +

@@ -1,10 +1,9 @@
 #include "core/diagnosis/quality/drawn_truth.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/quantile.h"
+#include "core/calibration/frozen_truth.h"
 #include "core/geometry/angles.h"
 
 namespace odolab {
@@ -37,17 +36,6 @@ bool trembles(const std::vector<OffTheLine>& off) {
   for (std::size_t i = 1; i < off.size(); ++i)
     product += dot(off[i - 1].by_m, off[i].by_m), square += dot(off[i].by_m, off[i].by_m);
   return product < kOpposite * square;
-}
-
-// The least by which neighbours differ along an axis: of a truth that is rounded, the step to which it is.
-double least_step_m(const std::vector<TruthSample>& truth) {
-  double least_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < truth.size(); ++i) {
-    const Vec2 by = truth[i].position - truth[i - 1].position;
-    for (const double step_m : {std::abs(by.x_m), std::abs(by.y_m)})
-      if (step_m > 1e-9) least_m = std::min(least_m, step_m);
-  }
-  return least_m;
 }
 
 }  // namespace
