@@ -27,6 +27,31 @@ double period_by_lines(const std::vector<double>& time_s, const std::vector<int>
   return square > 0.0 ? product / square : otherwise_s;
 }
 
+// A row that is late by half a period, behind others that were late, seems to have left one out, and the beat follows
+// it: where the rows behind are early by a period against those before, none is missing there.
+void put_back_what_none_left_out(const std::vector<double>& time_s, double period_s, std::vector<int>& numbers) {
+  constexpr std::size_t kLook = 20, kLeast = 5;  // rows on either side without another gap
+  constexpr double kEarly = 0.6;                 // periods
+  const std::size_t rows = numbers.size();
+  const auto is_gap = [&](std::size_t i) { return numbers[i] - numbers[i - 1] > 1; };
+  const auto middle_of_late_s = [&](std::size_t from, std::size_t end) {
+    std::vector<double> late_s;
+    for (std::size_t i = from; i < end; ++i) late_s.push_back(time_s[i] - period_s * numbers[i]);
+    return quantile(std::move(late_s), 0.5);
+  };
+  for (std::size_t i = 1; i < rows; ++i) {
+    if (!is_gap(i) || numbers[i] - numbers[i - 1] >= kPausePeriods) continue;
+    std::size_t from = i - 1, end = i + 1;
+    while (from > 0 && i - from < kLook && !is_gap(from)) --from;
+    while (end < rows && end - i < kLook && !is_gap(end)) ++end;
+    if (i - from < kLeast || end - i < kLeast) continue;
+    const double early = (middle_of_late_s(from, i) - middle_of_late_s(i, end)) / period_s;
+    if (early < kEarly) continue;
+    const int none = std::min(static_cast<int>(std::lround(early)), numbers[i] - numbers[i - 1] - 1);
+    for (std::size_t k = i; k < rows; ++k) numbers[k] -= none;
+  }
+}
+
 // The rows' numbers, missing ones counted, where stamps tremble by so little about an even beat that nearly each tells
 // its own; else nothing. `period_s`, that of many rows and so without packets, is made that of these.
 std::vector<int> numbers_told_by_beat(const std::vector<double>& time_s, double& period_s) {
@@ -60,6 +85,7 @@ std::vector<int> numbers_told_by_beat(const std::vector<double>& time_s, double&
     numbers.push_back(number);
   }
   if (unclear > kMostUnclear * static_cast<double>(time_s.size())) return {};
+  put_back_what_none_left_out(time_s, usual_s, numbers);
   period_s = period_by_lines(time_s, numbers, period_s);
   return numbers;
 }
