@@ -53,6 +53,14 @@ bool is_part(const std::string& word) {
   return word.size() == 7 && word.rfind("castor", 0) == 0 && word[6] >= '1' && word[6] <= '9';
 }
 
+// The largest number of a form, which of a bump goes by where and when it is.
+double largest_form(const ActiveEffect& active, const EffectParameter& form) {
+  if (active.effect != "bump" || !gives(active, "at_s")) return form.at_most;
+  const std::size_t forms =
+      active.component == "both_wheels" ? std::size(effects::kBumpsOfBoth) : std::size(effects::kBumpsOnce);
+  return static_cast<double>(forms) - 1.0;
+}
+
 void check_given(const ActiveEffect& active, const EffectEntry& entry, const std::string& key,
                  std::vector<std::string>& problems) {
   for (const auto& [name, value] : active.parameters) {
@@ -64,9 +72,7 @@ void check_given(const ActiveEffect& active, const EffectEntry& entry, const std
       problems.push_back(key + "." + name + ": found a parameter that " + entry.name + " does not have, expected " +
                          joined_by_or(names));
     } else if (name == "form") {
-      const double most = entry.name == "bump" && gives(active, "at_s")
-                              ? static_cast<double>(std::size(effects::kBumpsOnce)) - 1.0
-                              : known->at_most;
+      const double most = largest_form(active, *known);
       if (!(value >= 0.0 && value <= most && value == std::floor(value)))
         problems.push_back(key + formatted(".form: found %g, expected a whole number from 0 to %g", value, most));
     } else if (!(value >= known->at_least && value <= known->at_most)) {
@@ -125,6 +131,7 @@ const std::vector<EffectEntry>& effect_catalogue() {
       {"bump",
        kWheels,
        {{"extra_distance_m", 0.0, 0.04, kRequired},
+        {"left_more_m", -0.04, 0.04},
         {"x_m", -kFar, kFar, kRequired},
         {"y_m", -kFar, kFar, kRequired},
         {"radius_m", 1e-3, kFar},

@@ -87,7 +87,9 @@ std::vector<std::string> problems_in(const Scenario& s) {
          "floor.roughness.largest_height_m", s.floor.roughness.largest_height_m, "less than half a wheel's radius");
   for (const std::string& p : problems_in(s.effects)) problems.push_back(p);
   for (std::size_t i = 0; i < s.effects.size(); ++i) {  // over half a wheel's radius: 2 (acos(1/2) - sqrt(3)/2) of it
-    const double extra_m = s.effects[i].effect == "bump" ? s.effects[i].parameter("extra_distance_m") : 0.0;
+    const ActiveEffect& e = s.effects[i];
+    const double more_m = std::abs(e.parameter("left_more_m"));  // of one wheel, and less of the other
+    const double extra_m = e.effect == "bump" ? e.parameter("extra_distance_m") + more_m : 0.0;
     const std::string key = "effect[" + std::to_string(i + 1) + "].extra_distance_m";
     demand(extra_m < 0.362 * smallest_radius_m, key.c_str(), extra_m, "less than the way over half a wheel's radius");
   }

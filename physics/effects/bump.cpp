@@ -48,13 +48,16 @@ class BumpInForm final : public Effect {
  public:
   BumpInForm(const ActiveEffect& a, const Machine& machine)
       : component_(a.component),
-        extra_m_(a.parameter("extra_distance_m")),
+        extra_m_{a.parameter("extra_distance_m") + a.parameter("left_more_m"),
+                 a.parameter("extra_distance_m") - a.parameter("left_more_m")},
         place_{a.parameter("x_m"), a.parameter("y_m")},
         step_s_(machine.step_s) {
     const int form = form_of(a).value_or(0);
     if (happens_once(a)) {
       at_s_ = a.parameter("at_s");
-      lying_.climb = effects::kBumpsOnce[form];
+      const bool of_both = a.component == "both_wheels";
+      lying_.climb = of_both ? effects::kBumpsOfBoth[form].climb : effects::kBumpsOnce[form];
+      right_later_m_ = of_both ? effects::kBumpsOfBoth[form].right_later_m : 0.0;
     } else {
       lying_ = effects::kBumpsLying[form];
       lying_.reach_m = a.parameter("radius_m", lying_.reach_m);
@@ -63,34 +66,45 @@ class BumpInForm final : public Effect {
 
   void roll(const VehicleMotion& motion, RollingWheel& wheel) override {
     if (!acts_on(component_, wheel.side)) return;
-    Way& way = ways_[wheel.side == Side::left ? 0 : 1];
+    const bool is_left = wheel.side == Side::left;
+    Way& way = ways_[is_left ? 0 : 1];
+    way.extra_m = extra_m_[is_left ? 0 : 1];
     const double rim_mps = wheel.radius_m * wheel.speed_radps;
     if (at_s_)
-      come_to_its_moment(way, motion, rim_mps, wheel.radius_m);
+      come_to_its_moment(way, motion, rim_mps, wheel.radius_m, (is_left ? -0.5 : 0.5) * right_later_m_);
     else
       come_to_its_place(way, motion, wheel, rim_mps < 0.0);
     if (!way.is_on || rim_mps == 0.0) return;
     const double before = lying_.climb.share_before(way.rolled_m / way.length_m);
     way.rolled_m = std::min(way.length_m, way.rolled_m + std::abs(rim_mps) * step_s_);
     const double now = lying_.climb.share_before(way.rolled_m / way.length_m);
-    wheel.slip_mps += std::copysign(extra_m_ * (now - before) / step_s_, rim_mps);
+    wheel.slip_mps += std::copysign(way.extra_m * (now - before) / step_s_, rim_mps);
     way.is_on = way.rolled_m < way.length_m;
   }
 
  private:
   struct Way {
     bool is_on = false, is_done = false;  // done: until it has left the place
-    double length_m = 0.0, rolled_m = 0.0;
+    double length_m = 0.0, rolled_m = 0.0, extra_m = 0.0;
+    double since_m = 0.0;  // the moment, of the axle's way
   };
 
   // It cannot roll further than it turns.
-  void begin(Way& way, double length_m) const { way = {true, true, std::max(length_m, 1.05 * extra_m_), 0.0}; }
+  static void begin(Way& way, double length_m) {
+    way = {true, true, std::max(length_m, 1.05 * way.extra_m), 0.0, way.extra_m, way.since_m};
+  }
 
-  // The moment is in the middle of the way over it.
-  void come_to_its_moment(Way& way, const VehicleMotion& motion, double rim_mps, double radius_m) const {
-    const double length_m = lying_.climb.length_m(radius_m), still_s = *at_s_ - motion.time_s;
-    if (still_s < -effects::kLongestBump_s) way.is_on = false;
-    if (way.is_done || still_s < 0.0 || still_s > effects::kLongestBump_s) return;
+  // Its middle is where the vehicle is at the moment, or so much of the axle's way later: before that as it goes now.
+  void come_to_its_moment(Way& way, const VehicleMotion& motion, double rim_mps, double radius_m,
+                          double later_m) const {
+    constexpr double kLongest_s = effects::kLongestBump_s;
+    const double before_s = *at_s_ - motion.time_s, speed_mps = std::max(std::abs(motion.rolled_speed_mps), 1e-6);
+    if (before_s < -kLongest_s) way.is_on = false;
+    if (before_s < 0.0) way.since_m += speed_mps * step_s_;
+    const double still_m = later_m - way.since_m;
+    const double still_s = std::max(0.0, before_s) + std::clamp(still_m / speed_mps, -kLongest_s, kLongest_s);
+    if (way.is_done || still_s < 0.0 || still_s > kLongest_s) return;
+    const double length_m = lying_.climb.length_m(radius_m);
     if (std::abs(rim_mps) * still_s <= 0.5 * length_m) begin(way, length_m);
   }
 
@@ -101,16 +115,17 @@ class BumpInForm final : public Effect {
     const double half_m = beside2_m2 > 0.0 ? std::sqrt(beside2_m2) : 0.0;  // of the way within its reach
     double length_m = lying_.climb.length_m(wheel.radius_m), from_m = half_m;
     if (length_m == 0.0)
-      length_m = 2.0 * half_m + extra_m_;
+      length_m = 2.0 * half_m + way.extra_m;
     else if (!lying_.at_its_edge)
-      from_m = std::max(0.0, 0.5 * (length_m - extra_m_));
+      from_m = std::max(0.0, 0.5 * (length_m - way.extra_m));
     const bool is_there = half_m > 0.0 && std::abs(to.x_m) <= from_m;
     if (is_there && !way.is_done && length_m > 0.01) begin(way, length_m);
     if (!is_there && !way.is_on && std::abs(to.x_m) > half_m) way.is_done = false;
   }
 
   std::string component_;
-  double extra_m_;
+  double extra_m_[2];  // of the left wheel and of the right one
+  double right_later_m_ = 0.0;
   Vec2 place_;
   double step_s_;
   std::optional<double> at_s_;

@@ -1,5 +1,5 @@
-// One wheel climbs something: it turns more than it travels, at one moment of one recording, or each time that it
-// comes to one place on the floor.
+// A wheel climbs something: it turns more than it travels, at one moment of one recording, alone or as the other does,
+// or each time that it comes to one place on the floor.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -73,6 +73,43 @@ Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double l
          view.steps[s.last].time_s - view.steps[first].time_s < kLongestBump_s)
     gone += std::abs(way(wheel, view.steps[++s.last]));
   return s;
+}
+
+// The step so much of the axle's way behind another, or before it where that is negative.
+std::size_t step_on(const DriveView& view, std::size_t from, double way_m) {
+  const double at_s = view.steps[from].time_s;
+  std::size_t i = from;
+  for (double still_m = std::abs(way_m);;) {
+    if (way_m > 0.0 ? i + 1 >= view.steps.size() : i == 0) break;
+    const std::size_t next = way_m > 0.0 ? i + 1 : i - 1;
+    const double goes_m = 0.5 * std::abs(view.steps[i].forward_m() + view.steps[next].forward_m());
+    if (still_m < 0.5 * goes_m || std::abs(view.steps[next].time_s - at_s) >= kLongestBump_s) break;
+    still_m -= goes_m;
+    i = next;
+  }
+  return i;
+}
+
+// By one metre of each wheel, and by one metre more of the left wheel and less of the right one.
+std::vector<Motions> of_both_at_moment(const DriveView& view, double at_s, const ClimbOfBoth& over) {
+  const std::size_t at = view.step_at(at_s);
+  if (at >= view.steps.size()) return std::vector<Motions>(2);
+  const auto climbed = [&](Wheel wheel, double later_m) {
+    return steps_about(view, wheel, step_on(view, at, later_m), over.climb.length_m(radius_m(wheel, view)));
+  };
+  const Steps left = climbed(Wheel::left, -0.5 * over.right_later_m),
+              right = climbed(Wheel::right, 0.5 * over.right_later_m);
+  const std::size_t first = std::min(left.first, right.first), end = std::max(left.last, right.last) + 1;
+  Motions by_left(first, end), by_right(first, end);
+  spread(by_left, view, Wheel::left, left.first, left.last, over.climb);
+  spread(by_right, view, Wheel::right, right.first, right.last, over.climb);
+  std::vector<Motions> m(2, Motions(first, end));
+  for (std::size_t i = first; i < end; ++i) {
+    const BodyMotion l = by_left.at(i), r = by_right.at(i);
+    m[0][i] = {l.forward_m + r.forward_m, 0.0, l.turn_rad + r.turn_rad};
+    m[1][i] = {l.forward_m - r.forward_m, 0.0, l.turn_rad - r.turn_rad};
+  }
+  return m;
 }
 
 Motions at_moment(const DriveView& view, Wheel wheel, double at_s, const Climb& climb) {
@@ -150,6 +187,11 @@ Effect bump_of(Wheel wheel) {
   return e;
 }
 
+std::vector<std::vector<double>> moments_of_driving(const std::vector<DriveView>& views) {
+  return moments(views, 0.15,
+                 [](const EffectStep& s) { return std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01; });
+}
+
 Effect once(Wheel wheel) {
   Effect e = bump_of(wheel);
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
@@ -168,10 +210,29 @@ Effect once(Wheel wheel) {
     if (view.number != static_cast<int>(shape[0])) return motions_by_number(Motions());
     return motions_by_number(at_moment(view, wheel, shape[1], kBumpsOnce[static_cast<int>(shape.back())]));
   };
-  e.scan = [](const std::vector<DriveView>& views) {
-    return moments(views, 0.15,
-                   [](const EffectStep& s) { return std::abs(s.speed_mps) + std::abs(s.yaw_rate_radps) > 0.01; });
+  e.scan = moments_of_driving;
+  return e;
+}
+
+// What lies across the way is felt by both wheels, as a rule not by the same.
+Effect once_by_both() {
+  Effect e = bump_of(Wheel::both);
+  e.sentence = "both wheels climb over something: they turn more than they travel";
+  e.amplitudes.push_back({"left_more_m", "m", 0.005, -0.3, 0.3});
+  e.shapes = {{"recording", "1"}, {"at_s", "s"}};
+  for (const ClimbOfBoth& over : kBumpsOfBoth) e.forms.push_back(over.in_words);
+  e.of_one_recording = true;
+  e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
+                        const std::vector<DriveView>&) {
+    // Neither wheel travels more than it turns.
+    return std::abs(value[1]) <= value[0] &&
+           is_climbed(value[0] + std::abs(value[1]), kBumpsOfBoth[static_cast<int>(shape.back())].climb);
   };
+  e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    if (view.number != static_cast<int>(shape[0])) return std::vector<Motions>(2);
+    return of_both_at_moment(view, shape[1], kBumpsOfBoth[static_cast<int>(shape.back())]);
+  };
+  e.scan = moments_of_driving;
   return e;
 }
 
@@ -237,8 +298,8 @@ Effect each_time(Wheel wheel) {
 }  // namespace
 
 std::vector<Effect> bump() {
-  return {once(Wheel::left), once(Wheel::right), each_time(Wheel::left), each_time(Wheel::right),
-          each_time(Wheel::both)};
+  return {once(Wheel::left),      once(Wheel::right),      once_by_both(),
+          each_time(Wheel::left), each_time(Wheel::right), each_time(Wheel::both)};
 }
 
 }  // namespace odolab::effects

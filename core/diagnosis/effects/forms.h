@@ -136,6 +136,19 @@ struct Climb {
 inline constexpr Climb kBumpsOnce[] = {{0.06}, {0.02}, {0.2}, {0.1}, {0.0, 0.004}, {0.0, 0.015}};
 inline constexpr double kLongestBump_s = 1.0;  // to either side of its moment
 
+// Something that both wheels climb, as a sill: the right one so much further on its way than the left one.
+struct ClimbOfBoth {
+  const char* in_words;
+  Climb climb;
+  double right_later_m = 0.0;
+};
+inline constexpr ClimbOfBoth kBumpsOfBoth[] = {
+    {"by both at once, over 6 cm of way", {0.06}},    {"by both at once, over 20 cm", {0.2}},
+    {"by the right wheel 4 cm later", {0.06}, 0.04},  {"by the left wheel 4 cm later", {0.06}, -0.04},
+    {"by the right wheel 8 cm later", {0.06}, 0.08},  {"by the left wheel 8 cm later", {0.06}, -0.08},
+    {"by the right wheel 14 cm later", {0.06}, 0.14}, {"by the left wheel 14 cm later", {0.06}, -0.14},
+};
+
 // What lies at a place: met within so far of it, and climbed so, in its middle or at its edge; no length: as long as it
 // is met.
 struct Lying {

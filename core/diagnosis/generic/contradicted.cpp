@@ -8,6 +8,7 @@
 #include "core/base/formatted.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/naming/one_cause.h"
 
 namespace odolab {
 
@@ -54,7 +55,7 @@ struct Moment {
   int run = 0;
   double at_s = 0.0;
   Vec2 place;
-  std::optional<Vec2> bumped;  // of a bump: where its wheel stood
+  std::optional<Vec2> bumped;  // of a bump: where its wheel stood, or the middle between both
 };
 
 Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
@@ -64,7 +65,9 @@ Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
   const std::size_t step = std::min(view.step_at(a.shape[1]), view.steps.size() - 1);
   const EffectStep& s = view.steps[step];
   Moment moment{run, a.shape[1], s.position, std::nullopt};
-  const double side = a.effect->component == component_of(Wheel::left) ? 0.5 : -0.5;
+  const double side = a.effect->component == component_of(Wheel::left)    ? 0.5
+                      : a.effect->component == component_of(Wheel::right) ? -0.5
+                                                                          : 0.0;
   if (a.effect->name == "bump")
     moment.bumped = s.position + rotated({0.0, side * joint.model.drive.wheelbase_m}, s.heading_rad);
   return moment;
@@ -155,14 +158,13 @@ std::string in_words(std::vector<Moment> moments, const JointModel& joint) {
 }
 
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
-  constexpr int kTooMany = 3;
   Unnamed u;
   std::vector<Moment> moments;
   for (const AcceptedEffect& a : joint.accepted)
     if (a.effect->local && a.effect->of_one_recording) moments.push_back(moment_of(joint, a));
   for (const Moment& m : moments) u.where.time_s.emplace_back(m.at_s, m.at_s);
   if (joint.runs().size() > 1) u.where.time_s.clear();  // times of several recordings
-  if (static_cast<int>(moments.size()) >= kTooMany) {
+  if (happened_once(joint) >= kTimeAndAgain) {
     u.where.regime = "what happens at " + std::to_string(moments.size()) +
                      " moments or more, each of which would be a push or a bump of its own (" +
                      in_words(moments, joint) + ")";

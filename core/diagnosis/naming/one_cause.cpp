@@ -99,4 +99,10 @@ bool happens_within_another(const JointModel& joint, const Effect& event, const 
   });
 }
 
+int happened_once(const JointModel& joint) {
+  return static_cast<int>(std::count_if(joint.accepted.begin(), joint.accepted.end(), [](const AcceptedEffect& a) {
+    return a.effect->local && a.effect->of_one_recording;
+  }));
+}
+
 }  // namespace odolab

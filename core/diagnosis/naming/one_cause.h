@@ -20,4 +20,8 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& candidate);
 // twice alike.
 bool happens_within_another(const JointModel& joint, const Effect& event, const CandidateTest& test);
 
+// Pushes and bumps, each at its own moment, that were let in. So many are no mishap: something happens time and again.
+int happened_once(const JointModel& joint);
+inline constexpr int kTimeAndAgain = 3;
+
 }  // namespace odolab

@@ -42,8 +42,10 @@ bool may_be_rounding(const Finding& f, const VehicleUnit& unit, const JointRound
     return std::hypot(size("dx_m"), size("dy_m")) <= rounding.position_m &&
            size("dheading_rad") <= rounding.heading_rad;
   if (f.effect != "bump") return false;
-  const double extra_m = size("extra_distance_m");
-  return 0.5 * extra_m <= rounding.position_m && extra_m / unit.drive.wheelbase_m <= rounding.heading_rad;
+  const bool of_both = f.component == component_of_unit(unit.name, "both_wheels");
+  const double forward_m = (of_both ? 1.0 : 0.5) * size("extra_distance_m"),
+               left_from_right_m = of_both ? 2.0 * size("left_more_m") : size("extra_distance_m");
+  return forward_m <= rounding.position_m && left_from_right_m / unit.drive.wheelbase_m <= rounding.heading_rad;
 }
 
 JointRounding rounding_from_inside(const Vehicle& vehicle) {

@@ -29,7 +29,11 @@ Recording recorded_drive() {
 ActiveEffect found(const Effect& effect, int form) {
   ActiveEffect active{effect.name, effect.component, {}};
   const auto size = [&](const std::string& name) {
-    return name == "gap_rad" ? 0.05 : name == "kick_rad" ? 0.03 : name == "extra_distance_m" ? 0.004 : 0.0;
+    return name == "gap_rad"            ? 0.05
+           : name == "kick_rad"         ? 0.03
+           : name == "extra_distance_m" ? 0.004
+           : name == "left_more_m"      ? 0.001
+                                        : 0.0;
   };
   for (const Effect::Amplitude& a : effect.amplitudes)
     active.parameters.emplace_back(a.name, size(a.name) > 0.0 ? size(a.name) : std::min(3.0 * a.medium, 0.5 * a.high));
@@ -49,6 +53,9 @@ ActiveEffect found(const Effect& effect, int form) {
   if (effect.name == "bump" && effect.component == "right_wheel")
     for (auto& [name, value] : active.parameters)
       if (name == "y_m") value = -0.15;
+  if (effect.name == "bump" && effect.component == "both_wheels")  // a wheel comes up to 7 cm later: of the same phase
+    for (auto& [name, value] : active.parameters)
+      if (name == "at_s") value = 4.0;
   if (effect.name == "wheel_eccentricity") active.parameters = {{"amplitude", 0.02}, {"phase_rad", 0.5}};
   if (form > 0) active.parameters.emplace_back("form", form);
   return active;
