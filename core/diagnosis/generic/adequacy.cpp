@@ -289,7 +289,8 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     const bool says_more = is_more(*g, kept);
     if (!says_more && !is_as_much(*g, kept)) continue;
     // One number in the place of several names bends to nothing.
-    const bool is_simplest = g->test.freedom == 1 && evidence.size() > 1 && kept > by_names;
+    const double clearly = evidence.size() > 1 ? 0.0 : kClearlyBeaten * g->test.inflation;
+    const bool is_simplest = g->test.freedom == 1 && kept > by_names + clearly;
     if (!is_simplest && !is_more(*g, kept, kFormOfAName) && names_its_form(bare, with, evidence)) continue;
     std::optional<Unnamed>& which = says_more ? out.says_more : out.as_much;
     const double more = says_more ? beyond(*g, kept, kMostLeft) : kept;

@@ -18,6 +18,7 @@
 #include "core/diagnosis/generic/moving_frame.h"
 #include "core/diagnosis/generic/on_a_patch.h"
 #include "core/diagnosis/generic/on_the_spot.h"
+#include "core/diagnosis/generic/one_way.h"
 #include "core/diagnosis/generic/step_response.h"
 #include "core/diagnosis/generic/swinging.h"
 #include "core/diagnosis/generic/told_speeds.h"
@@ -133,6 +134,7 @@ constexpr MoreTests kMoreTests[] = {
     {moving_frame_tests, kMovingFrameTests},
     {uneven_floor_tests, kUnevenFloorTests},
     {on_the_spot_tests, kOnTheSpotTests},
+    {one_way_tests, kOneWayTests},
     {at_rest_tests, kAtRestTests},
     {swinging_tests, kSwingingTestsApart},
     {on_a_patch_tests, 0},
