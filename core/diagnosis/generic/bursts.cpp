@@ -6,6 +6,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
+#include "core/base/parallel.h"
 #include "core/base/quantile.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/generic/trembling_truth.h"
@@ -13,6 +14,7 @@
 #include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/shape_search.h"
+#include "core/diagnosis/naming/undone.h"
 
 namespace odolab {
 
@@ -50,6 +52,19 @@ double scatter_about(const SearchedShapes& moments, std::size_t n) {
       about.push_back(moments.statistics[k]);
   }
   return median(std::move(about)) / kMiddleOfAPush;
+}
+
+// A moment after which the truth is soon back where the wheels went is no doing of the vehicle.
+void leave_out_the_truths_own(std::vector<Burst>& bursts, const CandidateScan& scan) {
+  std::vector<char> is_undone(bursts.size(), 0);
+  parallel_for(static_cast<int>(bursts.size()), [&](int k) {
+    const Burst& b = bursts[static_cast<std::size_t>(k)];
+    const CandidateTest away = away_for_a_while(scan, b.run, b.at_s);
+    is_undone[static_cast<std::size_t>(k)] =
+        away.statistic / b.scatter > b.excess + kNinetySevenOfAPush + away_by_chance();
+  });
+  std::size_t k = 0;
+  std::erase_if(bursts, [&](const Burst&) { return is_undone[k++] != 0; });
 }
 
 }  // namespace
@@ -106,25 +121,30 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   std::vector<Burst> all;
   for (std::size_t n = 0; n < moments.statistics.size(); ++n) {
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
-    double statistic = moments.statistics[n] / scatter;
-    if (statistic > kNinetySevenOfAPush) {
+    double divisor = scatter;
+    if (moments.statistics[n] / scatter > kNinetySevenOfAPush) {
       if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
       // Both must say so: the moments about it are wide by what goes on for seconds, too, and a truth that trembles
       // more need not make them wide.
       const double wide = std::min(truth.worse(static_cast<int>(shape[0]), shape[1]), scatter_about(moments, n));
-      statistic = moments.statistics[n] / std::max(scatter, wide);
+      divisor = std::max(scatter, wide);
     }
-    all.push_back({static_cast<int>(shape[0]), shape[1], statistic});
+    all.push_back({static_cast<int>(shape[0]), shape[1], moments.statistics[n] / divisor, divisor});
   }
   std::sort(all.begin(), all.end(), [](const Burst& a, const Burst& b) {
     return std::pair{a.run, a.at_s} < std::pair{b.run, b.at_s};
   });
-  const std::vector<Burst> bursts = bursts_of(std::move(all));
-  if (bursts.size() < kFewestBursts) return std::nullopt;
+  std::vector<Burst> bursts = bursts_of(std::move(all));
+  const auto are_worth_saying = [&] {
+    return bursts.size() >= kFewestBursts && chance_of(bursts) <= error &&
+           beyond_noise(bursts) >= kMostLeft * explained;
+  };
+  if (!are_worth_saying()) return std::nullopt;
+  leave_out_the_truths_own(bursts, scan);
+  if (!are_worth_saying()) return std::nullopt;
   Unnamed u;
   u.p_value = chance_of(bursts);
   u.gain = beyond_noise(bursts);
-  if (u.p_value > error || u.gain < kMostLeft * explained) return std::nullopt;
   u.where.regime = "what happens at moments of its own, larger and more often than noise makes it (most of it in " +
                    bursts_in_words(bursts, joint) + ")";
   return u;

@@ -24,6 +24,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
 struct Burst {
   int run = 0;
   double at_s = 0.0, excess = 0.0;
+  double scatter = 1.0;  // by which its statistic was divided
 };
 std::vector<Burst> bursts_of(std::vector<Burst> statistics);
 

@@ -51,7 +51,8 @@ JointModel::JointModel(std::vector<InnovationRun> runs, std::vector<char> from_c
   const std::array<double, 6> prior = sizes_of_priors();
   for (const ParameterEstimate& p : start.parameters)
     for (std::size_t c = 0; c < prior.size(); ++c)
-      if (p.name == column::names[c].key && !p.determined) untold_[c] = p.stderr_value > kNextToNothing * prior[c];
+      if (p.name == column::names[c].key && !p.determined)
+        untold_[c] = !start.innovations_are_correlated && p.stderr_value > kNextToNothing * prior[c];
 }
 
 void JointModel::cut() {

@@ -206,8 +206,10 @@ class Selection {
     return false;
   }
 
-  // Where all names that may be let in are taken, moments that would still stand are asked whether they are undone.
+  // Where all names that may be let in are taken, moments that would still stand are asked whether they are undone:
+  // not where so many of these stay that it is no mishap.
   bool finds_what_is_undone() {
+    if (happened_once(joint_) >= kTimeAndAgain) return false;
     with_all_ = scored_candidates(joint_);
     for (const ScoredCandidate* c : standing_of(with_all_))
       if ((out_.undone = undone(joint_, *c))) return true;

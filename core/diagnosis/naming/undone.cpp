@@ -1,5 +1,6 @@
 #include "core/diagnosis/naming/undone.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/naming/select.h"
@@ -34,28 +35,47 @@ Effect moved_for_a_while() {
   return e;
 }
 
+// What a push says at that moment, in the form in which it says most: a bump is a push that knows where it goes.
+double pushed_by(const CandidateScan& scan, std::vector<double> moment) {
+  const auto push =
+      std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
+  moment.resize(2);
+  double most = 0.0;
+  for (std::size_t form = 0; form < push->forms.size(); ++form)
+    most = std::max(most, scan.test(*push, {moment[0], moment[1], static_cast<double>(form)}).statistic);
+  return most;
+}
+
+constexpr double kAwayFor_s[] = {0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5};
+constexpr double kAwayAbout_s[] = {-0.1, 0.0, 0.1};
+
 }  // namespace
 
-std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& c) {
+double away_by_chance() { return 2.0 * std::log(2.0 * std::size(kAwayFor_s) * std::size(kAwayAbout_s)); }
+
+CandidateTest away_for_a_while(const CandidateScan& scan, int run, double at_s) {
   static const Effect away = moved_for_a_while();
-  constexpr double kLasts_s[] = {0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5};
-  constexpr double kAbout_s[] = {-0.1, 0.0, 0.1};
-  const double tries = 2.0 * std::size(kLasts_s) * std::size(kAbout_s);
-  if (!c.effect->local || !c.effect->of_one_recording) return std::nullopt;
-  const double at_s = c.test.shape[1];
   CandidateTest best;
-  for (const double about_s : kAbout_s)
-    for (const double lasts_s : kLasts_s)
+  for (const double about_s : kAwayAbout_s)
+    for (const double lasts_s : kAwayFor_s)
       for (const double begins_s : {at_s + about_s, at_s + about_s - lasts_s}) {
-        const std::vector<double> shape = {c.test.shape[0], begins_s, begins_s + lasts_s};
-        CandidateTest test = joint.test(joint.columns_of(away, shape));
+        const std::vector<double> shape = {static_cast<double>(run), begins_s, begins_s + lasts_s};
+        CandidateTest test = scan.test(away, shape);
         if (test.statistic <= best.statistic) continue;
         best = std::move(test);
         best.shape = shape;
       }
-  if (best.statistic < c.test.statistic + kClearlyBeaten + 2.0 * std::log(tries)) return std::nullopt;
-  return Undone{static_cast<int>(best.shape[0]), best.shape[1], best.shape[2], std::hypot(best.value[0], best.value[1]),
-                best.value[2]};
+  return best;
+}
+
+std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& c) {
+  if (!c.effect->local || !c.effect->of_one_recording) return std::nullopt;
+  const CandidateScan scan(joint);
+  const CandidateTest away = away_for_a_while(scan, static_cast<int>(c.test.shape[0]), c.test.shape[1]);
+  const double stays = std::max(c.test.statistic, pushed_by(scan, c.test.shape));
+  if (away.statistic < stays + kClearlyBeaten + away_by_chance()) return std::nullopt;
+  return Undone{static_cast<int>(away.shape[0]), away.shape[1], away.shape[2], std::hypot(away.value[0], away.value[1]),
+                away.value[2]};
 }
 
 }  // namespace odolab

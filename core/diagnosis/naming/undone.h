@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/naming/scored_candidates.h"
 
 namespace odolab {
@@ -15,5 +16,11 @@ struct Undone {
 
 // Unset where a step that stays says as much.
 std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& at_one_moment);
+
+// A truth that is somewhere else about a moment of a run, for 0.1 to 1.5 s: where that says most; its shape is the run,
+// and from when to when on the wheels' clock.
+CandidateTest away_for_a_while(const CandidateScan& scan, int run, double at_s);
+// By how much of its statistic chance makes it say more than a step that stays, since it is looked for in many ways.
+double away_by_chance();
 
 }  // namespace odolab

@@ -106,5 +106,36 @@ TEST(Bursts, AreNotWhereATruthIsWorseFarAway) {
   }
 }
 
+// Motion capture that loses sight of its markers now and then and bridges the hole with a curve: for a third of a
+// second its poses are up to 2 mm and 6 mrad beside those of the vehicle, and then back.
+TEST(Bursts, AreNotWhereATruthMovesAndMovesBack) {
+  for (std::uint64_t seed = 41; seed < 44; ++seed) {
+    Random random(seed);
+    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.02);
+    g.duration_s = 90.0;
+    g.truth_position_noise_m = 0.0003;
+    g.truth_heading_noise_rad = 0.001;
+    std::vector<Recording> runs = three_runs(
+        g, random, [&](int) { return varied_driving(random, g.duration_s); },
+        [](int) { return std::function<void(InjectedStep&)>(); });
+    for (Recording& r : runs)
+      for (double begins_s = 4.0; begins_s < 86.0; begins_s += random.uniform(6.0, 14.0)) {
+        constexpr double kLasts_s = 0.35, kMost[] = {0.002, 0.002, 0.006};
+        std::size_t channel = 0;
+        for (Channel& c : r.channels) {
+          if (c.name.rfind("truth", 0) != 0) continue;
+          const double most = kMost[channel++] * random.uniform(-1.0, 1.0);
+          for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+            const double gone = (r.time_s[i] - begins_s) / kLasts_s;
+            if (gone > 0.0 && gone < 1.0) c.values[i] += most * std::sin(kPi * gone);
+          }
+        }
+      }
+    const Result<Diagnosis> d = diagnose(runs, {}, Vehicle{});
+    ASSERT_TRUE(d);
+    EXPECT_NE(d->verdict, Verdict::unknown_effect) << seed << " " << d->findings.front().where.regime;
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test

@@ -225,5 +225,35 @@ TEST(JointModel, KeepsEachClockWhereOthersLackWhatHappenedInOneRecording) {
   EXPECT_EQ(all.accepted[1].value, (std::vector<double>{1e-4, 2e-4, 3e-4}));
 }
 
+// Calibration may have learned nothing of a wheelbase because something else is missing: then its noise is no noise.
+TEST(JointModel, MovesALengthOfWhichNothingWasLearnedOnlyWhereInnovationsAreCorrelated) {
+  Random random(57);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.05);
+  g.duration_s = 40.0;
+  const auto driving = [&](int) { return varied_driving(random, g.duration_s); };
+  const auto nothing = [](int) { return [](InjectedStep&) {}; };
+  const std::vector<Recording> recordings = three_runs(g, random, driving, nothing);
+  Vehicle file;
+  const double wheelbase_m = g.drive.wheelbase_m, believed_m = 1.02 * wheelbase_m;
+  std::get<DifferentialDrive>(file.kind).wheelbase_m = believed_m;
+  for (const bool correlated : {false, true}) {
+    LeastSquaresCalibration told;
+    told.vehicle = file;
+    told.noise = {5e-4, 1e-3, 2e-3};
+    told.innovations_are_correlated = correlated;
+    ParameterEstimate wheelbase;
+    wheelbase.name = "wheelbase_m";
+    wheelbase.stderr_value = 0.05 * believed_m;
+    wheelbase.determined = false;
+    told.parameters = {wheelbase};
+    std::vector<InnovationRun> runs;
+    for (const Recording& r : recordings) runs.push_back(innovation_run(r, file).value());
+    JointModel joint(std::move(runs), std::vector<char>(recordings.size(), 0), told, file);
+    joint.fit(4);
+    // A hundredth of a metre of noise in half a minute of turns: to less than a thousandth of the wheelbase.
+    EXPECT_NEAR(joint.model.drive.wheelbase_m, correlated ? wheelbase_m : believed_m, 1e-3 * wheelbase_m);
+  }
+}
+
 }  // namespace
 }  // namespace odolab::test
