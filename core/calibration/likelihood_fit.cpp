@@ -6,7 +6,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include "core/base/parallel.h"
 #include "core/calibration/left_out.h"
@@ -196,7 +195,11 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
   if (of_body) now_.shared.noise = with_body(now_.shared.noise);
   std::vector<const SummedRun*> of_run;
   for (int r = 0; r < static_cast<int>(runs_.size()); ++r) of_run.push_back(&summed(r, now_.of(r)));
-  const std::vector<Stretch> stretches = noise_stretches();
+  std::vector<const InnovationRun*> all;
+  for (const InnovationRun& run : runs_) all.push_back(&run);
+  // All truth, or stretches spread evenly where there is more than the noise needs.
+  const int every = std::max(1, (truth_samples() + kNoiseSamples - 1) / kNoiseSamples);
+  const std::vector<NoiseStretch> stretches = noise_stretches(all, every, kNoiseStretch);
   const auto with = [&](const FittedNoise& noise, int run) {
     InnovationModel model = now_.of(run);
     model.noise = noise;
@@ -206,7 +209,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
   const auto freedom_taken = [&](const FittedNoise& noise) {
     std::vector<InnovationSums> of_stretch(stretches.size());
     each(static_cast<int>(stretches.size()), [&](int i) {
-      const Stretch& s = stretches[i];
+      const NoiseStretch& s = stretches[i];
       FilterOptions options;
       options.first = s.first;
       options.last = s.last;
@@ -226,7 +229,7 @@ void LikelihoodFit::fit_noise(const std::vector<int>& active) {
   const auto likelihood = [&](const FittedNoise& noise) {
     std::vector<NoiseSlopes> of_stretch(stretches.size());
     each(static_cast<int>(stretches.size()), [&](int i) {
-      const Stretch& s = stretches[i];
+      const NoiseStretch& s = stretches[i];
       of_stretch[i] = noise_slopes(runs_[s.run], *of_run[s.run], with(noise, s.run), s.first, s.last);
     });
     NoiseSlopes sum;
@@ -371,32 +374,6 @@ void LikelihoodFit::add(Sums& total, int recording, const InnovationSums& s) con
     }
   }
   total.batches += static_cast<int>(s.batch_scores.size());
-}
-
-std::vector<LikelihoodFit::Stretch> LikelihoodFit::noise_stretches() const {
-  const int every = std::max(1, (truth_samples() + kNoiseSamples - 1) / kNoiseSamples);
-  // Which are taken does not hang on the order in which the runs were given: they are counted by their lengths.
-  std::vector<int> counted(runs_.size());
-  std::iota(counted.begin(), counted.end(), 0);
-  std::stable_sort(counted.begin(), counted.end(), [&](int a, int b) {
-    const auto length = [&](int r) {
-      const InnovationRun& run = runs_[static_cast<std::size_t>(r)];
-      return std::tuple{run.truth.size(), run.wheels.size(), run.wheels.back().time_s - run.wheels.front().time_s};
-    };
-    return length(a) < length(b);
-  });
-  std::vector<Stretch> stretches;
-  int number = 0;
-  for (const int r : counted) {
-    const int n = static_cast<int>(runs_[r].truth.size());
-    if (every == 1) {
-      stretches.push_back({r, 0, n});
-      continue;
-    }
-    for (int first = 0; first + 1 < n; first += kNoiseStretch, ++number)
-      if (number % every == 0) stretches.push_back({r, first, std::min(n, first + kNoiseStretch)});
-  }
-  return stretches;
 }
 
 }  // namespace odolab

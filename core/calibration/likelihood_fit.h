@@ -124,16 +124,9 @@ class LikelihoodFit {
   }
 
  private:
-  struct Stretch {
-    int run, first, last;
-  };
-
   Sums none() const;
 
   void add(Sums& total, int recording, const InnovationSums& s) const;
-
-  // All truth, or stretches spread evenly where there is more than the noise needs.
-  std::vector<Stretch> noise_stretches() const;
 
   // A run summed up, as the last time where what that depends on is as it was then. May be asked for several runs at
   // once.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "core/calibration/descent.h"
 
@@ -35,6 +37,28 @@ double& size_of(FittedNoise& noise, int size) {
     default:
       return noise.sideways_m_per_sqrt_m;
   }
+}
+
+std::vector<NoiseStretch> noise_stretches(const std::vector<const InnovationRun*>& runs, int every, int samples) {
+  const auto length = [&](int r) {
+    const InnovationRun& run = *runs[static_cast<std::size_t>(r)];
+    return std::tuple{run.truth.size(), run.wheels.size(), run.truth.back().time_s - run.truth.front().time_s};
+  };
+  std::vector<int> counted(runs.size());
+  std::iota(counted.begin(), counted.end(), 0);
+  std::stable_sort(counted.begin(), counted.end(), [&](int a, int b) { return length(a) < length(b); });
+  std::vector<NoiseStretch> stretches;
+  int number = 0;
+  for (const int r : counted) {
+    const int n = static_cast<int>(runs[static_cast<std::size_t>(r)]->truth.size());
+    if (every == 1) {
+      stretches.push_back({r, 0, n});
+      continue;
+    }
+    for (int first = 0; first + 1 < n; first += samples, ++number)
+      if (number % every == 0) stretches.push_back({r, first, std::min(n, first + samples)});
+  }
+  return stretches;
 }
 
 void NoiseFit::add_wander(bool of_headings) {

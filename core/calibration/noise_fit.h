@@ -42,6 +42,15 @@ FittedNoise with_wander(FittedNoise noise);
 // A timing of commands, too, if it has none.
 FittedNoise with_timing(FittedNoise noise);
 
+// Of one run's truth, from one sample to another.
+struct NoiseStretch {
+  int run, first, last;
+};
+
+// Each run's whole truth where `every` is 1; else every so many-th stretch of so many samples, over all runs. Which are
+// taken does not hang on the order in which the runs are given: they are counted by their lengths.
+std::vector<NoiseStretch> noise_stretches(const std::vector<const InnovationRun*>& runs, int every, int samples);
+
 // Scoring (R. A. Fisher 1925) on the logarithms from `start`, none of the sizes less than any real one.
 FittedNoise most_likely_noise(const std::function<NoiseSlopes(const FittedNoise&)>& likelihood, FittedNoise start,
                               const NoiseFit& fit);

@@ -72,32 +72,36 @@ void JointModel::fit_noise() {
   constexpr double kWay_m = 0.1;
   constexpr double kSampledWithin = 0.5;  // of logarithms: a factor of 1.6
   struct Part {
+    int of;  // which run
     const InnovationRun* run;
     const SummedRun* summed;
   };
   // On these runs, of which every so many stretches are used.
   const auto likelihood_of = [&](const std::vector<Part>& parts, const NoiseFit& fit, const FittedNoise& noise) {
+    constexpr int kStretch = 250;
     int samples = 0;
-    for (const Part& part : parts) samples += static_cast<int>(part.run->truth.size());
-    const int every = std::max(1, samples / kNoiseSamplesOfAll), stretch = 250;
+    std::vector<const InnovationRun*> all;
+    for (const Part& part : parts) {
+      samples += static_cast<int>(part.run->truth.size());
+      all.push_back(part.run);
+    }
+    const int every = std::max(1, samples / kNoiseSamplesOfAll);
     const double parameters = columns_fitted();
-    std::vector<NoiseSlopes> of_run(parts.size());
-    const auto sum_run = [&](int r) {
-      const InnovationRun& run = *parts[r].run;
-      InnovationModel m = model_of(r);
+    const std::vector<NoiseStretch> stretches = noise_stretches(all, every, kStretch);
+    std::vector<NoiseSlopes> of_stretch(stretches.size());
+    const auto add_up = [&](int i) {
+      const NoiseStretch& s = stretches[static_cast<std::size_t>(i)];
+      const Part& part = parts[static_cast<std::size_t>(s.run)];
+      InnovationModel m = model_of(part.of);
       m.noise = noise;
-      const int n = static_cast<int>(run.truth.size());
-      for (int first = 0, number = r; first + 1 < n; first += every == 1 ? n : stretch, ++number) {
-        if (number % every != 0) continue;
-        of_run[r].add(noise_slopes(run, *parts[r].summed, m, first, every == 1 ? n : std::min(n, first + stretch)));
-      }
+      of_stretch[static_cast<std::size_t>(i)] = noise_slopes(*part.run, *part.summed, m, s.first, s.last);
     };
     if (samples > kNoiseSamplesOfAll || noise.wander_lasts_s > 0.0)
-      parallel_for(static_cast<int>(parts.size()), sum_run);
+      parallel_for(static_cast<int>(stretches.size()), add_up);
     else  // not worth starting threads for
-      for (std::size_t r = 0; r < parts.size(); ++r) sum_run(static_cast<int>(r));
+      for (std::size_t i = 0; i < stretches.size(); ++i) add_up(static_cast<int>(i));
     NoiseSlopes sum;
-    for (const NoiseSlopes& s : of_run) sum.add(s);
+    for (const NoiseSlopes& s : of_stretch) sum.add(s);
     // The freedom that the parameters took, as an average: exact where all sizes move together.
     if (every == 1 && sum.scalars > 2 * parameters)
       for (int k = 0; k < 2; ++k) {
@@ -114,7 +118,7 @@ void JointModel::fit_noise() {
   int truth_samples = 0;
   std::vector<Part> whole;
   for (const LinearisedRun& l : now_->runs) {
-    whole.push_back({&l.run(), &l.summed()});
+    whole.push_back({static_cast<int>(whole.size()), &l.run(), &l.summed()});
     truth_samples += static_cast<int>(l.run().truth.size());
     any_heading = any_heading || l.run().truth_has_heading;
     any_commands = any_commands || l.run().speeds_are_held;
@@ -126,7 +130,7 @@ void JointModel::fit_noise() {
   if (any_commands) of_samples.add_timing();
   if (any_heading) of_samples.free.push_back(noise_size::heading);
   model.noise = fitted(whole, of_samples, model.noise);
-  const double recorded = std::sqrt(runs_.front().samples_averaged);
+  const double recorded = noise_as_recorded().truth_position_m / model.noise.truth_position_m;
   if (std::exchange(truth_may_come_back, false))
     model.noise = with_its_time(
         model.noise, recorded, [&](const FittedNoise& from) { return fitted(whole, of_samples, from); },
@@ -142,8 +146,8 @@ void JointModel::fit_noise() {
   int left = 0;
   for (std::size_t r = 0; r < whole.size(); ++r) {
     thin[r] = thinned_truth(*whole[r].run, *whole[r].summed, model_of(static_cast<int>(r)), kWay_m);
-    if (thin[r].run.truth.size() < 2) return;
-    thinned.push_back({&thin[r].run, &thin[r].summed});
+    if (thin[r].run.truth.size() < 2) continue;  // it hardly moved
+    thinned.push_back({static_cast<int>(r), &thin[r].run, &thin[r].summed});
     left += static_cast<int>(thin[r].run.truth.size());
   }
   if (left <= 3 * columns()) return;
