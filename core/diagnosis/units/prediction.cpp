@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/calibration/repeated_stamps.h"
 #include "core/calibration/smoothed_readings.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/units/unit_models.h"
@@ -25,7 +26,7 @@ void move_left(Pose& pose, double by_m) {
 struct Reckoned {
   const TrueUnits& units;
 
-  Track operator()(const DifferentialDrive& drive) const {
+  Track rolled(const DifferentialDrive& drive, HeadingRule rule) const {
     Track track;
     Pose pose;
     for (std::size_t i = 0; i < units.samples.size(); ++i) {
@@ -33,12 +34,13 @@ struct Reckoned {
       if (i > 0) {
         const WheelRotation &a = units.samples[i - 1].wheels[0], &b = now.wheels[0];
         move_left(pose, units.sideways_m[i][0]);
-        pose = dead_reckoned(pose, b.left_rad - a.left_rad, b.right_rad - a.right_rad, drive);
+        pose = dead_reckoned(pose, b.left_rad - a.left_rad, b.right_rad - a.right_rad, drive, rule);
       }
       track.push_back({now.time_s, pose});
     }
     return track;
   }
+  Track operator()(const DifferentialDrive& drive) const { return rolled(drive, HeadingRule::arc); }
   Track operator()(const Tracked& vehicle) const { return (*this)(as_differential_drive(vehicle)); }
   Track operator()(const SynchroDrive&) const { return {}; }
   Track ipec_by(const std::vector<LinkedSample>& readings, const IpecTrucks& trucks) const {
@@ -71,7 +73,7 @@ struct Reckoned {
     return ipec_by(readings, {v.tow, v.trailer, v.hitch_angle_resolution_rad, 0.0});
   }
   Track operator()(const EncoderTrailer& v) const {
-    Track track = (*this)(v.trailer);
+    Track track = rolled(v.trailer, HeadingRule::middle);
     for (std::size_t i = 0; i < track.size(); ++i)
       track[i].pose = track[i].pose * trailer_T_tow(v, units.samples[i].joints[0]);
     return track;
@@ -103,11 +105,23 @@ struct Reckoned {
   }
 };
 
+// A pose for each reading, of a track that has one for each stamp.
+Track at_each_reading(const Track& track, const std::vector<UnitSample>& readings) {
+  Track all;
+  std::size_t stamp = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (i > 0 && readings[i].time_s > readings[i - 1].time_s) ++stamp;
+    all.push_back(track[stamp]);
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle& vehicle,
                                        const std::vector<ActiveEffect>& effects) {
-  std::vector<UnitSample> samples = unit_samples(recording, vehicle);
+  const std::vector<UnitSample> readings = unit_readings(recording, vehicle);
+  std::vector<UnitSample> samples = without_repeated(readings);
   if (samples.size() < 2) return predicted_track(recording, vehicle);
   Vehicle with = vehicle;
   with.truth = truth_under(effects, vehicle.truth);
@@ -138,7 +152,7 @@ Result<Track> predicted_track_of_units(const Recording& recording, const Vehicle
     Track axle_a = std::visit(Reckoned{without_effects(samples, units, motions_on(before))}, with.kind);
     return as_tracked(through(std::move(axle_a), start), with.truth);
   });
-  return within_bounds(std::move(track), recording);
+  return within_bounds(at_each_reading(track, readings), recording);
 }
 
 }  // namespace odolab

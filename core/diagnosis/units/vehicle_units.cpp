@@ -146,7 +146,7 @@ void move_aside(Vehicle& vehicle, std::size_t unit, double by_m) {
   platform->castors[unit].wheel_offset_right_m -= by_m;
 }
 
-std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& vehicle) {
+std::vector<UnitSample> unit_readings(const Recording& recording, const Vehicle& vehicle) {
   std::vector<UnitSample> samples;
   if (linked(vehicle))
     for (const LinkedSample& s : linked_samples(recording))
@@ -170,7 +170,11 @@ std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& 
     for (const VehicleUnit& only : units_of(vehicle))
       for (const WheelSample& s : wheel_samples(recording, only.drive))
         samples.push_back({s.time_s, {{s.left_rad, s.right_rad}}, {}});
-  return without_repeated(samples);
+  return samples;
+}
+
+std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& vehicle) {
+  return without_repeated(unit_readings(recording, vehicle));
 }
 
 std::vector<WheelSample> wheels_of(const std::vector<UnitSample>& samples, std::size_t unit) {

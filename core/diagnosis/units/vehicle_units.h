@@ -40,7 +40,8 @@ struct UnitSample {
   std::vector<WheelRotation> wheels;  // of each unit
   std::vector<double> joints;         // the others in the order of the columns: link angles and length, hitch, pivots
 };
-// In which time goes on: a stamp that repeats the one before tells no motion.
+std::vector<UnitSample> unit_readings(const Recording& recording, const Vehicle& vehicle);
+// Those in which time goes on: a stamp that repeats the one before tells no motion.
 std::vector<UnitSample> unit_samples(const Recording& recording, const Vehicle& vehicle);
 
 // Of one unit.
