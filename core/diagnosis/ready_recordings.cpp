@@ -252,7 +252,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
       const auto r = static_cast<std::size_t>(i);
       CheckedRecording& one = *each[r];
       one = checked(*given[r], nominal, clocks[r]);
-      if (auto measured = as_if_measured(one.recording, nominal, static_cast<std::uint64_t>(r) + 1)) {
+      if (auto measured = as_if_measured(one.recording, nominal)) {
         one.recording = std::move(measured->recording);
         one.warnings.push_back(std::move(measured->said));
       }
