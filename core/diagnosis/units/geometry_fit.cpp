@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/quantile.h"
+#include "core/base/stamp_digits.h"
 #include "core/diagnosis/units/laid_stretch.h"
 #include "core/odometry/differential_drive.h"
 
@@ -172,7 +173,8 @@ class Passage {
     std::size_t first = 0, k = 0;
     double travel_m = 0.0, turn_rad = 0.0;
     for (std::size_t i = 1; i < tracked_.size(); ++i) {
-      for (; k + 1 < wheels.size() && wheels[k + 1].time_s <= tracked_[i].time_s; ++k) {
+      const double at_s = tracked_[i].time_s - nominal_.truth.time_offset_s + kStampDigits_s;
+      for (; k + 1 < wheels.size() && wheels[k + 1].time_s <= at_s; ++k) {
         const Pose step = between(wheels[k].pose, wheels[k + 1].pose);
         travel_m += length(step.position());
         turn_rad += std::abs(step.heading_rad);
