@@ -181,7 +181,9 @@ Result<HeldOutError> held_out_error(const Recording& recording, const Vehicle& b
     const Result<Track> track = predicted_track(recording, calibrated ? after : before);
     if (!track) return track.error();
     if (track->empty()) return Error{recording.name, "no encoders", "those of the vehicle"};
-    const Pose end = track->back().pose;
+    // Where it is when the truth is read last, which may be on the way; behind its last reading it stands.
+    const double at_s = std::clamp(truth.back().time_s, track->front().time_s, track->back().time_s);
+    const Pose end = *pose_at(*track, at_s);
     (calibrated ? error.after_m : error.before_m) = length(end.position() - truth.back().position);
     if (truth.back().heading_rad)
       (calibrated ? error.after_rad : error.before_rad) =

@@ -1,5 +1,6 @@
 #include "core/guide/recorded_run.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/odometry/differential_drive.h"
@@ -20,7 +21,14 @@ Result<GuideRun> run_in(const Recording& recording, const Vehicle& nominal) {
   };
   GuideRun run;
   run.measured = between(axle(truth.front()), axle(truth.back()));
-  run.odometry = dead_reckoned(wheels, *drive, Pose{}).back().pose;
+  // From the one measurement to the other, which may be on the way: before the first reading and behind the last it
+  // stands.
+  const Track track = dead_reckoned(wheels, *drive, Pose{});
+  const auto believed = [&](const TruthSample& t) {
+    const double at_s = t.time_s - nominal.truth.time_offset_s;
+    return *pose_at(track, std::clamp(at_s, track.front().time_s, track.back().time_s));
+  };
+  run.odometry = between(believed(truth.front()), believed(truth.back()));
   constexpr double kThreeCorners = 1.5 * kPi;
   const double turned_rad = run.odometry.heading_rad;
   if (std::abs(turned_rad) < kThreeCorners)

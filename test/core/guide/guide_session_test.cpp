@@ -231,6 +231,14 @@ TEST(GuideSession, ReadsARunFromARecordingInTheFrameOfItsStart) {
   EXPECT_NEAR(e.x_m, 0.02, 1e-12);
   EXPECT_NEAR(e.y_m, -0.03, 1e-12);
   EXPECT_NEAR(e.heading_rad, 0.01, 1e-12);
+  // Driven away while the log goes on: that is no error of the square (it had been one of a metre).
+  Recording goes_on = recording;
+  goes_on.time_s.push_back(goes_on.time_s.back() + 1.0);
+  for (std::size_t k = 0; k < goes_on.channels.size(); ++k)
+    goes_on.channels[k].values.push_back(k < 2 ? goes_on.channels[k].values.back() + straight : std::nan(""));
+  const Result<GuideRun> until_measured = run_in(goes_on, vehicle);
+  ASSERT_TRUE(until_measured.ok());
+  EXPECT_NEAR(return_error(*until_measured).x_m, 0.02, 1e-12);
   recording.channels[4].values.assign(left.size(), std::nan(""));
   EXPECT_FALSE(run_in(recording, vehicle).ok());
 }

@@ -22,6 +22,29 @@ TEST(GuideOutcome, NamesTheNumbersOfACalibrationFromTheInsideInWords) {
   EXPECT_EQ(out.settings[0].key, "truck_a.wheel_radius_left_m");
 }
 
+// A metre straight ahead, of which the truth looks at the first half: there nothing errs. Held against where the robot
+// came to in the end, it had been half a metre off.
+TEST(GuideOutcome, HoldsATruthThatEndsEarlyAgainstWhereTheRobotWasThen) {
+  constexpr int kReadings = 101;
+  const Vehicle vehicle;
+  const double radius_m = std::get<DifferentialDrive>(vehicle.kind).wheel_radius_left_m;
+  Recording recording;
+  for (int i = 0; i < kReadings; ++i) recording.time_s.push_back(0.1 * i);
+  for (const char* name : {"left_wheel_rad", "right_wheel_rad", "truth_x_m", "truth_y_m", "truth_heading_rad"})
+    recording.add_channel(name);
+  for (std::size_t i = 0; i < kReadings; ++i) {
+    const double way_m = 0.01 * static_cast<double>(i);
+    recording.channels[0].values[i] = recording.channels[1].values[i] = way_m / radius_m;
+    if (2 * i >= kReadings) continue;
+    recording.channels[2].values[i] = way_m;
+    recording.channels[3].values[i] = recording.channels[4].values[i] = 0.0;
+  }
+  const Result<HeldOutError> error = held_out_error(recording, vehicle, vehicle);
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->before_m, 0.0, 1e-9);
+  EXPECT_NEAR(error->after_m, 0.0, 1e-9);
+}
+
 TEST(Guide, SaysInWordsWhatVehicleItIsNotFor) {
   Vehicle vehicle;
   vehicle.kind = Clapper{};
