@@ -51,6 +51,15 @@ double largest_between(const std::vector<double>& time_s, const std::vector<doub
 // What lies on the floor acts in every recording; a push has a place, but happened once.
 bool is_of_the_floor(const Finding& f) { return f.effect == "slip_zone" || f.effect == "bump"; }
 
+// Residuals stand at the truth's stamps, what was found at the wheels'; those of a vehicle's units are not told apart.
+double lateness_of_truth_s(const Diagnosis& d, const std::string& recording) {
+  const Residuals* own = of_recording(d.residuals_before, recording);
+  if (!own || own->recording != recording) return 0.0;
+  for (const auto& [name, offset_s] : d.truth_clock_s)
+    if (name == recording) return offset_s;
+  return 0.0;
+}
+
 void add_passes(const WhereFound::Zone& zone, const Residuals* r, std::size_t finding,
                 std::vector<LocatedStretch>& all) {
   constexpr double kJoin_s = 0.5;  // between two passes that are one
@@ -155,8 +164,9 @@ std::vector<LocatedStretch> located_stretches(const Diagnosis& d, const std::str
   std::vector<LocatedStretch> all;
   for (std::size_t k = 0; k < d.findings.size(); ++k) {
     const WhereFound& where = d.findings[k].where;
+    const double late_s = d.findings[k].effect == "truth_frozen" ? 0.0 : lateness_of_truth_s(d, recording);
     if (where.recording.empty() || where.recording == recording)
-      for (const auto& [from_s, to_s] : where.time_s) all.push_back({k, from_s, to_s});
+      for (const auto& [from_s, to_s] : where.time_s) all.push_back({k, from_s + late_s, to_s + late_s});
     else if (where.zone && is_of_the_floor(d.findings[k]))
       add_passes(*where.zone, of_recording(d.residuals_before, recording), k, all);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
@@ -22,11 +23,11 @@ Result<Done> write_mismatch_csv(const std::string& path, const MismatchOverTime&
         std::none_of(stretches.begin(), stretches.end(), [&](const auto& s) { return t >= s.first && t <= s.second; }))
       continue;
     const bool judged = k < mismatch.time_s.size() && std::abs(mismatch.time_s[k] - t) < 1e-9;
-    const bool driven = i < simulated.size();
-    const Pose s = driven ? simulated[i].pose : Pose{};
+    const std::optional<Pose> driven = pose_at(simulated, t);
+    const Pose s = driven.value_or(Pose{});
     text += number_text(t);
     for (double v : {truth[i].pose.x_m, truth[i].pose.y_m, truth[i].pose.heading_rad}) text += cell(true, v);
-    for (double v : {s.x_m, s.y_m, s.heading_rad}) text += cell(driven, v);
+    for (double v : {s.x_m, s.y_m, s.heading_rad}) text += cell(driven.has_value(), v);
     text += cell(judged, judged ? mismatch.before[k] : 0.0);
     text += cell(judged && k < mismatch.after.size(), judged && k < mismatch.after.size() ? mismatch.after[k] : 0.0);
     text += "\n";

@@ -90,6 +90,25 @@ TEST(Mismatch, OfAZoneIsLocatedInEveryRunThatPassesItAndThatOfAPushIsNot) {
   EXPECT_TRUE(located_stretches(d, "run.csv").empty());
 }
 
+// Residuals stand at the stamps of a truth whose clock began 1000 s before the wheels', by which findings are told.
+TEST(Mismatch, IsLocatedOnTheClockOfItsResiduals) {
+  Diagnosis d;
+  d.residuals_before = {white(7)};
+  for (double& t : d.residuals_before[0].time_s) t += 1000.0;
+  d.truth_clock_s = {{"run.csv", 1000.0}};
+  Finding f;
+  f.effect = "collision";
+  f.where.recording = "run.csv";
+  f.where.time_s = {{7.5, 8.0}};
+  d.findings = {f};
+  const std::vector<LocatedStretch> located = located_stretches(d, "run.csv");
+  ASSERT_EQ(located.size(), 1u);
+  EXPECT_DOUBLE_EQ(located[0].from_s, 1007.5);
+  EXPECT_DOUBLE_EQ(located[0].to_s, 1008.0);
+  d.findings[0].effect = "truth_frozen";  // which is told by the truth's own
+  EXPECT_DOUBLE_EQ(located_stretches(d, "run.csv")[0].from_s, 7.5);
+}
+
 TEST(Mismatch, OfAUnitIsFoundByTheRecording) {
   Diagnosis d;
   d.residuals_before = {white(5)};
