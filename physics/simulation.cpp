@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/odometry/estimators.h"
-#include "core/recording/aligned_rows.h"
+#include "core/recording/vehicle_samples.h"
 #include "core/scenario/effect_catalogue.h"
 #include "physics/driver/path_follower.h"
 #include "physics/driver/recorded_motion.h"
@@ -48,10 +47,7 @@ double replay_begin_s(const Recording& replayed, const TruthMounting& mounting, 
 // What the recording's encoders read where the replay begins; empty where it lacks one of them.
 std::vector<double> first_readings(const Scenario& scenario, const Recording* replayed, const TruthMounting& mounting) {
   if (!replayed) return {};
-  std::vector<AlignedChannel> encoders;
-  for (const std::string& name : encoder_channels(scenario.vehicle.kind))
-    encoders.push_back({name, !name.ends_with("wheel_rad") && !name.ends_with("_m")});
-  const AlignedRows rows = aligned_rows(*replayed, encoders);
+  const AlignedRows rows = aligned_rows(*replayed, encoders_of(scenario.vehicle.kind));
   if (rows.time_s.empty()) return {};
   return RecordedRotation(rows.time_s, rows.values).at(replay_begin_s(*replayed, mounting, rows.time_s.front()));
 }

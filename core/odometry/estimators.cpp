@@ -283,30 +283,6 @@ struct ListOf {
   }
 };
 
-struct ChannelsOf {
-  using Names = std::vector<std::string>;
-  Names operator()(const DifferentialDrive&) const { return {"left_wheel_rad", "right_wheel_rad"}; }
-  Names operator()(const Tracked&) const { return {"left_wheel_rad", "right_wheel_rad"}; }
-  Names operator()(const SynchroDrive&) const { return {"drive_wheel_rad", "steering_rad"}; }
-  Names operator()(const LinkedTrucks&) const {
-    return {"a_left_wheel_rad", "a_right_wheel_rad", "b_left_wheel_rad", "b_right_wheel_rad",
-            "link_angle_a_rad", "link_angle_b_rad",  "link_length_m"};
-  }
-  Names with_trailer() const {
-    return {"left_wheel_rad", "right_wheel_rad", "trailer_left_wheel_rad", "trailer_right_wheel_rad",
-            "hitch_angle_rad"};
-  }
-  Names operator()(const EncoderTrailer&) const { return with_trailer(); }
-  Names operator()(const SmartEncoderTrailer&) const { return with_trailer(); }
-  Names operator()(const MultiCastor& v) const {
-    Names names;
-    for (std::size_t i = 1; i <= v.castors.size(); ++i)
-      for (const char* reading : {"_left_wheel_rad", "_right_wheel_rad", "_pivot_rad"})
-        names.push_back("castor" + std::to_string(i) + reading);
-    return names;
-  }
-};
-
 }  // namespace
 
 std::vector<Estimator> estimators_for(const VehicleKind& kind) { return std::visit(ListOf{}, kind); }
@@ -317,6 +293,10 @@ std::size_t steering_estimator(const VehicleKind& kind, bool internal_correction
   return two_trucks && !internal_correction ? 1 : 0;
 }
 
-std::vector<std::string> encoder_channels(const VehicleKind& kind) { return std::visit(ChannelsOf{}, kind); }
+std::vector<std::string> encoder_channels(const VehicleKind& kind) {
+  std::vector<std::string> names;
+  for (const AlignedChannel& encoder : encoders_of(kind)) names.push_back(encoder.name);
+  return names;
+}
 
 }  // namespace odolab

@@ -1,10 +1,13 @@
 #include "core/recording/vehicle_samples.h"
 
-#include "core/recording/aligned_rows.h"
-
 namespace odolab {
 
 namespace {
+
+const std::vector<AlignedChannel>& wheel_channels() {
+  static const std::vector<AlignedChannel> channels = {{"left_wheel_rad"}, {"right_wheel_rad"}};
+  return channels;
+}
 
 const std::vector<AlignedChannel>& synchro_channels() {
   static const std::vector<AlignedChannel> channels = {{"drive_wheel_rad"}, {"steering_rad"}};
@@ -36,6 +39,11 @@ std::vector<AlignedChannel> castor_channels(std::size_t castors) {
     channels.push_back({castor + "_pivot_rad", true});
   }
   return channels;
+}
+
+// Whose wheels may also be read in raw counts.
+bool is_driven_by_a_pair(const VehicleKind& kind) {
+  return std::holds_alternative<DifferentialDrive>(kind) || std::holds_alternative<Tracked>(kind);
 }
 
 // One sample for each row, made by `make(time_s, values)`.
@@ -124,39 +132,29 @@ Recording recording_of(const std::vector<CastorSample>& samples) {
   });
 }
 
-std::vector<std::string> encoder_columns(const Vehicle& vehicle) {
+std::vector<AlignedChannel> encoders_of(const VehicleKind& kind) {
   struct Of {
+    std::vector<AlignedChannel> operator()(const DifferentialDrive&) const { return wheel_channels(); }
+    std::vector<AlignedChannel> operator()(const Tracked&) const { return wheel_channels(); }
+    std::vector<AlignedChannel> operator()(const SynchroDrive&) const { return synchro_channels(); }
     std::vector<AlignedChannel> operator()(const LinkedTrucks&) const { return linked_channels(); }
     std::vector<AlignedChannel> operator()(const EncoderTrailer&) const { return trailer_channels(); }
     std::vector<AlignedChannel> operator()(const SmartEncoderTrailer&) const { return trailer_channels(); }
     std::vector<AlignedChannel> operator()(const MultiCastor& v) const { return castor_channels(v.castors.size()); }
-    std::vector<AlignedChannel> operator()(const DifferentialDrive&) const { return {}; }
-    std::vector<AlignedChannel> operator()(const Tracked&) const { return {}; }
-    std::vector<AlignedChannel> operator()(const SynchroDrive&) const { return {}; }
   };
+  return std::visit(Of{}, kind);
+}
+
+std::vector<std::string> encoder_columns(const Vehicle& vehicle) {
   std::vector<std::string> names;
-  for (const AlignedChannel& channel : std::visit(Of{}, vehicle.kind)) names.push_back(channel.name);
+  if (is_driven_by_a_pair(vehicle.kind) || std::holds_alternative<SynchroDrive>(vehicle.kind)) return names;
+  for (const AlignedChannel& channel : encoders_of(vehicle.kind)) names.push_back(channel.name);
   return names;
 }
 
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle) {
-  struct Of {
-    const Recording& recording;
-    std::string wheels() const {
-      if (missing_of(recording, {{"left_ticks"}, {"right_ticks"}}).empty()) return "";
-      return missing_of(recording, {{"left_wheel_rad"}, {"right_wheel_rad"}});
-    }
-    std::string operator()(const DifferentialDrive&) const { return wheels(); }
-    std::string operator()(const Tracked&) const { return wheels(); }
-    std::string operator()(const SynchroDrive&) const { return missing_of(recording, synchro_channels()); }
-    std::string operator()(const LinkedTrucks&) const { return missing_of(recording, linked_channels()); }
-    std::string operator()(const EncoderTrailer&) const { return missing_of(recording, trailer_channels()); }
-    std::string operator()(const SmartEncoderTrailer&) const { return missing_of(recording, trailer_channels()); }
-    std::string operator()(const MultiCastor& v) const {
-      return missing_of(recording, castor_channels(v.castors.size()));
-    }
-  };
-  return std::visit(Of{recording}, vehicle.kind);
+  if (is_driven_by_a_pair(vehicle.kind) && missing_of(recording, {{"left_ticks"}, {"right_ticks"}}).empty()) return "";
+  return missing_of(recording, encoders_of(vehicle.kind));
 }
 
 }  // namespace odolab

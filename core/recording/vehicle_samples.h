@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/recording/aligned_rows.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/multi_castor.h"
 #include "core/vehicle/vehicle.h"
@@ -60,6 +61,9 @@ Recording recording_of(const std::vector<SynchroSample>& samples);
 Recording recording_of(const std::vector<LinkedSample>& samples);
 Recording recording_of(const std::vector<TrailerSample>& samples);
 Recording recording_of(const std::vector<CastorSample>& samples);
+
+// What a vehicle's encoders read, in the order of the samples above.
+std::vector<AlignedChannel> encoders_of(const VehicleKind& kind);
 
 // The columns of a linked or castor vehicle's encoders; none of any other.
 std::vector<std::string> encoder_columns(const Vehicle& vehicle);
