@@ -55,7 +55,7 @@ std::vector<LinkedStretch> linked_stretches(const std::vector<LinkedSample>& sam
   std::size_t first = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const auto of = [&](const DifferentialDrive& t, const WheelRotation& from, const WheelRotation& to) {
-      const Pose step = dead_reckoned(Pose{}, to.left_rad - from.left_rad, to.right_rad - from.right_rad, t);
+      const Pose step = dead_reckoned(Pose{}, from, to, t);
       return std::array<double, 2>{length(step.position()), std::abs(step.heading_rad)};
     };
     const auto a = of(v.truck_a, samples[i - 1].a, samples[i].a), b = of(v.truck_b, samples[i - 1].b, samples[i].b);
@@ -79,8 +79,8 @@ std::vector<double> linked_contradictions(const LinkedStretch& stretch, const Li
   const IpecState state = ipec_start(start, {});
   Pose a = state.a, b = state.b;
   for (std::size_t i = stretch.first + 1; i <= stretch.last; ++i) {
-    a = dead_reckoned(a, s[i].a.left_rad - s[i - 1].a.left_rad, s[i].a.right_rad - s[i - 1].a.right_rad, v.truck_a);
-    b = dead_reckoned(b, s[i].b.left_rad - s[i - 1].b.left_rad, s[i].b.right_rad - s[i - 1].b.right_rad, v.truck_b);
+    a = dead_reckoned(a, s[i - 1].a, s[i].a, v.truck_a);
+    b = dead_reckoned(b, s[i - 1].b, s[i].b, v.truck_b);
   }
   const Vec2 link = a.position() - b.position();
   const double link_rad = std::atan2(link.y_m, link.x_m);

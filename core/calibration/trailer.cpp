@@ -44,17 +44,13 @@ struct TrailerStretch {
   std::size_t first = 0, last = 0;
 };
 
-Pose moved(const Pose& pose, const WheelRotation& from, const WheelRotation& to, const DifferentialDrive& drive) {
-  return dead_reckoned(pose, to.left_rad - from.left_rad, to.right_rad - from.right_rad, drive);
-}
-
 void add_stretches(const std::vector<TrailerSample>& samples, const SmartEncoderTrailer& v,
                    std::vector<TrailerStretch>& stretches) {
   double travel_m = 0.0, turn_rad = 0.0;
   std::size_t first = 0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
-    const Pose tow = moved({}, samples[i - 1].tow, samples[i].tow, v.tow);
-    const Pose trailer = moved({}, samples[i - 1].trailer, samples[i].trailer, v.trailer);
+    const Pose tow = dead_reckoned(Pose{}, samples[i - 1].tow, samples[i].tow, v.tow);
+    const Pose trailer = dead_reckoned(Pose{}, samples[i - 1].trailer, samples[i].trailer, v.trailer);
     travel_m += std::max(length(tow.position()), length(trailer.position()));
     turn_rad += std::max(std::abs(tow.heading_rad), std::abs(trailer.heading_rad));
     if (travel_m < kTrailerStretch_m && turn_rad < kTrailerStretch_rad) continue;
@@ -71,8 +67,8 @@ std::vector<double> trailer_contradictions(const TrailerStretch& stretch, const 
   Pose trailer = Pose{0.0, 0.0, -(s[stretch.first].hitch_angle_rad - v.hitch_angle_offset_rad)} *
                  Pose{-v.drawbar_length_m, 0.0, 0.0};
   for (std::size_t i = stretch.first + 1; i <= stretch.last; ++i) {
-    tow = moved(tow, s[i - 1].tow, s[i].tow, v.tow);
-    trailer = moved(trailer, s[i - 1].trailer, s[i].trailer, v.trailer);
+    tow = dead_reckoned(tow, s[i - 1].tow, s[i].tow, v.tow);
+    trailer = dead_reckoned(trailer, s[i - 1].trailer, s[i].trailer, v.trailer);
   }
   const Vec2 hitch = inverse(trailer) * tow.position();
   const double read_rad = s[stretch.last].hitch_angle_rad - v.hitch_angle_offset_rad;

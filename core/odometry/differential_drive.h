@@ -3,7 +3,7 @@
 
 #include "core/geometry/small_turn.h"
 #include "core/geometry/track.h"
-#include "core/recording/recording.h"
+#include "core/recording/vehicle_samples.h"
 #include "core/vehicle/differential_drive.h"
 
 namespace odolab {
@@ -28,6 +28,12 @@ inline Pose dead_reckoned(const Pose& pose, double left_rad, double right_rad, c
   return {pose.x_m + travel_m * std::cos(heading_rad),     // Eq. 2.6a
           pose.y_m + travel_m * std::sin(heading_rad),     // Eq. 2.6b
           heading_rad};
+}
+
+// The same between two readings of both wheels.
+inline Pose dead_reckoned(const Pose& pose, const WheelRotation& from, const WheelRotation& to,
+                          const DifferentialDrive& drive, HeadingRule rule = HeadingRule::middle) {
+  return dead_reckoned(pose, to.left_rad - from.left_rad, to.right_rad - from.right_rad, drive, rule);
 }
 
 // The track of the axle's centre through all wheel samples, from the given start.

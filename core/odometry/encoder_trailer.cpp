@@ -19,9 +19,7 @@ Track trailer_reckoned(const std::vector<TrailerSample>& samples, const EncoderT
     if (i == 0) {
       trailer = start * inverse(to_tow);
     } else {
-      const TrailerSample& before = samples[i - 1];
-      trailer = dead_reckoned(trailer, now.trailer.left_rad - before.trailer.left_rad,
-                              now.trailer.right_rad - before.trailer.right_rad, vehicle.trailer, rule);
+      trailer = dead_reckoned(trailer, samples[i - 1].trailer, now.trailer, vehicle.trailer, rule);
     }
     track.push_back({now.time_s, trailer * to_tow});
   }

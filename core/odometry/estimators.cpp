@@ -18,20 +18,13 @@ struct Wheels {
   WheelRotation of(const std::vector<double>& readings) const { return {readings[left], readings[left + 1]}; }
 };
 
-WheelRotation rotation_between(const WheelRotation& before, const WheelRotation& now) {
-  return {now.left_rad - before.left_rad, now.right_rad - before.right_rad};
-}
-
 class DeadReckoning final : public RunningEstimator {
  public:
   DeadReckoning(const DifferentialDrive& drive, Wheels wheels, HeadingRule rule, const Pose& start)
       : drive_(drive), wheels_(wheels), rule_(rule), pose_(start) {}
   void take(double, const std::vector<double>& readings) override {
     const WheelRotation now = wheels_.of(readings);
-    if (last_) {
-      const WheelRotation by = rotation_between(*last_, now);
-      pose_ = dead_reckoned(pose_, by.left_rad, by.right_rad, drive_, rule_);
-    }
+    if (last_) pose_ = dead_reckoned(pose_, *last_, now, drive_, rule_);
     last_ = now;
   }
   Pose pose() const override { return pose_; }
@@ -95,8 +88,7 @@ class RearTruckReckoning final : public RunningEstimator {
     if (!last_) {
       b_ = ipec_start(now, a_).b;
     } else {
-      const WheelRotation by = rotation_between(last_->b, now.b);
-      b_ = dead_reckoned(b_, by.left_rad, by.right_rad, truck_b_);
+      b_ = dead_reckoned(b_, last_->b, now.b, truck_b_);
       const double link_rad = b_.heading_rad - now.link_angle_b_rad;
       a_ = {b_.x_m + now.link_length_m * std::cos(link_rad), b_.y_m + now.link_length_m * std::sin(link_rad),
             unwrapped(link_rad + now.link_angle_a_rad, a_.heading_rad)};
@@ -122,8 +114,7 @@ class TrailerReckoning final : public RunningEstimator {
     if (!last_) {
       trailer_ = pose_ * inverse(to_tow);
     } else {
-      const WheelRotation by = rotation_between(*last_, now);
-      trailer_ = dead_reckoned(trailer_, by.left_rad, by.right_rad, vehicle_.trailer);
+      trailer_ = dead_reckoned(trailer_, *last_, now, vehicle_.trailer);
     }
     pose_ = trailer_ * to_tow;
     last_ = now;

@@ -18,12 +18,6 @@ Pose behind(const Pose& a, double link_heading_rad, double link_length_m, double
           heading_b_rad};
 }
 
-// Dead reckoning of one truck over the interval, Eq. 9.
-Pose reckoned(const Pose& pose, const WheelRotation& before, const WheelRotation& now, const DifferentialDrive& truck,
-              HeadingRule rule) {
-  return dead_reckoned(pose, now.left_rad - before.left_rad, now.right_rad - before.right_rad, truck, rule);
-}
-
 // Truck A turned back about the wheel that did not climb anything, Eqs. 14, 15.
 Pose composite_corrected(const Pose& a, double correction_rad, double travel_m, double wheelbase_m,
                          CompositeCorrection rule) {
@@ -59,8 +53,8 @@ IpecState ipec_start(const LinkedSample& reading, const Pose& truck_a) {
 
 IpecState ipec_step(const IpecState& state, const LinkedSample& before, const LinkedSample& now,
                     const IpecTrucks& trucks, const IpecOptions& options) {
-  Pose a = reckoned(state.a, before.a, now.a, trucks.a, options.heading);  // Eq. 9
-  Pose b = reckoned(state.b, before.b, now.b, trucks.b, options.heading);
+  Pose a = dead_reckoned(state.a, before.a, now.a, trucks.a, options.heading);  // Eq. 9
+  Pose b = dead_reckoned(state.b, before.b, now.b, trucks.b, options.heading);
   const double theta_l = link_heading(a, b, options.direction);                // Eq. 10
   const double expected_alpha = a.heading_rad - theta_l;                       // Eq. 11a
   const double expected_beta = b.heading_rad - theta_l;                        // Eq. 11b

@@ -88,8 +88,7 @@ ErrorsAtEnd drive_unconnected(bool clockwise, const Sight& sight, bool with_bump
   }
   Pose alone;
   for (std::size_t i = 1; i < seen.size(); ++i)
-    alone = dead_reckoned(alone, seen[i].a.left_rad - seen[i - 1].a.left_rad,
-                          seen[i].a.right_rad - seen[i - 1].a.right_rad, robots.truck_a);
+    alone = dead_reckoned(alone, seen[i - 1].a, seen[i].a, robots.truck_a);
   IpecOptions options;  // the sensors have noise and no steps: all the way to the reading, every time
   options.resolution = ResolutionRule::as_printed;
   options.gain = kGain;

@@ -21,9 +21,7 @@ class LinkedBelief {
     } else if (internal_correction_) {
       state_ = ipec_step(state_, *last_, now, trucks_);
     } else {
-      const Pose a =
-          dead_reckoned(state_.a, now.a.left_rad - last_->a.left_rad, now.a.right_rad - last_->a.right_rad, trucks_.a);
-      state_ = ipec_start(now, a);
+      state_ = ipec_start(now, dead_reckoned(state_.a, last_->a, now.a, trucks_.a));
     }
     last_ = now;
   }

@@ -32,9 +32,8 @@ struct Reckoned {
     for (std::size_t i = 0; i < units.samples.size(); ++i) {
       const UnitSample& now = units.samples[i];
       if (i > 0) {
-        const WheelRotation &a = units.samples[i - 1].wheels[0], &b = now.wheels[0];
         move_left(pose, units.sideways_m[i][0]);
-        pose = dead_reckoned(pose, b.left_rad - a.left_rad, b.right_rad - a.right_rad, drive, rule);
+        pose = dead_reckoned(pose, units.samples[i - 1].wheels[0], now.wheels[0], drive, rule);
       }
       track.push_back({now.time_s, pose});
     }
