@@ -1,13 +1,27 @@
 #include "core/calibration/castors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 
 namespace odolab {
 
 namespace {
+
+struct Key {
+  const char* name;
+  const char* unit;
+  double Castor::*value;
+};
+constexpr Key kKeys[] = {{"offset_m", "m", &Castor::offset_m},
+                         {"wheel_radius_left_m", "m", &Castor::wheel_radius_left_m},
+                         {"wheel_radius_right_m", "m", &Castor::wheel_radius_right_m},
+                         {"wheel_offset_left_m", "m", &Castor::wheel_offset_left_m},
+                         {"wheel_offset_right_m", "m", &Castor::wheel_offset_right_m},
+                         {"pivot_encoder_offset_rad", "rad", &Castor::pivot_encoder_offset_rad}};
 
 // Readings of a castor that stands, or has settled, stay within so many of its encoder's steps.
 constexpr double kSteps = 1.6;
@@ -106,54 +120,27 @@ Castor castor_from_circles(const CastorOnCircle& cw, double turn_cw_rad, const C
 MultiCastor calibrated_castors(const std::vector<Revolution>& runs, const MultiCastor& nominal) {
   MultiCastor result = nominal;
   for (std::size_t c = 0; c < nominal.castors.size(); ++c) {
-    Castor sum;
-    double offset_rad = 0.0;
+    Castor first;
+    std::array<double, std::size(kKeys)> sum{};
     int estimates = 0;
     for (const Revolution& cw : runs)
       for (const Revolution& ccw : runs) {
         if (!cw.clockwise || ccw.clockwise || cw.still != ccw.still || cw.still == c) continue;
         const Castor& still = nominal.castors[cw.still];
-        const Castor one = castor_from_circles(cw.castors[c], cw.turn_rad, ccw.castors[c], ccw.turn_rad,
-                                               length(nominal.castors[c].pivot() - still.pivot()),
-                                               theta_perp_rad(nominal.castors[c], still));
-        if (estimates == 0) {
-          sum = one;
-          offset_rad = one.pivot_encoder_offset_rad;
-        } else {
-          sum.offset_m += one.offset_m;
-          sum.wheel_radius_left_m += one.wheel_radius_left_m;
-          sum.wheel_radius_right_m += one.wheel_radius_right_m;
-          sum.wheel_offset_left_m += one.wheel_offset_left_m;
-          sum.wheel_offset_right_m += one.wheel_offset_right_m;
-          sum.pivot_encoder_offset_rad += unwrapped(one.pivot_encoder_offset_rad, offset_rad);
-        }
-        ++estimates;
+        Castor one = castor_from_circles(cw.castors[c], cw.turn_rad, ccw.castors[c], ccw.turn_rad,
+                                         length(nominal.castors[c].pivot() - still.pivot()),
+                                         theta_perp_rad(nominal.castors[c], still));
+        if (estimates++ == 0) first = one;
+        one.pivot_encoder_offset_rad = unwrapped(one.pivot_encoder_offset_rad, first.pivot_encoder_offset_rad);
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += one.*kKeys[k].value;
       }
-    if (estimates == 0) continue;
-    Castor& castor = result.castors[c];
-    castor.offset_m = sum.offset_m / estimates;
-    castor.wheel_radius_left_m = sum.wheel_radius_left_m / estimates;
-    castor.wheel_radius_right_m = sum.wheel_radius_right_m / estimates;
-    castor.wheel_offset_left_m = sum.wheel_offset_left_m / estimates;
-    castor.wheel_offset_right_m = sum.wheel_offset_right_m / estimates;
-    castor.pivot_encoder_offset_rad = sum.pivot_encoder_offset_rad / estimates;
+    for (std::size_t k = 0; k < sum.size() && estimates > 0; ++k)
+      result.castors[c].*kKeys[k].value = sum[k] / estimates;
   }
   return result;
 }
 
 namespace {
-
-struct Key {
-  const char* name;
-  const char* unit;
-  double Castor::*value;
-};
-constexpr Key kKeys[] = {{"offset_m", "m", &Castor::offset_m},
-                         {"wheel_radius_left_m", "m", &Castor::wheel_radius_left_m},
-                         {"wheel_radius_right_m", "m", &Castor::wheel_radius_right_m},
-                         {"wheel_offset_left_m", "m", &Castor::wheel_offset_left_m},
-                         {"wheel_offset_right_m", "m", &Castor::wheel_offset_right_m},
-                         {"pivot_encoder_offset_rad", "rad", &Castor::pivot_encoder_offset_rad}};
 
 // Variances of all castors' parameters, castor by castor in the order of kKeys: each reading errs by its rounding, and
 // acts on the estimates by differences.
