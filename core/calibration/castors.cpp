@@ -151,7 +151,8 @@ std::vector<double> variances(const std::vector<Revolution>& runs, const MultiCa
     const MultiCastor up = calibrated_castors(more, nominal), down = calibrated_castors(less, nominal);
     for (std::size_t c = 0; c < nominal.castors.size(); ++c)
       for (std::size_t k = 0; k < keys; ++k) {
-        const double half = 0.5 * (up.castors[c].*kKeys[k].value - down.castors[c].*kKeys[k].value);
+        const double by = up.castors[c].*kKeys[k].value - down.castors[c].*kKeys[k].value;
+        const double half = 0.5 * (kKeys[k].value == &Castor::pivot_encoder_offset_rad ? wrapped(by) : by);
         sum[c * keys + k] += half * half;
       }
   };

@@ -80,6 +80,27 @@ TEST(CastorCalibration, SolvesAHandWorkedCase) {
   EXPECT_NEAR(found.wheel_offset_right_m, 0.3, 1e-12);
 }
 
+// Mounted the other way round: half a turn more is half a turn less, and no error of a turn.
+TEST(CastorCalibration, KnowsAnEncoderThatIsOffByHalfATurnAsWellAsAnyOther) {
+  MultiCastor actual = odd_vehicle(0.00524, 0.00122);
+  actual.castors[0].pivot_encoder_offset_rad = kPi;
+  Vehicle nominal;
+  nominal.kind = three_castor_vehicle();
+  constexpr std::size_t kOffset = 5;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    std::vector<Recording> recordings;
+    for (std::size_t still : {0u, 1u, 2u})
+      for (bool clockwise : {true, false})
+        recordings.push_back(recording_of(
+            revolution(actual, still, clockwise, 1.5, seed_of_stream(seed, 2 * still + (clockwise ? 1 : 0)))));
+    const Result<InternalCalibration> found = calibrate_castors(recordings, nominal);
+    ASSERT_TRUE(found) << found.error().message();
+    const ParameterEstimate &half = found->parameters[kOffset], &other = found->parameters[2 * 6 + kOffset];
+    EXPECT_NEAR(wrapped(half.value - kPi), 0.0, 4.0 * half.stderr_value);
+    EXPECT_NEAR(half.stderr_value, other.stderr_value, 0.1 * other.stderr_value);
+  }
+}
+
 TEST(CastorCalibration, ClaimsStandardErrorsThatHold) {
   const MultiCastor actual = odd_vehicle(0.00524, 0.00122);
   Vehicle nominal;
