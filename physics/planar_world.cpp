@@ -82,11 +82,6 @@ void PlanarWorld::Solver::take_forces() {
     const Body& body = bodies[tread.body];
     tread.force_n = turned(twice(tread.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
   }
-  for (FreeWheel& wheel : free_wheels) {
-    const Body& body = bodies[wheel.body];
-    const Vec2 force = turned(twice(wheel.joint->GetReactionForce(inverse_step)), body.cos_turn, -body.sin_turn);
-    wheel.force_n = dot(force, {-std::sin(wheel.direction_rad), std::cos(wheel.direction_rad)});
-  }
 }
 
 void PlanarWorld::Solver::solve_with_box2d() {
@@ -334,7 +329,6 @@ Vec2 PlanarWorld::velocity_mps(int body) const { return solver_->bodies[body].ve
 double PlanarWorld::yaw_rate_radps(int body) const { return solver_->bodies[body].yaw_rate_radps; }
 Vec2 PlanarWorld::tread_force_n(int tread) const { return solver_->treads[tread].force_n; }
 
-double PlanarWorld::free_wheel_force_n(int free_wheel) const { return solver_->free_wheels[free_wheel].force_n; }
 
 Vec2 PlanarWorld::velocity_of_point_mps(int body, Vec2 place) const {
   const Solver::Body& b = solver_->bodies[static_cast<std::size_t>(body)];

@@ -92,9 +92,6 @@ class PlanarWorld {
   double yaw_rate_radps(int body) const;
   // Force of the floor on the body through this tread, mean over the last step, in the body's frame.
   Vec2 tread_force_n(int tread) const;
-  // What the floor holds this free wheel with sideways (positive: to the left of its direction), mean over the last
-  // step.
-  double free_wheel_force_n(int free_wheel) const;
   // The point's velocity over the floor, turned into the body's frame at the middle of the last step.
   Vec2 velocity_of_point_mps(int body, Vec2 place) const;
 

@@ -121,8 +121,6 @@ void PlanarWorld::Solver::solve_sliding() {
     slides = slides || length(contact.impulse_ns) > kAllOfTheGrip * contact.grip_ns;
   }
   for (std::size_t i = 0; i < drives.size(); ++i) drives[i].added_mps = sliding.drives[i].added_mps;
-  for (std::size_t i = 0; i < free_wheels.size(); ++i)
-    free_wheels[i].force_n = kOld * free_wheels[i].force_n + sliding.links[i].impulse_ns / h;
 }
 
 }  // namespace odolab

@@ -67,7 +67,6 @@ struct PlanarWorld::Solver {
     int body = 0;
     Vec2 place;
     double direction_rad = 0.0;
-    double force_n = 0.0;
     b2Body* floor = nullptr;
     b2WheelJoint* joint = nullptr;
   };
