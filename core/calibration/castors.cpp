@@ -189,8 +189,7 @@ Result<InternalCalibration> calibrate_castors(const std::vector<Recording>& reco
   std::vector<Revolution> runs;
   for (const Recording& recording : recordings) {
     const std::string where = recording.name.empty() ? "recording" : recording.name;
-    if (const std::string missing = missing_columns(recording, nominal); !missing.empty())
-      return Error{where, "no " + missing, "the encoders of a multi_castor"};
+    if (const std::optional<Error> lacks = lacks_encoders(recording, nominal)) return *lacks;
     Result<Revolution> run = revolution_in(castor_samples(recording, before.castors.size()), before);
     if (!run) return Error{where + ": " + run.error().where, run.error().found, run.error().expected};
     runs.push_back(std::move(*run));

@@ -75,9 +75,7 @@ double rounding_of_mean_rad(const std::vector<Recording>& recordings, double ste
 // drawbar.
 Result<Recording> trailer_alone(const Recording& recording, const Vehicle& nominal, const Train& train,
                                 const TruthMounting& mounting) {
-  if (const std::string missing = missing_columns(recording, nominal); !missing.empty())
-    return Error{recording.name.empty() ? "recording" : recording.name, "no " + missing,
-                 "the encoders of a " + kind_name(nominal)};
+  if (const std::optional<Error> lacks = lacks_encoders(recording, nominal)) return *lacks;
   const double kNone = std::numeric_limits<double>::quiet_NaN();
   const std::vector<TrailerSample> encoders = trailer_samples(recording);
   const std::vector<TruthSample> truth = truth_samples(recording);

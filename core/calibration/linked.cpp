@@ -145,9 +145,7 @@ Result<InternalCalibration> calibrate_linked(const std::vector<Recording>& recor
                                    : static_cast<const LinkedTrucks&>(std::get<OmniMate>(nominal.kind));
   std::vector<std::vector<LinkedSample>> samples;
   for (const Recording& recording : recordings) {
-    if (const std::string missing = missing_columns(recording, nominal); !missing.empty())
-      return Error{recording.name.empty() ? "recording" : recording.name, "no " + missing,
-                   "the encoders of a " + kind_name(nominal)};
+    if (const std::optional<Error> lacks = lacks_encoders(recording, nominal)) return *lacks;
     samples.push_back(linked_samples(recording));
   }
   std::vector<LinkedStretch> stretches;

@@ -120,9 +120,7 @@ Result<InternalCalibration> calibrate_trailer(const std::vector<Recording>& reco
   const SmartEncoderTrailer& before = std::get<SmartEncoderTrailer>(nominal.kind);
   std::vector<std::vector<TrailerSample>> samples;
   for (const Recording& recording : recordings) {
-    if (const std::string missing = missing_columns(recording, nominal); !missing.empty())
-      return Error{recording.name.empty() ? "recording" : recording.name, "no " + missing,
-                   "the encoders of a " + kind_name(nominal)};
+    if (const std::optional<Error> lacks = lacks_encoders(recording, nominal)) return *lacks;
     samples.push_back(trailer_samples(recording));
   }
   std::vector<TrailerStretch> stretches;

@@ -157,4 +157,11 @@ std::string missing_columns(const Recording& recording, const Vehicle& vehicle) 
   return missing_of(recording, encoders_of(vehicle.kind));
 }
 
+std::optional<Error> lacks_encoders(const Recording& recording, const Vehicle& vehicle) {
+  const std::string missing = missing_columns(recording, vehicle);
+  if (missing.empty()) return std::nullopt;
+  return Error{recording.name.empty() ? "recording" : recording.name, "no " + missing,
+               "the encoders of a " + kind_name(vehicle)};
+}
+
 }  // namespace odolab

@@ -71,5 +71,7 @@ std::vector<std::string> encoder_columns(const Vehicle& vehicle);
 // The columns that an encoder-based estimate of such a vehicle needs and this recording lacks, e.g. "link_angle_a_rad,
 // link_length_m"; empty where nothing is missing.
 std::string missing_columns(const Recording& recording, const Vehicle& vehicle);
+// The same as an error of the recording; none where nothing is missing.
+std::optional<Error> lacks_encoders(const Recording& recording, const Vehicle& vehicle);
 
 }  // namespace odolab

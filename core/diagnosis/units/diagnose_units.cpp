@@ -15,8 +15,7 @@ std::optional<Error> unusable(const Recording& r, const Vehicle& nominal) {
   const std::string where = r.name.empty() ? "recording" : r.name;
   if (const std::vector<std::string> problems = problems_in(r); !problems.empty())
     return Error{where, "", problems.front()};
-  if (const std::string missing = missing_columns(r, nominal); !missing.empty())
-    return Error{where, "no " + missing, "the encoders of a " + kind_name(nominal)};
+  if (std::optional<Error> lacks = lacks_encoders(r, nominal)) return lacks;
   if (unit_samples(r, nominal).size() < 2) return Error{where, "no two rows in which all encoders can be told", ""};
   return std::nullopt;
 }
