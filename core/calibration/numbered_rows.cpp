@@ -180,20 +180,29 @@ std::vector<int> numbers_told_by_steps(const std::vector<double>& time_s, double
   constexpr double kExplained = 1.5, kDecisively = 100.0;                     // of twice the log-likelihood: a row; all
   std::vector<double> off_s;
   for (std::size_t i = 1; i < time_s.size(); ++i) off_s.push_back(time_s[i] - time_s[i - 1] - period_s);
-  const double tremble_s = scatter_about_zero(std::move(off_s)) / std::sqrt(2.0);
+  double tremble_s = scatter_about_zero(std::move(off_s)) / std::sqrt(2.0);
   if (!(tremble_s > 0.0)) return {};
-  const MissingRows missing(time_s, tremble_s);
-  double best_s = period_s, least = missing.cost(period_s);
-  const double as_it_seems = least;
-  const auto try_near = [&](double middle_s, double low, double high, double step) {
-    for (double times = low; times <= high; times += step)
-      if (const double cost = missing.cost(times * middle_s); cost < least) least = cost, best_s = times * middle_s;
-  };
-  try_near(period_s, kFrom, kTo, kStep);
-  for (double step = 0.5 * kStep; step > kFinest; step *= 0.5) try_near(double{best_s}, 1.0 - step, 1.0 + step, step);
-  std::vector<int> numbers;
-  missing.cost(best_s, &numbers);
   const auto rows = static_cast<double>(time_s.size());
+  double best_s = period_s, least = 0.0, as_it_seems = 0.0;
+  const auto find_best = [&] {
+    const MissingRows missing(time_s, tremble_s);
+    best_s = period_s;
+    least = as_it_seems = missing.cost(period_s);
+    const auto try_near = [&](double middle_s, double low, double high, double step) {
+      for (double times = low; times <= high; times += step)
+        if (const double cost = missing.cost(times * middle_s); cost < least) least = cost, best_s = times * middle_s;
+    };
+    try_near(period_s, kFrom, kTo, kStep);
+    for (double step = 0.5 * kStep; step > kFinest; step *= 0.5) try_near(double{best_s}, 1.0 - step, 1.0 + step, step);
+  };
+  find_best();
+  // What arrives late now and then trembles by more than its middle half shows.
+  if (least > rows) {
+    tremble_s *= std::sqrt(least / rows);
+    find_best();
+  }
+  std::vector<int> numbers;
+  MissingRows(time_s, tremble_s).cost(best_s, &numbers);
   const bool any = numbers.back() - numbers.front() > static_cast<int>(time_s.size()) - 1;
   if (!any || least > kExplained * rows || least > as_it_seems - kDecisively) return {};
   period_s = period_by_lines(time_s, numbers, best_s);
