@@ -1,0 +1,56 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+constexpr double kKnocked_s = 31.0, kKnockedAhead_m = 0.006, kKnockedLeft_m = -0.004;
+
+// Three runs of a robot whose marker is knocked on the way of the second one, and sits where it did in the third.
+std::vector<Recording> knocked_runs(bool with_headings) {
+  Random random(with_headings ? 83 : 84);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.02);
+  g.duration_s = 60.0;
+  g.truth_has_heading = with_headings;
+  std::vector<Pose> pose_at_ms(static_cast<std::size_t>(1e3 * g.duration_s) + 1);
+  std::vector<Recording> runs = three_runs(
+      g, random, [&](int) { return varied_driving(random, g.duration_s); },
+      [&](int run) {
+        return [&, run](InjectedStep& s) {
+          if (run == 1) pose_at_ms[static_cast<std::size_t>(std::lround(1e3 * s.time_s))] = s.pose;
+        };
+      });
+  Recording& r = runs[1];
+  for (std::size_t i = 0; i < r.time_s.size(); ++i) {
+    if (r.time_s[i] < kKnocked_s) continue;
+    const Vec2 by =
+        rotated({kKnockedAhead_m, kKnockedLeft_m}, pose_at_ms[static_cast<std::size_t>(1e3 * r.time_s[i])].heading_rad);
+    for (Channel& c : r.channels) {
+      if (c.name == "truth_x_m") c.values[i] += by.x_m;
+      if (c.name == "truth_y_m") c.values[i] += by.y_m;
+    }
+  }
+  return runs;
+}
+
+// At its moment that had been a push of 7 mm.
+TEST(KnockedMarker, IsNoPush) {
+  for (const bool with_headings : {true, false}) {
+    const Diagnosis d = diagnose(knocked_runs(with_headings), {}, Vehicle{}).value();
+    ASSERT_EQ(d.verdict, Verdict::unknown_effect) << with_headings;
+    const Finding& f = d.findings.front();
+    EXPECT_EQ(f.component, "truth");
+    EXPECT_EQ(f.where.recording, "run_2");
+    ASSERT_EQ(f.where.time_s.size(), 1u);
+    // Moments are looked for 0.12 s apart, and a tenth of a second about them.
+    EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
+    EXPECT_NE(f.where.regime.find("sits elsewhere"), std::string::npos) << f.where.regime;
+  }
+}
+
+}  // namespace
+}  // namespace odolab::test
