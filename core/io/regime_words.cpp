@@ -1,5 +1,6 @@
 #include "core/io/regime_words.h"
 
+#include <algorithm>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -57,8 +58,10 @@ std::string regime_in_words(std::string regime) {
   regime = without_units(std::move(regime));
   const std::size_t at = regime.find(kDependsOn);
   if (at == std::string::npos) return regime;
+  const std::string behind = regime.substr(at + kDependsOn.size());
+  const std::size_t variable = std::min(behind.find(" ("), behind.size());  // what is said of it stands behind it
   return in_other_words(regime.substr(0, at), kOfChannels) + ", depending on " +
-         in_other_words(regime.substr(at + kDependsOn.size()), kOfVariables);
+         in_other_words(behind.substr(0, variable), kOfVariables) + behind.substr(variable);
 }
 
 }  // namespace odolab
