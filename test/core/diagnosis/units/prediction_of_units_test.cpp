@@ -8,12 +8,12 @@
 namespace odolab::test {
 namespace {
 
-constexpr double kPeriod_s = 0.1;
+constexpr double kReadingPeriod_s = 0.1;
 
 // What goes evenly, a column for each, read ten times a second.
 Recording going_evenly(const std::vector<std::pair<const char*, double>>& columns_by_reading, int readings) {
   Recording recording;
-  for (int i = 0; i < readings; ++i) recording.time_s.push_back(kPeriod_s * i);
+  for (int i = 0; i < readings; ++i) recording.time_s.push_back(kReadingPeriod_s * i);
   for (const auto& [name, by_reading] : columns_by_reading) {
     Channel& channel = recording.add_channel(name);
     for (std::size_t i = 0; i < recording.time_s.size(); ++i) channel.values[i] = by_reading * static_cast<double>(i);
