@@ -78,7 +78,7 @@ bool err_by_more(const JointModel& joint, double times, double counts_from_readi
 
 bool counts_are_coarse(const JointModel& joint) { return err_by_more(joint, 2.0, 8.0); }
 
-bool counts_may_feign(const JointModel& joint) { return err_by_more(joint, 0.5, 64.0); }
+bool counts_may_feign(const JointModel& joint) { return err_by_more(joint, 0.5, 16.0); }
 
 // Both ends of a change are rounded, each by up to a count.
 bool is_within_counts(const JointModel& joint, const Effect& term, const std::vector<double>& value,

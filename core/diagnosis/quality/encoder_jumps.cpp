@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/quantile.h"
 #include "core/diagnosis/quality/part_of_run.h"
@@ -71,6 +72,17 @@ Rates rates_of(const std::vector<double>& time_s, const std::vector<double>& ang
   return rates;
 }
 
+// Where the wheel turns round: there play is crossed, as fast as a motor turns without a load.
+bool turns_round(const Rates& rates, std::size_t i) {
+  constexpr std::size_t kLook = 6;  // readings before and behind
+  const auto turned_rad = [&](std::size_t from, std::size_t end) {
+    return std::accumulate(rates.step_rad.begin() + static_cast<std::ptrdiff_t>(from),
+                           rates.step_rad.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+  };
+  return i >= kLook && i + kLook < rates.step_rad.size() &&
+         turned_rad(i - kLook, i) * turned_rad(i + 1, i + 1 + kLook) < 0.0;
+}
+
 // Off the pace before and behind, which is steady: a wheel that slows and speeds up again takes more than so many
 // readings for it. Of two in a row counts are lost that a counter did not count from within the one until within the
 // next.
@@ -85,7 +97,7 @@ bool is_off_a_steady_pace(const Rates& rates, std::size_t first, std::size_t rea
   const bool loses = rates.out_by[i] * (rates.each[i] - rates.out_by[i]) < 0.0;
   const bool both_lose =
       loses && by_first * by_next > 0.0 && std::min(std::abs(by_first), std::abs(by_next)) > kBeside * out_by;
-  if (readings > 1 && !both_lose) return false;
+  if ((readings > 1 && !both_lose) || turns_round(rates, i)) return false;
   const double least =
       loses ? std::min(kOfUsual * rates.usual, kFarFromTrembling * rates.trembles) : kOfUsual * rates.usual;
   return out_by >= least && out_by >= kTrembles * rates.trembles && out_by * gap_s >= kCounts * count_rad &&

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/random.h"
@@ -177,6 +178,36 @@ TEST(EncoderJumps, AreWhereTwoReadingsInARowShareWhatIsLost) {
     EXPECT_NEAR(found.front().first, 6.0, 1e-9);
     EXPECT_NEAR(found.front().second, 6.08, 1e-9);
   }
+}
+
+// A motor that turns round crosses its play within one reading, and the vehicle stands meanwhile: no fault of a counter.
+TEST(EncoderJumps, AreNotWhereWheelsTurnRoundAndCrossTheirPlay) {
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  constexpr double kPlay_rad = 0.04, kTurnsRound_s = 6.0, kReads_s = 0.02;
+  Random random(5);
+  InnovationRun run;
+  double angle_rad = 0.0;
+  for (int i = 0; i <= 600; ++i) {
+    const double t = kReads_s * i;
+    const double play_rad = t > kTurnsRound_s + 0.5 * kReads_s ? kPlay_rad : 0.0;
+    run.wheels.push_back({t, angle_rad - play_rad, angle_rad - play_rad});
+    angle_rad += kReads_s * 1.5 * std::clamp(kTurnsRound_s - t - 0.5 * kReads_s, -1.0, 1.0);
+  }
+  for (int k = 0; k <= 1200; ++k) {
+    const auto i = static_cast<std::size_t>(k / 2);
+    const double play_rad = 0.01 * k > kTurnsRound_s + 0.5 * kReads_s ? kPlay_rad : 0.0;
+    const double x_m = 0.1 * (run.wheels[i].left_rad + play_rad);
+    run.truth.push_back(
+        {0.01 * k, {x_m + 0.0005 * random.normal(), 0.0005 * random.normal()}, 0.001 * random.normal()});
+  }
+  run.truth_has_heading = true;
+  run.set_aside.assign(run.truth.size(), 0);
+  const JumpsOfWheels found = jumps_against_truth(run, model);
+  EXPECT_TRUE(found.both.empty());
+  EXPECT_TRUE(found.left.empty());
+  EXPECT_TRUE(found.right.empty());
 }
 
 // A truth whose clock is late by a tenth of a second knows nothing yet of a wheel that stops for a moment.
