@@ -7,6 +7,7 @@
 
 #include "core/base/formatted.h"
 #include "core/base/quantile.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -48,18 +49,13 @@ Wrap wrap_of(const std::vector<double>& values) {
 }  // namespace
 
 std::optional<Error> stamps_in_no_seconds(const Recording& recording) {
-  constexpr std::size_t kFewest = 20;
-  constexpr double kTooFarApart_s = 3.0, kThousand = 1000.0;
-  if (recording.time_s.size() < kFewest) return std::nullopt;
-  std::vector<double> apart;
-  for (std::size_t i = 1; i < recording.time_s.size(); ++i)
-    if (const double by = recording.time_s[i] - recording.time_s[i - 1]; by > 0.0) apart.push_back(by);
-  const double usual = median(std::move(apart));
-  if (usual < kTooFarApart_s) return std::nullopt;
-  const char* unit = usual < kTooFarApart_s * kThousand               ? "milliseconds"
-                     : usual < kTooFarApart_s * kThousand * kThousand ? "microseconds"
-                                                                      : "nanoseconds";
-  const std::string found = formatted("rows %.3g apart, which look like %s", usual, unit);
+  constexpr double kMicroseconds = 3e3, kNanoseconds = 3e6;  // from so many apart on
+  const std::optional<double> usual = far_apart_s(recording.time_s);
+  if (!usual) return std::nullopt;
+  const char* unit = *usual < kMicroseconds  ? "milliseconds"
+                     : *usual < kNanoseconds ? "microseconds"
+                                             : "nanoseconds";
+  const std::string found = formatted("rows %.3g apart, which look like %s", *usual, unit);
   return Error{"time_s", found, "seconds"};
 }
 

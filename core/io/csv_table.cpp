@@ -8,6 +8,7 @@
 #include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -61,7 +62,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
     return number_from(delimiter == ',' ? cell : with_decimal_point(cell, pointed));
   };
   constexpr std::size_t kLinesAtOnce = 4096;
-  std::size_t line_number = 0;
+  std::size_t line_number = 0, line_after_jump = 0;
   while (!rest.empty()) {
     const void* newline = std::memchr(rest.data(), '\n', rest.size());
     const bool ended = newline != nullptr;
@@ -121,10 +122,17 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
     if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2])
       return Error{place + ": time_s", number_text(time_s.back()) + " after " + number_text(time_s[time_s.size() - 2]),
                    "times that never decrease"};
+    if (line_after_jump == 0 && time_s.size() > 1 && time_s.back() - time_s[time_s.size() - 2] > kLongestPause_s)
+      line_after_jump = line_number;
   }
   if (table.names.empty()) return Error{path, "an empty file", "a header line with a column 'time_s'"};
   if (table.columns[time_column].empty())
     return Error{path + ":" + std::to_string(line_number), "a header without rows", "one row or more"};
+  const std::vector<double>& time_s = table.columns[time_column];
+  if (line_after_jump > 0)
+    if (const std::optional<std::size_t> row = first_after_jump(time_s))
+      return Error{path + ":" + std::to_string(line_after_jump) + ": time_s",
+                   number_text(time_s[*row]) + " after " + number_text(time_s[*row - 1]), kRowsOfOneClock};
   return table;
 }
 

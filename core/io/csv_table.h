@@ -29,7 +29,8 @@ enum class CsvCells {
 // Reads a whole table. CRLF, a byte-order mark, blanks around cells, quotes, empty lines, comments above the header and
 // semicolons or tabs in the place of commas (decimal commas, then) are tolerated. Errors name
 // file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
-// many cells, a last line that is cut off, time that goes back, no row at all.
+// many cells, a last line that is cut off, time that goes back or jumps by more than a day, no
+// row at all.
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
                                 const std::function<CsvCells(std::string_view name)>& cells_of,
                                 const Progress& progress = {});

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/formatted.h"
 #include "core/base/quantile.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -90,14 +92,17 @@ std::vector<std::string> problems_in(const Recording& recording) {
   for (std::size_t i = 0; i < recording.time_s.size(); ++i) {
     if (!std::isfinite(recording.time_s[i])) {
       problems.push_back("time_s: found no number in row " + std::to_string(i + 1) + ", expected a time");
-      break;
+      return problems;
     }
     if (i > 0 && recording.time_s[i] < recording.time_s[i - 1]) {
       problems.push_back("time_s: found time going back in row " + std::to_string(i + 1) +
                          ", expected times that never decrease");
-      break;
+      return problems;
     }
   }
+  if (const std::optional<std::size_t> row = first_after_jump(recording.time_s))
+    problems.push_back(formatted("time_s: found %.10g after %.10g in row %zu, expected %s", recording.time_s[*row],
+                                 recording.time_s[*row - 1], *row + 1, kRowsOfOneClock));
   return problems;
 }
 

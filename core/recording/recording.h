@@ -31,7 +31,8 @@ struct Recording {
   double duration_s() const { return time_s.empty() ? 0.0 : time_s.back() - time_s.front(); }
 };
 
-// Everything that makes a recording unusable, as sentences: columns of unequal length, time that goes back, infinities.
+// Everything that makes a recording unusable, as sentences: columns of unequal length, time that goes back
+// or jumps by more than a day, infinities.
 std::vector<std::string> problems_in(const Recording& recording);
 
 // Rotation of both drive wheels since the start.

@@ -162,7 +162,13 @@ Result<ImportedRecording> import_recording(const std::vector<std::string>& sourc
   if (is_own_recording(sources, wishes)) return load_recording(sources.front(), progress);
   const auto formats = formats_of(sources, wishes);
   if (!formats) return formats.error();
-  if (!formats->front()->stream) return formats->front()->read(sources);
+  if (!formats->front()->stream) {
+    Result<ImportedRecording> read = formats->front()->read(sources);
+    if (read)
+      if (const std::vector<std::string> problems = problems_in(read->recording); !problems.empty())
+        return Error{sources.front() + ": " + problems.front(), "", ""};
+    return read;
+  }
   Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "", progress);
   if (!streams) return streams.error();
   Result<Recording> recording = recording_of(*streams);

@@ -8,6 +8,7 @@
 #include "core/io/import/planar_pose.h"
 #include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -144,6 +145,8 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       spool.unwrap(i);
 
   RowsLeftOut left_out;
+  JumpWatch watch;
+  Error jump;
   std::vector<double> values(layout.channels.size());
   std::int64_t first_ns = 0, last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
   std::uint64_t kept = 0, out_of_order = 0;
@@ -202,6 +205,11 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       left_out.add(rows->line(), problem);
       continue;
     }
+    if (watch.add(1e-9 * static_cast<double>(*time_ns)))
+      jump = {path + ":" + std::to_string(rows->line()) + ": time_s",
+              "a row " + number_text("%.10g", 1e-9 * static_cast<double>(*time_ns - last_ns)) +
+                  " s after the one before",
+              std::string(kRowsOfOneClock) + ", in the unit that the mapping gives (s, ms, us, ns)"};
     last_ns = *time_ns;
     for (std::size_t i = 0; i < layout.sources.size(); ++i)
       if (layout.sources[i].mapped->kind != ColumnKind::total && !std::isnan(values[i]))
@@ -222,6 +230,7 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
   constexpr std::uint64_t kFew = 10;
   if (kept == 0 || (left_out.count() > kept && left_out.count() > kFew))
     return left_out.error(path, "rows of numbers in the mapped columns");
+  if (!watch.is_one_clock()) return jump;
   const std::string name = std::filesystem::path(path).filename().string();
   left_out.warn(name, streams.warnings);
   if (layout.time.cell != kNowhere)

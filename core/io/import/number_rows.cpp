@@ -4,6 +4,7 @@
 
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -81,6 +82,18 @@ std::size_t numbers_in_first_row(std::string_view text, char separator) {
     return cells;
   }
   return 0;
+}
+
+std::optional<Error> fault_of_stamps(const std::string& path, const NumberRows& rows, std::size_t column) {
+  const std::vector<double>& time_s = rows.columns[column];
+  const auto at = [&](std::size_t row, const char* expected) {
+    return Error{path + ":" + std::to_string(rows.lines[row]) + ": column " + std::to_string(column + 1),
+                 number_text(time_s[row]) + " after " + number_text(time_s[row - 1]), expected};
+  };
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (time_s[i] < time_s[i - 1]) return at(i, "times that never decrease");
+  if (const std::optional<std::size_t> row = first_after_jump(time_s)) return at(*row, kRowsOfOneClock);
+  return std::nullopt;
 }
 
 Recording merged(const SampledChannels& a, const SampledChannels& b) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ struct NumberRows {
 
 // Lines that begin with '#' and empty lines are skipped. Errors name file and line.
 Result<NumberRows> read_number_rows(const std::string& path, const NumberRowsShape& shape);
+
+// Of a column of stamps that goes back, or jumps by more than a day.
+std::optional<Error> fault_of_stamps(const std::string& path, const NumberRows& rows, std::size_t column);
 
 // The number of cells of the first line with anything in it, if all of them are numbers; else 0.
 std::size_t numbers_in_first_row(std::string_view text, char separator);

@@ -39,14 +39,11 @@ Result<SampledChannels> read_odometry(const std::string& path) {
   shape.cells = 3;
   const Result<NumberRows> rows = read_number_rows(path, shape);
   if (!rows) return rows.error();
+  if (const std::optional<Error> fault = fault_of_stamps(path, *rows, 0)) return *fault;
   SampledChannels odometry;
   odometry.channels = {{"left_ticks", rows->columns[1]}, {"right_ticks", rows->columns[2]}};
   for (std::size_t i = 0; i < rows->size(); ++i) {
-    const double time_s = rows->columns[0][i];
-    if (i > 0 && time_s < rows->columns[0][i - 1])
-      return Error{path + ":" + std::to_string(rows->lines[i]) + ": column 1",
-                   number_text(time_s) + " after " + number_text(rows->columns[0][i - 1]), "times that never decrease"};
-    odometry.time_s.push_back(to_nanoseconds(time_s - rows->columns[0][0]));
+    odometry.time_s.push_back(to_nanoseconds(rows->columns[0][i] - rows->columns[0][0]));
     if (i > 0)
       for (Channel& c : odometry.channels) c.values[i] += c.values[i - 1];
   }
@@ -89,6 +86,7 @@ Result<SampledChannels> read_motive(const std::string& path, LeftOutFrames& left
   shape.first_line = 8;
   const Result<NumberRows> rows = read_number_rows(path, shape);
   if (!rows) return rows.error();
+  if (const std::optional<Error> fault = fault_of_stamps(path, *rows, 1)) return *fault;
   SampledChannels truth;
   truth.channels = {{"truth_x_m", {}}, {"truth_y_m", {}}, {"truth_heading_rad", {}}};
   std::vector<char> sees_all(rows->size(), 1);
@@ -99,9 +97,6 @@ Result<SampledChannels> read_motive(const std::string& path, LeftOutFrames& left
   double heading_rad = 0.0;
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const double time_s = rows->columns[1][i];
-    if (i > 0 && time_s < rows->columns[1][i - 1])
-      return Error{path + ":" + std::to_string(rows->lines[i]) + ": column 2",
-                   number_text(time_s) + " after " + number_text(rows->columns[1][i - 1]), "times that never decrease"};
     const double rotation_y_deg = rows->columns[2][i], x_m = rows->columns[5][i], z_m = rows->columns[7][i];
     if (std::isnan(rotation_y_deg) || std::isnan(x_m) || std::isnan(z_m)) {
       ++left_out.without_body;

@@ -26,11 +26,7 @@ Result<ImportedRecording> read_synchronised(const std::vector<std::string>& sour
   recording.name = std::filesystem::path(path).filename().string();
   recording.provenance = "real: OptiOdom, synchronised by its authors";
   recording.time_s = rows->columns[0];
-  for (std::size_t i = 1; i < rows->size(); ++i)
-    if (recording.time_s[i] < recording.time_s[i - 1])
-      return Error{path + ":" + std::to_string(rows->lines[i]) + ": column 1",
-                   number_text(recording.time_s[i]) + " after " + number_text(recording.time_s[i - 1]),
-                   "times that never decrease"};
+  if (const std::optional<Error> fault = fault_of_stamps(path, *rows, 0)) return *fault;
   for (const std::size_t column : {4u, 5u})
     for (std::size_t i = 0; i < rows->size(); ++i)
       if (const double ticks = rows->columns[column][i]; ticks != std::round(ticks))

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
+#include "core/recording/clock_jump.h"
 
 namespace odolab {
 
@@ -43,6 +45,7 @@ class Rows {
       rows.advance(head);
     }
     rows.zero_ns_ = zero;
+    rows.name_ = from.name;
     return rows;
   }
 
@@ -69,8 +72,17 @@ class Rows {
     }
     // no time lies before zero, and unsigned numbers hold every difference
     time_s = static_cast<double>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(zero_ns_)) / 1e9;
+    if (watch_.add(time_s))
+      jump_ = Error{name_ + ": time_s",
+                    "a row " + number_text("%.10g", time_s - before_s_) + " s after the one before, which is at " +
+                        number_text(before_s_) + " s",
+                    kRowsOfOneClock};
+    before_s_ = time_s;
     return true;
   }
+
+  // What is wrong with all that `next` gave.
+  std::optional<Error> fault() const { return watch_.is_one_clock() ? std::nullopt : jump_; }
 
  private:
   struct Head {
@@ -83,6 +95,10 @@ class Rows {
 
   std::vector<Head> heads_;
   std::int64_t zero_ns_ = 0;
+  std::string name_;
+  JumpWatch watch_;
+  std::optional<Error> jump_;
+  double before_s_ = 0.0;
 };
 
 }  // namespace
@@ -107,6 +123,7 @@ Result<Recording> recording_of(SampleStreams& streams) {
     recording.time_s.push_back(time_s);
     for (std::size_t c = 0; c < row.size(); ++c) recording.channels[c].values.push_back(row[c]);
   }
+  if (const std::optional<Error> fault = rows->fault()) return *fault;
   return recording;
 }
 
@@ -135,6 +152,7 @@ Result<WrittenRecording> write_streams_csv(const std::string& path, SampleStream
     file->write(text);
     text.clear();
   }
+  if (const std::optional<Error> fault = rows->fault()) return *fault;
   file->write(text);
   if (Result<Done> done = file->finish(); !done) return done.error();
   written.duration_s = time_s - first_s;

@@ -70,6 +70,9 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
             "c.csv:2: column 3: found 'zero', expected a number");
   EXPECT_EQ(complaint({folder.write("d.csv", "0.1,0,0,0,0,0\n0.05,0,0,0,1,1\n")}),
             "d.csv:2: column 1: found 0.05 after 0.1, expected times that never decrease");
+  EXPECT_EQ(complaint({folder.write("g.csv", "0,0,0,0,0,0\n1.7e9,0,0,0,1,1\n")}),
+            "g.csv:2: column 1: found 1.7e+09 after 0, expected rows a day apart at most, by one clock that nobody "
+            "sets meanwhile");
   // A CSV of one's own whose header is missing.
   EXPECT_EQ(complaint({folder.write("f.csv", "0,0,0,0,0,0\n0.05,0.5,0.5,0.03,0.02,0.1\n")}),
             "f.csv:2: column 5: found 0.02, expected whole ticks: six columns without a header are a synchronised "

@@ -9,6 +9,7 @@
 #include "core/io/import/imported_recording.h"
 #include "core/io/track_csv.h"
 #include "core/io/whole_file.h"
+#include "core/recording/clock_jump.h"
 #include "test/core/io/files.h"
 
 namespace odolab {
@@ -134,6 +135,15 @@ TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
             "run.csv:2: found 2 cells, expected 3, one for each column of the header");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2,3\n"),
             "run.csv:2: found 4 cells, expected 3, one for each column of the header");
+}
+
+TEST(RecordingCsv, RefusesAClockThatWasSetOnTheWay) {
+  const std::string header = "time_s,left_ticks,right_ticks\n", expected = ", expected " + std::string(kRowsOfOneClock);
+  EXPECT_EQ(complaint_of_recording(header + "0,1,2\n\n1700000000.05,1,2\n1700000000.1,1,2\n"),
+            "run.csv:4: time_s: found 1700000000.05 after 0" + expected);
+  EXPECT_EQ(complaint_of_recording(header + "0,1,2\n0.05,1,2\n1e30,1,2\n"),
+            "run.csv:4: time_s: found 1e+30 after 0.05" + expected);
+  EXPECT_EQ(complaint_of_recording(header + "0,1,2\n0.05,1,2\n72000,1,2\n"), "ok");
 }
 
 TEST(RecordingCsv, NoticesAFileCutOffInTheMiddle) {

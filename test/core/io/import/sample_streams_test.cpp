@@ -5,6 +5,7 @@
 
 #include "core/geometry/angles.h"
 #include "core/io/recording_csv.h"
+#include "core/recording/clock_jump.h"
 #include "test/core/io/files.h"
 
 namespace odolab {
@@ -75,6 +76,22 @@ TEST(SampleStreams, LeaveOutTimesThatCannotBe) {
   ASSERT_TRUE(r.ok());
   EXPECT_EQ(r->time_s, (std::vector<double>{0.0, 1e-8}));
   EXPECT_EQ(streams.warnings, std::vector<std::string>{"2 samples of truth_x_m left out: a time that cannot be"});
+}
+
+TEST(SampleStreams, RefuseAClockThatWasSetOnTheWay) {
+  for (const bool into_file : {false, true}) {
+    ScratchFolder folder;
+    SampleStreams streams;
+    streams.name = "run.mcap";
+    SampleSpool& spool = streams.add_stream({"truth_x_m"});
+    for (const std::int64_t ns : {0ll, 50'000'000ll, 1'700'000'000'000'000'000ll}) add(spool, ns, 1.0);
+    const std::string out = folder.path("run.csv");
+    EXPECT_EQ(into_file ? message_of(write_streams_csv(out, streams), out) : recording_of(streams).error().message(),
+              std::string("run.mcap: time_s: found a row 1700000000 s after the one before, which is at 0.05 s, "
+                          "expected ") +
+                  kRowsOfOneClock);
+    EXPECT_EQ(folder.files(), 0u);
+  }
 }
 
 TEST(SampleStreams, RefuseTwoSourcesForOneChannel) {

@@ -199,6 +199,14 @@ TEST(MappedText, DoubtsSecondsThatLieFarApart) {
   EXPECT_TRUE(warnings("time_s=t,ns").empty());
 }
 
+TEST(MappedText, RefusesAClockThatWasSetOnTheWay) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.csv", "t,l,r\n0,0,0\n1700000000.05,1,1\n1700000000.1,2,2\n");
+  EXPECT_EQ(message_of(import_recording({path}, mapped({"time_s=t", "left_wheel_rad=l", "right_wheel_rad=r"})), path),
+            "log.csv:3: time_s: found a row 1700000000 s after the one before, expected rows a day apart at most, by "
+            "one clock that nobody sets meanwhile, in the unit that the mapping gives (s, ms, us, ns)");
+}
+
 TEST(MappedText, SaysWhatAMappingLacks) {
   ScratchFolder folder;
   const std::string path = folder.write("log.csv", "t,l\n0,1\n");
