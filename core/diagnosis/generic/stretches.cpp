@@ -87,8 +87,16 @@ std::vector<std::vector<double>> stretches_of(const std::vector<DriveView>& view
     if (view.steps.empty()) continue;
     const double begins_s = view.steps.front().time_s, ends_s = view.steps.back().time_s;
     if (lasts_s > kMostOfARun * (ends_s - begins_s)) continue;
-    for (double at_s = begins_s + 0.5 * lasts_s; at_s < ends_s - 0.5 * lasts_s; at_s += lasts_s / kStepsOfOne)
-      shapes.push_back({static_cast<double>(view.number), at_s, lasts_s, static_cast<double>(goes)});
+    const double stride_s = lasts_s / kStepsOfOne;
+    for (double at_s = begins_s + 0.5 * lasts_s; at_s < ends_s - 0.5 * lasts_s; at_s += stride_s) {
+      const std::size_t next = view.step_at(at_s + 0.5 * lasts_s);
+      if (view.step_at(at_s - 0.5 * lasts_s) < next) {
+        shapes.push_back({static_cast<double>(view.number), at_s, lasts_s, static_cast<double>(goes)});
+      } else if (next < view.steps.size()) {  // a pause, however long
+        const double until_s = view.steps[next].time_s - 0.5 * lasts_s;
+        at_s += stride_s * std::max(0.0, std::floor((until_s - at_s) / stride_s));
+      }
+    }
   }
   return shapes;
 }
