@@ -30,6 +30,24 @@ std::string counted_in_words(std::size_t n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+// Of a number as it is written, how many digits stand behind its decimal point.
+int decimals_of(std::string_view cell) {
+  const std::size_t e = cell.find_first_of("eE"), point = cell.substr(0, e).find_first_of(".,");
+  const std::size_t end = std::min(e, cell.size());
+  const int written = point < end ? static_cast<int>(end - point) - 1 : 0;
+  if (e == std::string_view::npos) return written;
+  return written - static_cast<int>(number_from(cell.substr(e + 1)).value_or(0.0));
+}
+
+// Sensors that round their stamps in ways of their own come one unit of the last digit too early after each other. One
+// of a tenth of a second or more is no rounding.
+bool is_rounding(double before_s, double time_s, int decimals) {
+  constexpr int kFewestDecimals = 2;
+  constexpr double kOneUnit = 1.5;  // less than two, whatever binary numbers make of it
+  const double finest_s = std::nextafter(before_s, INFINITY) - before_s;
+  return decimals >= kFewestDecimals && before_s - time_s <= kOneUnit * std::pow(10.0, -decimals) + finest_s;
+}
+
 }  // namespace
 
 const std::vector<double>* CsvTable::column(std::string_view name) const {
@@ -57,6 +75,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   std::vector<CsvCells> kinds;
   std::size_t time_column = 0;
   char delimiter = ',';
+  int decimals = 0;  // most that a stamp is written with
   std::string pointed;
   const auto number_in = [&](std::string_view cell) {
     return number_from(delimiter == ',' ? cell : with_decimal_point(cell, pointed));
@@ -118,7 +137,11 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       }
       table.columns[i].push_back(*value);
     }
-    const std::vector<double>& time_s = table.columns[time_column];
+    std::vector<double>& time_s = table.columns[time_column];
+    decimals = std::max(decimals, decimals_of(cells[time_column]));
+    if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2] &&
+        is_rounding(time_s[time_s.size() - 2], time_s.back(), decimals))
+      time_s.back() = time_s[time_s.size() - 2];
     if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2])
       return Error{place + ": time_s", number_text(time_s.back()) + " after " + number_text(time_s[time_s.size() - 2]),
                    "times that never decrease"};

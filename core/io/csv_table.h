@@ -27,7 +27,8 @@ enum class CsvCells {
 };
 
 // Reads a whole table. CRLF, a byte-order mark, blanks around cells, quotes, empty lines, comments above the header and
-// semicolons or tabs in the place of commas (decimal commas, then) are tolerated. Errors name
+// semicolons or tabs in the place of commas (decimal commas, then) are tolerated; so is a time that goes back by one
+// unit of the last digit that times are written with, which is read as the one before. Errors name
 // file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
 // many cells, a last line that is cut off, time that goes back or jumps by more than a day, no
 // row at all.

@@ -146,6 +146,30 @@ TEST(RecordingCsv, RefusesAClockThatWasSetOnTheWay) {
   EXPECT_EQ(complaint_of_recording(header + "0,1,2\n0.05,1,2\n72000,1,2\n"), "ok");
 }
 
+TEST(RecordingCsv, TakesAStepBackByOneUnitOfTheLastDigitForRounding) {
+  const auto times = [](const std::string& rows) {
+    ScratchFolder folder;
+    const std::string text = "time_s,left_ticks,right_ticks\n" + rows;
+    const Result<Recording> read = read_recording_csv(folder.write("run.csv", text));
+    return read ? read->time_s : std::vector<double>{};
+  };
+  EXPECT_EQ(times("1710000009.030,1,2\n1710000009.040,1,2\n1710000009.039,,\n1710000009.050,1,2\n"),
+            (std::vector<double>{1710000009.030, 1710000009.040, 1710000009.040, 1710000009.050}));
+  EXPECT_EQ(times("1710001330.6924,1,2\n1710001330.6923,,\n"), std::vector<double>(2, 1710001330.6924));
+  EXPECT_EQ(times("1710000461.090684,1,2\n1710000461.090683,,\n"), std::vector<double>(2, 1710000461.090684));
+  EXPECT_EQ(times("0.5,1,2\n0.7001,1,2\n0.7,,\n"), (std::vector<double>{0.5, 0.7001, 0.7001}));
+  EXPECT_EQ(times("7.1E-1,1,2\n7.0E-1,,\n"), std::vector<double>(2, 0.71));
+  const std::string header = "time_s,left_ticks,right_ticks\n", expected = ", expected times that never decrease";
+  EXPECT_EQ(complaint_of_recording(header + "0.6924,1,2\n0.6922,1,2\n"),
+            "run.csv:3: time_s: found 0.6922 after 0.6924" + expected);
+  EXPECT_EQ(complaint_of_recording(header + "0.6924,1,2\n0.6923,1,2\n0.6922,1,2\n"),
+            "run.csv:4: time_s: found 0.6922 after 0.6924" + expected);
+  // Digits that other rows have count: zeros at the end may be left out.
+  EXPECT_EQ(complaint_of_recording(header + "0.6001,1,2\n0.71,1,2\n0.7,1,2\n"),
+            "run.csv:4: time_s: found 0.7 after 0.71" + expected);
+  EXPECT_EQ(complaint_of_recording(header + "2,1,2\n1,1,2\n"), "run.csv:3: time_s: found 1 after 2" + expected);
+}
+
 TEST(RecordingCsv, NoticesAFileCutOffInTheMiddle) {
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2"),
             "run.csv:3: found a last line cut off after 2 cells, expected 3, one for each column of the header");
