@@ -9,6 +9,7 @@
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 #include "core/recording/clock_jump.h"
+#include "core/recording/value_range.h"
 
 namespace odolab {
 
@@ -58,7 +59,8 @@ const std::vector<double>* CsvTable::column(std::string_view name) const {
 
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
                                 const std::function<CsvCells(std::string_view name)>& cells_of,
-                                const Progress& progress) {
+                                const Progress& progress,
+                                const std::function<double(std::string_view name)>& largest_of) {
   const Result<std::string> file = read_whole_file(path, progress);
   if (!file) return file.error();
   std::string_view rest = *file;
@@ -73,6 +75,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   CsvTable table;
   std::vector<std::string_view> cells;
   std::vector<CsvCells> kinds;
+  std::vector<double> largest;
   std::size_t time_column = 0;
   char delimiter = ',';
   int decimals = 0;  // most that a stamp is written with
@@ -115,6 +118,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
                            (required == "time_s" ? "; odolab import --map reads other names" : "")};
       time_column = std::find(table.names.begin(), table.names.end(), "time_s") - table.names.begin();
       for (const std::string& name : table.names) kinds.push_back(cells_of(name));
+      for (const std::string& name : table.names) largest.push_back(largest_of ? largest_of(name) : INFINITY);
       table.columns.resize(table.names.size());
       const std::size_t rows_at_most = static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 1;
       for (std::vector<double>& column : table.columns) column.reserve(rows_at_most);
@@ -135,6 +139,8 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
                        "a number"};
         value = kEmpty;
       }
+      if (std::abs(*value) > largest[i])
+        return Error{place + ": " + table.names[i], in_quotes(cells[i]), range_text(table.names[i])};
       table.columns[i].push_back(*value);
     }
     std::vector<double>& time_s = table.columns[time_column];

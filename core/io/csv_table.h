@@ -31,10 +31,11 @@ enum class CsvCells {
 // unit of the last digit that times are written with, which is read as the one before. Errors name
 // file, line and column: no header, a missing or doubled column, a cell that is no number, a line with too few or too
 // many cells, a last line that is cut off, time that goes back or jumps by more than a day, no
-// row at all.
+// row at all, a number beyond `largest_of` its column.
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& required_columns,
                                 const std::function<CsvCells(std::string_view name)>& cells_of,
-                                const Progress& progress = {});
+                                const Progress& progress = {},
+                                const std::function<double(std::string_view name)>& largest_of = {});
 
 // The text of such a file; NaN becomes an empty cell, and numbers are exact.
 std::string csv_text(const CsvTable& table);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 
 #include "core/io/csv_table.h"
 #include "core/io/whole_file.h"
+#include "core/recording/value_range.h"
 
 namespace odolab {
 
@@ -49,11 +51,15 @@ std::optional<std::pair<std::string, std::string>> without_partner(const std::ve
   return std::nullopt;
 }
 
-Result<Recording> read_recording_csv(const std::string& path, const Progress& progress) {
+Result<Recording> read_recording_csv(const std::string& path, const Progress& progress, Values values) {
   const auto cells_of = [](std::string_view name) {
     return is_recording_column(name) ? CsvCells::numbers_or_empty : CsvCells::anything;
   };
-  Result<CsvTable> table = read_csv_table(path, {"time_s"}, cells_of, progress);
+  const auto largest_of = [values](std::string_view name) {
+    return values == Values::of_a_robot && is_recording_column(name) ? largest_value(name)
+                                                                     : std::numeric_limits<double>::infinity();
+  };
+  Result<CsvTable> table = read_csv_table(path, {"time_s"}, cells_of, progress, largest_of);
   if (!table) return table.error();
   if (const auto lonely = without_partner(table->names))
     return Error{path + ":1", "the column '" + lonely->first + "' alone", "a column '" + lonely->second + "' with it"};

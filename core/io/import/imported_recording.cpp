@@ -11,6 +11,7 @@
 #include "core/io/recording_csv.h"
 #include "core/io/unread_columns.h"
 #include "core/io/whole_file.h"
+#include "core/recording/value_range.h"
 
 namespace odolab {
 
@@ -167,6 +168,9 @@ Result<ImportedRecording> import_recording(const std::vector<std::string>& sourc
     if (read)
       if (const std::vector<std::string> problems = problems_in(read->recording); !problems.empty())
         return Error{sources.front() + ": " + problems.front(), "", ""};
+    if (read)
+      if (const std::optional<Error> beyond = value_beyond_range(read->recording))
+        return Error{sources.front() + ": " + beyond->where, beyond->found, beyond->expected};
     return read;
   }
   Result<SampleStreams> streams = streams_of(sources, *formats, wishes, "", progress);
@@ -207,7 +211,7 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   if (is_foreign_recording(path)) return import_recording({path}, {}, progress);
   std::error_code failure;
   if (fs::is_directory(path, failure)) return folder_given(path);
-  Result<Recording> recording = read_recording_csv(path, progress);
+  Result<Recording> recording = read_recording_csv(path, progress, Values::of_a_robot);
   if (!recording) return recording.error();
   std::vector<std::string> warnings = unread_columns(*recording);
   std::erase_if(recording->channels, [&](const Channel& c) {

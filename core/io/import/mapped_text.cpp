@@ -9,6 +9,7 @@
 #include "core/io/import/text_rows.h"
 #include "core/io/number_text.h"
 #include "core/recording/clock_jump.h"
+#include "core/recording/value_range.h"
 
 namespace odolab {
 
@@ -193,7 +194,13 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       return value ? *value * source.factor : kEmpty;
     };
     bool any = false;
-    for (std::size_t i = 0; i < layout.sources.size(); ++i) values[i] = number(layout.sources[i]);
+    for (std::size_t i = 0; i < layout.sources.size(); ++i) {
+      const Source& source = layout.sources[i];
+      const std::string& channel = layout.channels[i];
+      values[i] = number(source);
+      if (source.mapped->kind == ColumnKind::total && std::abs(values[i]) > largest_value(channel))
+        problem = in_quotes(cell_of(source)) + " for " + channel + " is not " + range_text(channel);
+    }
     if (has_quaternion) {
       double q[4];
       for (int i = 0; i < 4; ++i) q[i] = layout.quaternion[i].cell == kNowhere ? 0.0 : number(layout.quaternion[i]);

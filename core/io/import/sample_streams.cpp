@@ -8,6 +8,7 @@
 #include "core/io/number_text.h"
 #include "core/io/whole_file.h"
 #include "core/recording/clock_jump.h"
+#include "core/recording/value_range.h"
 
 namespace odolab {
 
@@ -46,6 +47,7 @@ class Rows {
     }
     rows.zero_ns_ = zero;
     rows.name_ = from.name;
+    for (const std::string& name : rows.names) rows.largest_.push_back(largest_value(name));
     return rows;
   }
 
@@ -72,6 +74,10 @@ class Rows {
     }
     // no time lies before zero, and unsigned numbers hold every difference
     time_s = static_cast<double>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(zero_ns_)) / 1e9;
+    for (std::size_t c = 0; c < row.size() && !beyond_; ++c)
+      if (std::abs(row[c]) > largest_[c])
+        beyond_ = Error{name_ + ": " + names[c],
+                        number_text(row[c]) + " at " + number_text("%.10g", time_s) + " s", range_text(names[c])};
     if (watch_.add(time_s))
       jump_ = Error{name_ + ": time_s",
                     "a row " + number_text("%.10g", time_s - before_s_) + " s after the one before, which is at " +
@@ -82,7 +88,7 @@ class Rows {
   }
 
   // What is wrong with all that `next` gave.
-  std::optional<Error> fault() const { return watch_.is_one_clock() ? std::nullopt : jump_; }
+  std::optional<Error> fault() const { return watch_.is_one_clock() ? beyond_ : jump_; }
 
  private:
   struct Head {
@@ -97,7 +103,8 @@ class Rows {
   std::int64_t zero_ns_ = 0;
   std::string name_;
   JumpWatch watch_;
-  std::optional<Error> jump_;
+  std::optional<Error> jump_, beyond_;
+  std::vector<double> largest_;  // of each name
   double before_s_ = 0.0;
 };
 

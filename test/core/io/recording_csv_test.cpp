@@ -170,6 +170,20 @@ TEST(RecordingCsv, TakesAStepBackByOneUnitOfTheLastDigitForRounding) {
   EXPECT_EQ(complaint_of_recording(header + "2,1,2\n1,1,2\n"), "run.csv:3: time_s: found 1 after 2" + expected);
 }
 
+TEST(RecordingCsv, IsRefusedWithAValueThatNoRobotHas) {
+  ScratchFolder folder;
+  const auto complaint = [&](const std::string& row) {
+    const std::string path =
+        folder.write("run.csv", "time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m,price\n0,0,0,0,0,0\n" + row);
+    return message_of(load_recording(path), path);
+  };
+  EXPECT_EQ(complaint("1,0,0,1e200,0,0\n"),
+            "run.csv:3: truth_x_m: found '1e200', expected a number from -1e+08 to 1e+08 (m)");
+  EXPECT_EQ(complaint("1,0,-1e12,0,0,0\n"),
+            "run.csv:3: right_wheel_rad: found '-1e12', expected a number from -1e+09 to 1e+09 (rad)");
+  EXPECT_EQ(complaint("1,5e6,5e6,500000,9000000,1e300\n"), "ok");
+}
+
 TEST(RecordingCsv, NoticesAFileCutOffInTheMiddle) {
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2"),
             "run.csv:3: found a last line cut off after 2 cells, expected 3, one for each column of the header");

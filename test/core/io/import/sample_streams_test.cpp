@@ -94,6 +94,15 @@ TEST(SampleStreams, RefuseAClockThatWasSetOnTheWay) {
   }
 }
 
+TEST(SampleStreams, RefuseAValueThatNoRobotHas) {
+  SampleStreams streams;
+  streams.name = "run.mcap";
+  SampleSpool& spool = streams.add_stream({"truth_x_m"});
+  for (const std::int64_t ns : {0ll, 50'000'000ll}) add(spool, ns, ns > 0 ? 1e200 : 1.0);
+  EXPECT_EQ(recording_of(streams).error().message(),
+            "run.mcap: truth_x_m: found 1e+200 at 0.05 s, expected a number from -1e+08 to 1e+08 (m)");
+}
+
 TEST(SampleStreams, RefuseTwoSourcesForOneChannel) {
   SampleStreams streams;
   add(streams.add_stream({"truth_x_m"}), 0, 1.0);

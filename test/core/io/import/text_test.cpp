@@ -207,6 +207,20 @@ TEST(MappedText, RefusesAClockThatWasSetOnTheWay) {
             "one clock that nobody sets meanwhile, in the unit that the mapping gives (s, ms, us, ns)");
 }
 
+TEST(MappedText, LeavesOutAndRefusesValuesThatNoRobotHas) {
+  ScratchFolder folder;
+  const std::string one = folder.write("one.csv", "t,x\n0,0\n1,1e300\n2,1\n");
+  const Result<ImportedRecording> read = import_recording({one}, mapped({"time_s=t", "truth_x_m=x", "truth_y_m=x"}));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->recording.time_s, (std::vector<double>{0.0, 2.0}));
+  EXPECT_EQ(read->warnings, std::vector<std::string>{"one.csv: 1 row left out, the first in line 3: '1e300' for "
+                                                     "truth_y_m is not a number from -1e+08 to 1e+08 (m)"});
+  const std::string all = folder.write("all.csv", "t,x\n0,1e200\n1,1e200\n");
+  EXPECT_EQ(message_of(import_recording({all}, mapped({"time_s=t", "truth_x_m=x", "truth_y_m=x"})), all),
+            "all.csv:2: found '1e200' for truth_y_m is not a number from -1e+08 to 1e+08 (m), expected rows of numbers "
+            "in the mapped columns");
+}
+
 TEST(MappedText, SaysWhatAMappingLacks) {
   ScratchFolder folder;
   const std::string path = folder.write("log.csv", "t,l\n0,1\n");
