@@ -135,12 +135,12 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       if (!value) {
         const bool empty = says_nothing(cells[i]);
         if (i == time_column || kinds[i] == CsvCells::numbers || (kinds[i] == CsvCells::numbers_or_empty && !empty))
-          return Error{place + ": " + table.names[i], cells[i].empty() ? "an empty cell" : in_quotes(cells[i]),
+          return Error{place + ": " + printable(table.names[i]), cells[i].empty() ? "an empty cell" : in_quotes(cells[i]),
                        "a number"};
         value = kEmpty;
       }
       if (std::abs(*value) > largest[i])
-        return Error{place + ": " + table.names[i], in_quotes(cells[i]), range_text(table.names[i])};
+        return Error{place + ": " + printable(table.names[i]), in_quotes(cells[i]), range_text(table.names[i])};
       table.columns[i].push_back(*value);
     }
     std::vector<double>& time_s = table.columns[time_column];

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/base/formatted.h"
+#include "core/base/valid_utf8.h"
 
 namespace odolab {
 
@@ -67,13 +68,24 @@ std::string decimal_text(double value) {
   return text;
 }
 
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  std::string result = "'";
-  for (char c : text.substr(0, kLongest)) result += (c >= 0 && c < ' ') || c == 127 ? '?' : c;
-  if (text.size() > kLongest) result += "...";
-  return result + "'";
+std::string printable(std::string_view text) {
+  constexpr std::size_t kMostLetters = 40, kLongestLetter = 4;
+  const std::string valid = valid_utf8(text.substr(0, kLongestLetter * (kMostLetters + 1)));
+  const auto goes_on = [&](std::size_t at) { return at < valid.size() && (valid[at] & 0xC0) == 0x80; };
+  std::string result;
+  std::size_t letters = 0;
+  for (std::size_t at = 0, end = 0; at < valid.size(); at = end, ++letters) {
+    if (letters == kMostLetters) return result + "...";
+    for (end = at + 1; goes_on(end);) ++end;
+    const std::string_view letter = std::string_view(valid).substr(at, end - at);
+    const auto first = static_cast<unsigned char>(letter.front());
+    const bool steers = first < ' ' || first == 127 || (first == 0xC2 && static_cast<unsigned char>(letter[1]) < 0xA0);
+    result += steers || letter == "\xEF\xBF\xBD" ? std::string_view("?") : letter;
+  }
+  return result;
 }
+
+std::string in_quotes(std::string_view text) { return "'" + printable(text) + "'"; }
 
 std::string number_text(const char* format, double value) { return formatted(format, value); }
 

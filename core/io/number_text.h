@@ -35,7 +35,10 @@ std::string decimal_text(double value);
 // As printf writes it, for people: "%.2f".
 std::string number_text(const char* format, double value);
 
-// A piece of foreign text made fit for one line of an error message: quoted and cut short.
+// A piece of foreign text made fit for one line of an error message: 40 letters at most, '?' for each that a terminal
+// obeys or cannot show.
+std::string printable(std::string_view text);
+// The same in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace odolab

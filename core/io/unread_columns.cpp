@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base/nearest_word.h"
+#include "core/io/number_text.h"
 #include "core/io/recording_csv.h"
 
 namespace odolab {
@@ -48,8 +49,8 @@ std::vector<std::string> unread_columns(const Recording& recording) {
   for (const Channel& channel : recording.channels) {
     if (is_recording_column(channel.name)) continue;
     if (const std::string* meant = meant_by(channel.name, missing))
-      sentences.push_back("the column '" + channel.name + "' is not read: if it is '" + *meant +
-                          "', it must be called so (odolab import --map " + *meant + "=" + channel.name +
+      sentences.push_back("the column " + in_quotes(channel.name) + " is not read: if it is '" + *meant +
+                          "', it must be called so (odolab import --map " + *meant + "=" + printable(channel.name) +
                           "[,UNIT] does it)");
   }
   return sentences;

@@ -217,7 +217,7 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   std::erase_if(recording->channels, [&](const Channel& c) {
     const bool is_empty = !is_recording_column(c.name) &&
                           std::none_of(c.values.begin(), c.values.end(), [](double v) { return !std::isnan(v); });
-    if (is_empty) warnings.push_back("the column '" + c.name + "' holds no number and is left out");
+    if (is_empty) warnings.push_back("the column " + in_quotes(c.name) + " holds no number and is left out");
     return is_empty;
   });
   return ImportedRecording{std::move(*recording), std::move(warnings)};

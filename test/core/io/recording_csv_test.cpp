@@ -184,6 +184,23 @@ TEST(RecordingCsv, IsRefusedWithAValueThatNoRobotHas) {
   EXPECT_EQ(complaint("1,5e6,5e6,500000,9000000,1e300\n"), "ok");
 }
 
+TEST(RecordingCsv, SendsNoBytesToTheTerminalThatItCannotShow) {
+  EXPECT_EQ(complaint_of_recording("\xEA\xF5\x1B[2J,\xC2\x9Bm,\xC2\xB5m\n0,1,2\n"),
+            "run.csv:1: found the columns '??[2J', '?m', '\xC2\xB5m', expected a column 'time_s'; odolab import --map "
+            "reads other names");
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,\xFF\x80\x1B\n"),
+            "run.csv:2: right_ticks: found '???', expected a number");
+  std::string umlauts;
+  for (int i = 0; i < 50; ++i) umlauts += "\xC3\xBC";
+  EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1," + umlauts + "\n"),
+            "run.csv:2: right_ticks: found '" + umlauts.substr(0, 80) + "...', expected a number");
+  ScratchFolder folder;
+  const Result<ImportedRecording> read =
+      load_recording(folder.write("run.csv", "time_s,left_ticks,right_ticks,\x1B[1m\n0,1,2,x\n1,3,4,y\n"));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->warnings, std::vector<std::string>{"the column '?[1m' holds no number and is left out"});
+}
+
 TEST(RecordingCsv, NoticesAFileCutOffInTheMiddle) {
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2"),
             "run.csv:3: found a last line cut off after 2 cells, expected 3, one for each column of the header");
