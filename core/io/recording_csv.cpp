@@ -34,6 +34,24 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
+// One wheel may be there in another unit than the other.
+Error of_lonely_column(const std::string& path, const std::string& name, const std::string& partner,
+                       const std::vector<std::string>& names) {
+  constexpr std::array<std::array<std::string_view, 2>, 2> kSameWheel = {
+      {{"left_wheel_rad", "left_ticks"}, {"right_wheel_rad", "right_ticks"}}};
+  const auto other_unit = [&](std::string_view of) -> std::string {
+    for (const auto& units : kSameWheel)
+      for (int i : {0, 1})
+        if (units[i] == of) return std::string(units[1 - i]);
+    return "";
+  };
+  const std::string instead = other_unit(partner);
+  if (std::find(names.begin(), names.end(), instead) == names.end())
+    return {path + ":1", "the column '" + name + "' alone", "a column '" + partner + "' with it"};
+  return {path + ":1", "the column '" + name + "' beside '" + instead + "'",
+          "both wheels in one unit: '" + partner + "' with the first, or '" + other_unit(name) + "' with the second"};
+}
+
 }  // namespace
 
 bool is_recording_column(std::string_view name) {
@@ -62,7 +80,7 @@ Result<Recording> read_recording_csv(const std::string& path, const Progress& pr
   Result<CsvTable> table = read_csv_table(path, {"time_s"}, cells_of, progress, largest_of);
   if (!table) return table.error();
   if (const auto lonely = without_partner(table->names))
-    return Error{path + ":1", "the column '" + lonely->first + "' alone", "a column '" + lonely->second + "' with it"};
+    return of_lonely_column(path, lonely->first, lonely->second, table->names);
   Recording recording;
   recording.name = std::filesystem::path(path).filename().string();
   recording.provenance = "recording file";

@@ -119,6 +119,9 @@ TEST(RecordingCsv, SaysInOneLineWhatIsWrong) {
       "names");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks\n0,1\n"),
             "run.csv:1: found the column 'left_ticks' alone, expected a column 'right_ticks' with it");
+  EXPECT_EQ(complaint_of_recording("time_s,left_wheel_rad,right_ticks\n0,1,2\n"),
+            "run.csv:1: found the column 'left_wheel_rad' beside 'right_ticks', expected both wheels in one unit: "
+            "'right_wheel_rad' with the first, or 'left_ticks' with the second");
   EXPECT_EQ(complaint_of_recording("time_s,truth_x_m,truth_y_m,truth_x_m\n0,1,2,3\n"),
             "run.csv:1: found the column 'truth_x_m' twice, expected each column once");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,2\n1,2,three\n"),
