@@ -399,9 +399,10 @@ class FitOfAll {
     for (const double times : {2.0, 4.0, 0.5, 0.25})
       if (std::abs(largest / times - 1.0) < kAlike && std::abs(smallest / times - 1.0) < kAlike)
         result.warnings.push_back(
-            formatted("both wheels seem %.2g times as large as the vehicle's file has them: its "
+            formatted("both wheels seem %.2g times as large as the vehicle's file has them: %sits "
                       "encoder_counts_per_revolution may be %s times too %s",
-                      times, times == 2.0 || times == 0.5 ? "two" : "four", times > 1.0 ? "large" : "small"));
+                      times, times == 0.5 ? "diameters in place of radii? Or " : "",
+                      times == 2.0 || times == 0.5 ? "two" : "four", times > 1.0 ? "large" : "small"));
   }
 
   const Vehicle& nominal_;
@@ -433,8 +434,8 @@ Result<LeastSquaresCalibration> calibrated_by_all(const std::vector<Recording>& 
   if (nominal.truth.time_offset_s != 0.0 || nominal.truth.axle_T_tracked.heading_rad != 0.0)
     moved = as_the_wheels_have_it(read->runs, nominal.truth);
   const std::vector<InnovationRun>& as_wheels_have_it = moved.empty() ? read->runs : moved;
-  if (const std::string contradiction = contradiction_in(as_wheels_have_it, *drive); !contradiction.empty())
-    return Error{named, contradiction, "wheels and truth of one robot, in the units that the columns are named after"};
+  if (const Contradiction contradiction = contradiction_in(as_wheels_have_it, *drive); !contradiction.found.empty())
+    return Error{named, contradiction.found, contradiction.expected};
   const FirstGuess guess = first_guess(as_wheels_have_it, *drive);
 
   FitOfAll fit(std::move(*read), nominal, options);

@@ -215,50 +215,48 @@ std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs
   return sentences;
 }
 
-std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
+Contradiction contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal) {
   // A degree taken for a radian makes 57 of one.
   const std::vector<TurningStretch> stretches = turning_stretches(runs);
   const Planes p = planes_of(stretches);
   const double turning = turning_ratio(runs, nominal);
   if (turning > 20.0)
-    return formatted("headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?",
-                     turning);
-  if (!p.enough) return "";
+    return {formatted("headings that turn %.0f times as far as the wheels turn the robot: headings in degrees?",
+                      turning)};
+  if (!p.enough) return {};
   const double way_sum = p.way.left + p.way.right, turn_difference = p.turn.right - p.turn.left;
   if (p.way.explained > kExplained && p.way.left > 0.0 && p.way.right > 0.0 && p.turn.explained > kExplained &&
       turn_difference < 0.0)
-    return "wheels that turn the robot the other way than the truth: the left and the right wheel are exchanged, or "
-           "headings run clockwise";
+    return {"wheels that turn the robot the other way than the truth: the left and the right wheel are exchanged, or "
+            "headings run clockwise"};
   if (p.way.explained > kExplained && way_sum < 0.0)
-    return "wheels that roll backward while the truth goes forward: the sign of the wheels' rotation is wrong, or the "
-           "truth's heading points backward";
+    return {"wheels that roll backward while the truth goes forward: the sign of the wheels' rotation is wrong, or the "
+            "truth's heading points backward"};
   // One reversed wheel: what should be the way is in the difference of the wheels.
   if (p.way.explained > kExplained && p.way.left * p.way.right < 0.0 &&
       std::abs(way_sum) < 0.3 * std::abs(p.way.left - p.way.right))
-    return "one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's rotation "
-           "is wrong";
+    return {"one wheel that rolls backward while the other rolls forward on straights: the sign of one wheel's "
+            "rotation is wrong"};
   const double radius_ratio = way_sum / (nominal.wheel_radius_left_m + nominal.wheel_radius_right_m) * 2.0;
   if (p.way.explained > kExplained && (radius_ratio > 5.0 || radius_ratio < 0.2))
-    return formatted(
+    return {formatted(
         "%.3g times the way that the vehicle file's wheels roll: lengths in other units, other counts per "
         "turn, or counts that are not cumulative",
-        radius_ratio);
+        radius_ratio)};
   if (p.turn.explained < 0.3 || p.way.explained < 0.3)
     if (const std::optional<double> late_s = late_truth_s(runs))
-      return formatted(
-          "a truth whose stamps are %.1f s %s than the wheels' by what both do; truth_mounting.time_offset_s = %.1f in "
-          "the vehicle's file says so",
-          std::abs(*late_s), *late_s > 0.0 ? "later" : "earlier", *late_s);
+      return {formatted("a truth whose stamps are %.1f s %s than the wheels' by what both do", std::abs(*late_s),
+                        *late_s > 0.0 ? "later" : "earlier"),
+              formatted("both by one clock, or truth_mounting.time_offset_s = %.1f in the vehicle's file", *late_s)};
   if (p.turn.explained < 0.3 && p.way.explained < 0.3)
-    return "a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that are "
-           "not cumulative, or "
-           "another robot's truth";
+    return {"a motion that the wheels do not explain at all: headings in degrees, times in other units, counts that "
+            "are not cumulative, or another robot's truth"};
   if (p.way.explained > kExplained && p.turn.explained < 0.3)
-    return "headings that do not follow the wheels, while the way does: headings in degrees, or another run's truth";
+    return {"headings that do not follow the wheels, while the way does: headings in degrees, or another run's truth"};
   // A way that goes on forward is like any other; turns tell one drive from another.
   if (p.turn.explained < 0.3 && turn_apart(stretches, nominal))
-    return "turns that do not follow the wheels': another run's truth, or another robot's";
-  return "";
+    return {"turns that do not follow the wheels': another run's truth, or another robot's"};
+  return {};
 }
 
 }  // namespace odolab

@@ -17,9 +17,14 @@ struct FirstGuess {
 
 FirstGuess first_guess(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal);
 
-// A sentence about wheels that contradict the truth in a way that no calibration mends: exchanged or reversed wheels,
-// headings in degrees, lengths in millimetres. Empty where they do not.
-std::string contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal);
+// What contradicts the truth in a way that no calibration mends, and what there should be instead.
+struct Contradiction {
+  std::string found;  // empty where there is none
+  std::string expected = "wheels and truth of one robot, in the units that the columns are named after";
+};
+
+// Exchanged or reversed wheels, headings in degrees, lengths in millimetres, clocks that are seconds apart.
+Contradiction contradiction_in(const std::vector<InnovationRun>& runs, const DifferentialDrive& nominal);
 
 // Readings that jump by more than a hundred times the usual step: a sentence for each wheel that does.
 std::vector<std::string> counter_jumps_in(const std::vector<InnovationRun>& runs);

@@ -78,7 +78,7 @@ const Mend kMends[] = {
      "wheels that roll backward where the truth goes forward: the sign of both looks wrong",
      "rotation that grows forward"},
     {[](Recording& r) { scale(r, {"truth_y_m"}, -1.0); },
-     "positions that look mirrored against the headings (y, or x, with its sign reversed)",
+     "positions that look mirrored against the headings (y, or x, with its sign reversed, or x and y exchanged)",
      "x forward, y left, headings counter-clockwise"},
     {[](Recording& r) { heading_scaled(r, -1.0); }, "truth_heading_rad that looks clockwise",
      "counter-clockwise headings"},

@@ -44,7 +44,7 @@ TEST(FirstGuess, FindsARobotOfHalfTheBelievedSize) {
   // Chords instead of arcs over half a second: (0.4 rad)^2 / 24.
   EXPECT_NEAR(guess.drive.wheel_radius_left_m, 0.05, 0.0005);
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
-  EXPECT_EQ(contradiction_in({winding_arcs(0.05, 0.2)}, drive_with(0.1, 0.4)), "");
+  EXPECT_EQ(contradiction_in({winding_arcs(0.05, 0.2)}, drive_with(0.1, 0.4)).found, "");
 }
 
 TEST(FirstGuess, IsNotLedAstrayByOneJumpOfACounter) {
@@ -58,7 +58,7 @@ TEST(FirstGuess, IsNotLedAstrayByOneJumpOfACounter) {
 TEST(FirstGuess, NamesWhatNoCalibrationMends) {
   const DifferentialDrive nominal = drive_with(0.05, 0.2);
   const auto says = [&](const InnovationRun& run, const char* words) {
-    const std::string found = contradiction_in({run}, nominal);
+    const std::string found = contradiction_in({run}, nominal).found;
     EXPECT_NE(found.find(words), std::string::npos) << words << ": " << found;
   };
   InnovationRun exchanged = winding_arcs(0.05, 0.2), reversed = exchanged, one = exchanged, degrees_run = exchanged,
@@ -87,7 +87,7 @@ TEST(FirstGuess, ExplainsADriveThatCrawlsMostOfTheTime) {
     run.truth.push_back({truth.time_s + t, truth.position + on + Vec2{0.001 * random.normal(), 0.001 * random.normal()},
                          *truth.heading_rad + 0.002 * random.normal()});
   }
-  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "");
+  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)).found, "");
   const FirstGuess guess = first_guess({run}, drive_with(0.05, 0.2));
   ASSERT_TRUE(guess.trusted);
   EXPECT_NEAR(guess.drive.wheelbase_m, 0.2, 0.002);
@@ -98,7 +98,7 @@ TEST(FirstGuess, IsNotLedAstrayByOnePlaceFarAway) {
   for (const std::size_t at : {300u, 700u, 1000u, 1025u, 1500u}) {
     InnovationRun run = winding_arcs(0.05, 0.2);
     run.truth[at].position.x_m += 30.0;
-    EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "") << at;
+    EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)).found, "") << at;
     const FirstGuess guess = first_guess({run}, drive_with(0.05, 0.2));
     ASSERT_TRUE(guess.trusted) << at;
     EXPECT_NEAR(guess.drive.wheel_radius_left_m, 0.05, 0.0005) << at;
@@ -117,7 +117,7 @@ TEST(FirstGuess, CountsNoTremorOfHeadingsWhileItWaits) {
   for (double t = 0.0; t < kWaits_s; t += 0.02) waiting.push_back({t, {}, 0.1 * random.normal()});
   run.truth.insert(run.truth.begin(), waiting.begin(), waiting.end());
   run.wheels.insert(run.wheels.begin(), {0.0, 0.0, 0.0});
-  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)), "");
+  EXPECT_EQ(contradiction_in({run}, drive_with(0.05, 0.2)).found, "");
 }
 
 // Whether the way tells nothing, as both go forward evenly, or a little: the turns are another's.
@@ -131,7 +131,7 @@ TEST(FirstGuess, SaysThatTheTruthIsAnotherRuns) {
       pose = advanced(pose, (0.3 + faster_mps * std::sin(0.7 * t)) * 0.02,
                       0.9 * std::cos(0.83 * t + 0.4 * std::sin(0.31 * t)) * 0.02);
     }
-    const std::string said = contradiction_in({other}, drive_with(0.05, 0.2));
+    const std::string said = contradiction_in({other}, drive_with(0.05, 0.2)).found;
     EXPECT_NE(said.find("another run's truth"), std::string::npos) << said;
   }
 }

@@ -27,6 +27,8 @@ TEST(LateTruth, OfSecondsIsToldFromHeadingsInDegreesAndMendedByTheVehiclesFile) 
     char says[40];
     std::snprintf(says, sizeof says, "time_offset_s = %.1f", late_s);
     EXPECT_NE(refused.error().message().find(says), std::string::npos) << refused.error().message();
+    EXPECT_EQ(refused.error().expected, std::string("both by one clock, or truth_mounting.") + says +
+                                            " in the vehicle's file");
 
     Vehicle told = c.nominal;
     told.truth.time_offset_s = late_s;

@@ -292,6 +292,19 @@ TEST(LeastSquares, SetsOutliersAndFrozenTruthAside) {
   EXPECT_NEAR(result->noise.truth_position_m, 0.001, 0.0002);  // 500 samples: 3 %; the outliers did not enter
 }
 
+TEST(LeastSquares, AsksForDiametersWhereBothRadiiAreHalfOfWhatTheFileSays) {
+  Random random(12);
+  const GeneratorSettings g = off_the_drawing();
+  Vehicle diameters = labmate();
+  auto& drive = std::get<DifferentialDrive>(diameters.kind);
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.150;
+  const auto result = calibrate_least_squares({generated(g, test::rich_driving, random)}, diameters);
+  ASSERT_TRUE(result) << result.error().message();
+  EXPECT_TRUE(says(result->warnings,
+                   "both wheels seem 0.5 times as large as the vehicle's file has them: diameters in place of radii? "
+                   "Or its encoder_counts_per_revolution may be two times too small"));
+}
+
 TEST(LeastSquares, ComesBackAfterTheRobotWasMovedByHand) {
   Random random(10);
   const GeneratorSettings g = off_the_drawing();

@@ -66,7 +66,7 @@ TEST(RecordingFault, NamesTheOneRunWhoseColumnsAreNotWhatTheyAreCalled) {
   expect_named(
       c, [](Recording& r) { scale(r, "truth_x_m", -1.0); }, "mirrored");
   expect_named(
-      c, [](Recording& r) { std::swap(column(r, "truth_x_m"), column(r, "truth_y_m")); }, "mirrored");
+      c, [](Recording& r) { std::swap(column(r, "truth_x_m"), column(r, "truth_y_m")); }, "or x and y exchanged");
   expect_named(
       c, [](Recording& r) { scale(r, "right_wheel_rad", -1.0); }, "right wheel");
   expect_named(
