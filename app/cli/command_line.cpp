@@ -69,6 +69,10 @@ std::string in_words(const CLI::ParseError& error, const CLI::App& app, const st
     const std::string command = "odolab " + sub->get_name();
     for (const std::string& word : sub->remaining())
       if (word.rfind("-", 0) == 0) return command + ": no option " + word + "; see " + command + " --help";
+    for (const CLI::Option* option : sub->get_options())
+      if (option->get_positional() && option->get_items_expected_max() == 1 && !sub->remaining().empty())
+        return command + ": found " + sub->remaining().front() + " besides " + option->results().front() +
+               ", expected one " + option->get_name() + "; see " + command + " --help";
     return command + ": " + error.what() + "; see " + command + " --help";
   }
   std::vector<std::string> names;

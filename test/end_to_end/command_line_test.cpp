@@ -257,6 +257,13 @@ TEST(CommandLine, TakesADashForStandardOutputAndMixesNothingIntoIt) {
   EXPECT_FALSE(fs::exists(ODOLAB_SOURCE_DIR "/-"));
 }
 
+TEST(CommandLine, SaysThatACommandTakesOneRecording) {
+  const Outcome several = odolab("predict --vehicle v.toml a.csv b.csv c.csv --out t.csv");
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_EQ(several.errors,
+            "odolab predict: found b.csv besides a.csv, expected one RECORDING; see odolab predict --help\n");
+}
+
 TEST(CommandLine, HelpShowsAnExampleOfEachCommand) {
   for (const char* command : {"gui", "run", "calibrate", "predict", "import"}) {
     const Outcome help = odolab(std::string(command) + " --help");
