@@ -164,7 +164,10 @@ Command diagnose_command() {
   command.example =
       "odolab diagnose --vehicle labmate.toml run-1.csv run-2.csv run-3.csv --hold-out run-4.csv --html report.html "
       "--model fitted.toml";
-  command.files = kVehicleAndRecordings;
+  command.files = std::string(kVehicleAndRecordings) +
+                  "\n\nIn the JSON the verdict is found, too, where nothing but a clock, the truth's mounting or the data "
+                  "is at fault:\nfindings of physics are those whose effect neither begins with truth_ nor is clock_rate "
+                  "or encoder_data_fault.";
   command.declare = [options](Arguments& arguments) {
     arguments.option("--vehicle", options->vehicle, "the vehicle as it is believed to be (TOML)", true);
     arguments.files("RECORDING", options->recordings,

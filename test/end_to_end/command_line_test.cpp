@@ -264,6 +264,12 @@ TEST(CommandLine, SaysThatACommandTakesOneRecording) {
             "odolab predict: found b.csv besides a.csv, expected one RECORDING; see odolab predict --help\n");
 }
 
+TEST(CommandLine, HelpOfDiagnoseSaysWhichFindingsAreOfPhysics) {
+  const std::string help = odolab("diagnose --help").output;
+  for (const char* word : {"verdict is found", "truth_", "clock_rate", "encoder_data_fault"})
+    EXPECT_NE(help.find(word), std::string::npos) << help;
+}
+
 TEST(CommandLine, HelpShowsAnExampleOfEachCommand) {
   for (const char* command : {"gui", "run", "calibrate", "predict", "import"}) {
     const Outcome help = odolab(std::string(command) + " --help");
