@@ -17,7 +17,8 @@ inline constexpr char kVehicleAndRecordings[] =
   y_m = 0.0                              # to the left
   heading_rad = 0.0
 
-A recording, with empty cells where a channel was not sampled; left_ticks and right_ticks may stand for the rotations:
+A recording, with empty cells where a channel was not sampled (nan, NA, N/A, null and none are read as empty, inf is
+refused); left_ticks and right_ticks may stand for the rotations:
   time_s,left_wheel_rad,right_wheel_rad,truth_x_m,truth_y_m,truth_heading_rad
   0.00,0,0,1.000,2.000,0.100
   0.02,0.0131,0.0129,,,)";

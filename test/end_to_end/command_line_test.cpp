@@ -264,6 +264,11 @@ TEST(CommandLine, SaysThatACommandTakesOneRecording) {
             "odolab predict: found b.csv besides a.csv, expected one RECORDING; see odolab predict --help\n");
 }
 
+TEST(CommandLine, HelpSaysWhichWordsAreReadAsEmptyCells) {
+  for (const char* command : {"calibrate", "diagnose", "predict"})
+    EXPECT_NE(odolab(std::string(command) + " --help").output.find("(nan, NA"), std::string::npos) << command;
+}
+
 TEST(CommandLine, HelpOfDiagnoseSaysWhichFindingsAreOfPhysics) {
   const std::string help = odolab("diagnose --help").output;
   for (const char* word : {"verdict is found", "truth_", "clock_rate", "encoder_data_fault"})
