@@ -183,7 +183,7 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 std::string size_text(double value, const std::string& unit) {
   const Shown shown = shown_as(unit);
   const double size = value * shown.factor;
-  return (std::abs(size) < 100.0 ? number_text("%.2g", size) : decimals_of(size, 0)) + shown.unit;
+  return (std::abs(size) < 99.5 ? number_text("%.2g", size) : decimals_of(size, 0)) + shown.unit;
 }
 
 std::string moved_text(const MovedTrack& moved) {

@@ -165,11 +165,19 @@ FoundParameter as_found(const Visible& v, double times_medium) {
   return {a.name, value, 0.0, a.unit};
 }
 
+// Whether a size that would have been seen is one that it can have.
+bool any_size_shows(const Visible& v) {
+  constexpr double kNoSize = 1e4;  // of the medium one: none of any size
+  const Effect::Amplitude& a = v.effect->amplitudes[static_cast<std::size_t>(v.weakest)];
+  return v.excited && v.needed < kNoSize && v.needed * a.medium <= std::max(std::abs(a.low), std::abs(a.high));
+}
+
+std::string size_in_words(double size) { return formatted(std::abs(size) < 99.5 ? "%.2g" : "%.0f", size); }
+
 }  // namespace
 
 std::optional<FoundParameter> least_seen(const Visible& v) {
-  constexpr double kNoSize = 1e4;  // of the medium one: none of any size
-  if (!v.excited || v.needed >= kNoSize) return std::nullopt;
+  if (!any_size_shows(v)) return std::nullopt;
   return as_found(v, v.needed);
 }
 
@@ -181,9 +189,9 @@ std::string because_of(const Visible& v) {
   const std::string share = absorbed ? formatted("on these drives calibration absorbs %.3g %% of what it would do: ",
                                                  100.0 * (1.0 - v.survives))
                                      : "";
-  if (v.needed > 1e4) return share + "none of any size would have shown";
-  return share + formatted("less than %.2g", least.value * factor) + unit + " would not have shown here" +
-         formatted(", and %.2g", medium.value * factor) + unit + " is of importance";
+  if (!any_size_shows(v)) return share + "none of any size that it can have would have shown here";
+  return share + "less than " + size_in_words(least.value * factor) + unit + " would not have shown here, and " +
+         size_in_words(medium.value * factor) + unit + " is of importance";
 }
 
 }  // namespace odolab

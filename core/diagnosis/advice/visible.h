@@ -37,7 +37,7 @@ std::vector<Visible> least_visible(const std::vector<Visible>& visible);
 // Those of which a medium size would not have been seen.
 std::vector<Visible> unseen(const std::vector<Visible>& visible);
 
-// That size. Unset where none of any size would have been seen.
+// That size. Unset where none of any size that it can have would have been seen.
 std::optional<FoundParameter> least_seen(const Visible& visible);
 
 // Why not, in words.
