@@ -32,7 +32,7 @@ std::string evidence_words(const Finding& f) {
   if (f.log_likelihood_gain > 0.0)
     words = "log-likelihood gain " + gain_text(f.log_likelihood_gain) + ", " +
             (f.p_value < 1e-15 ? "by chance below 1e-15" : number_text("by chance %.1g", f.p_value));
-  if (f.share_of_mismatch > 0.0)
+  if (f.share_of_mismatch > 0.0 && f.effect != "unknown")
     words += (words.empty() ? "" : "; ") + number_text("%.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   if (f.moves) words += (words.empty() ? "" : "; ") + ("moves a metre or radian by " + moved_text(*f.moves));
   return words;
@@ -90,7 +90,7 @@ void add_proof(ui::DiagnosisView& view, const Diagnosis& d) {
     if (f && f->gathered()) view.proof.push_back({label, f->position_rms_m, f->heading_rms_rad, kind});
   };
   add("calibrated only", fit.calibrated, ui::ProofBar::Kind::calibrated);
-  if (!d.findings.empty()) add("with what was found", fit.with_findings, ui::ProofBar::Kind::with_findings);
+  if (any_is_put_in(d)) add("with what was found", fit.with_findings, ui::ProofBar::Kind::with_findings);
   add("noise alone", fit.noise_floor, ui::ProofBar::Kind::noise);
 }
 

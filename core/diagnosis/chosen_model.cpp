@@ -47,6 +47,13 @@ bool can_be_switched_on(const Finding& f) {
          f.effect.find("_bias") == std::string::npos;
 }
 
+bool any_is_put_in(const Diagnosis& diagnosis) {
+  return std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(), [](const Finding& f) {
+    return f.effect != "unknown" && !is_data_fault(f.effect) && f.effect != "truth_mounting_offset" &&
+           f.effect != "truth_time_offset";
+  });
+}
+
 Result<FittedModel> model_with(const Diagnosis& diagnosis, const std::vector<bool>& on,
                                const std::vector<Recording>& train, const Vehicle& nominal) {
   Diagnosis chosen = diagnosis;

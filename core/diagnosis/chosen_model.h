@@ -14,6 +14,10 @@ namespace odolab {
 // without a name, and not what the calibrated vehicle holds already.
 bool can_be_switched_on(const Finding& finding);
 
+// Whether the model with the findings has any that the one without does not: no fault of the data, not what has no
+// name, and not what calibration takes up by itself, which is where the tracked point sits and how late the truth is.
+bool any_is_put_in(const Diagnosis& diagnosis);
+
 // With none on the calibration alone, with all the fitted model. In between the findings act as they were fitted, and
 // radii, wheelbase, mounting and clocks of a differential drive are fitted anew to `train`, the recordings that the
 // diagnosis was fitted on; the units of other vehicles keep the calibration of the whole.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/mismatch.h"
 #include "core/diagnosis/place_response.h"
 #include "core/geometry/angles.h"
@@ -63,7 +64,7 @@ void add_findings(HtmlReport& report, const Diagnosis& d) {
     const std::string where = where_text(f.where);
     if (!where.empty()) rows.push_back({"where", where});
     if (!f.form_in_words.empty()) rows.push_back({"its form", f.form_in_words});
-    if (f.share_of_mismatch > 0.0)
+    if (f.share_of_mismatch > 0.0 && f.effect != "unknown")
       rows.push_back(
           {"share of the mismatch that calibration leaves", number_text("%.0f %%", 100.0 * f.share_of_mismatch)});
     if (f.moves) rows.push_back({"moves each metre or radian in which it acts by", moved_text(*f.moves)});
@@ -270,6 +271,7 @@ std::string heading_text(const FitFigures& figures) {
 void add_proof(HtmlReport& report, const Diagnosis& d) {
   std::vector<std::vector<std::string>> table;
   BarPicture bars;
+  const bool any_findings = any_is_put_in(d);
   const auto add = [&](const std::string& part, const FitTable& fit) {
     BarGroup group{part, {}};
     const auto add_row = [&](const char* name, const std::optional<FitFigures>& figures, const char* colour) {
@@ -285,7 +287,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
       group.bars.push_back(
           {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
     };
-    for (const FitRow& row : rows_of(fit)) add_row(row.name, row.figures, row.colour);
+    for (const FitRow& row : rows_of(fit))
+      if (&row.figures != &fit.with_findings || any_findings) add_row(row.name, row.figures, row.colour);
     add_row("what noise alone would leave", fit.noise_floor, ink::kGreen);
     if (!group.bars.empty()) bars.groups.push_back(group);
   };
@@ -300,7 +303,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
         {name, 1e3 * figures->position_rms_m, number_text("%.2f mm", 1e3 * figures->position_rms_m), colour});
   };
   add_simulated("calibrated", d.simulation.calibrated, ink::kOrange);
-  if (is_switched_on(d.simulation))
+  if (any_findings && is_switched_on(d.simulation))
     add_simulated("with what was found switched on", d.simulation.with_findings, ink::kBlue);
   if (!simulated.bars.empty()) bars.groups.push_back(simulated);
   if (table.empty()) return;

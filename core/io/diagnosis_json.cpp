@@ -1,5 +1,6 @@
 #include "core/io/diagnosis_json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/refuted.h"
@@ -28,6 +29,9 @@ Json calibration_json(const LeastSquaresCalibration& calibration) {
   }
   return json;
 }
+
+// A chance that is less than a number can be is none of zero.
+double chance_json(double p_value) { return std::max(1e-300, p_value); }
 
 Json where_json(const WhereFound& where) {
   Json json = Json::object();
@@ -58,7 +62,7 @@ Json finding_json(const Finding& finding) {
   json["where"] = where_json(finding.where);
   Json& evidence = json["evidence"];
   evidence["log_likelihood_gain"] = finding.log_likelihood_gain;
-  evidence["p_value"] = finding.p_value;
+  evidence["p_value"] = chance_json(finding.p_value);
   Json& alternatives = json["alternatives"] = Json::array();
   for (const Alternative& a : finding.alternatives) {
     Json& entry = alternatives.push_back(Json::object());
@@ -92,7 +96,7 @@ Json asked_json(const AskedEffect& asked) {
   json["named"] = asked.named;
   json["log_likelihood_gain"] = asked.log_likelihood_gain;
   if (asked.gain_beside_findings) json["log_likelihood_gain_beside_findings"] = *asked.gain_beside_findings;
-  json["p_value"] = asked.p_value;
+  json["p_value"] = chance_json(asked.p_value);
   if (asked.survives) json["survives_calibration"] = *asked.survives;
   const auto put_size = [&](const char* key, const std::optional<FoundParameter>& of) {
     if (!of) return;

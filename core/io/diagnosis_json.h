@@ -10,6 +10,7 @@ namespace odolab {
 
 // Keys that hold nothing are left out where the schema lets them: `where` has only what applies, `fit` and `simulation`
 // only what was judged. A parameter that the recordings do not determine has the nominal value and a null stderr.
+// No chance is less than 1e-300, which stands for all below it.
 Json diagnosis_json(const Diagnosis& diagnosis);
 
 // The schema's word: "found", "nothing_missing", ...

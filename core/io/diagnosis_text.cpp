@@ -106,12 +106,13 @@ std::string finding_line(const Finding& f) {
   if (!f.form_in_words.empty()) line += "; its form: " + f.form_in_words;
   if (f.log_likelihood_gain > 0.0)
     line += number_text("; gain %.1f", f.log_likelihood_gain) + ", " + p_value_text(f.p_value);
-  if (f.share_of_mismatch > 0.0) line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
+  if (f.share_of_mismatch > 0.0 && f.effect != "unknown")  // which no model has: it takes nothing away
+    line += number_text(", %.0f %% of the mismatch", 100.0 * f.share_of_mismatch);
   if (f.moves) line += "; where it acts it moves each metre or radian by " + moved_text(*f.moves);
   return line;
 }
 
-std::string fit_line(const char* name, const FitTable& table) {
+std::string fit_line(const char* name, const FitTable& table, bool any_findings) {
   std::string line;
   const auto add = [&](const char* what, const std::optional<FitFigures>& f) {
     if (f) line += (line.empty() ? "" : "  ->  ") + std::string(what) + " " + figures_text(*f);
@@ -120,7 +121,7 @@ std::string fit_line(const char* name, const FitTable& table) {
     return std::string(name) + "not to be had: it takes a metre of truth";
   add("nominal", table.nominal);
   add("calibrated", table.calibrated);
-  add("with findings", table.with_findings);
+  if (any_findings) add("with findings", table.with_findings);
   if (table.noise_floor) line += "   (noise " + figures_text(*table.noise_floor) + ")";
   return line.empty() ? "" : name + line;
 }
@@ -323,9 +324,11 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
         "; only their ratios show here: the mean radius is the vehicle file's, and nothing says how true it is";
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
   if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
+  const bool any_findings = any_is_put_in(diagnosis);
   for (const std::string& line :
-       {fit_line("   fitted on: ", diagnosis.train),
-        fit_line(diagnosis.left_out_in_turn ? "   each run by the others: " : "   held out:  ", diagnosis.held_out) +
+       {fit_line("   fitted on: ", diagnosis.train, any_findings),
+        fit_line(diagnosis.left_out_in_turn ? "   each run by the others: " : "   held out:  ", diagnosis.held_out,
+                 any_findings) +
             (is_refuted_by_unseen(diagnosis) ? ": it does not bear this out" : "")})
     if (!line.empty()) end.push_back(line);
   if (diagnosis.unseen_gain)
@@ -338,7 +341,7 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
     std::vector<std::string> beyond;
     for (const Finding& f : beyond_the_simulator(diagnosis)) beyond.push_back(effect_text(f.effect, f.component));
     const std::string with_findings =
-        is_switched_on(diagnosis.simulation) ? "  ->  with findings " + figures_text(after) : "";
+        any_findings && is_switched_on(diagnosis.simulation) ? "  ->  with findings " + figures_text(after) : "";
     end.push_back("   simulator: calibrated " + figures_text(before) + with_findings +
                   (is_refuted_by_simulator(diagnosis) ? ": it does not confirm this" : ""));
     if (!beyond.empty())

@@ -127,5 +127,14 @@ TEST(DiagnosisJson, ErrorsThatATruthWithoutHeadingsDoesNotTellAreNull) {
   EXPECT_EQ(held_out["with_findings"]["position_rms_m"], 0.0019);
 }
 
+TEST(DiagnosisJson, AChanceBelowAllNumbersIsNotZero) {
+  Diagnosis diagnosis = test::diagnosis_by_hand();
+  diagnosis.findings[0].log_likelihood_gain = 6788.0;
+  diagnosis.findings[0].p_value = diagnosis.asked[0].p_value = 0.0;
+  const nlohmann::json json = parsed(diagnosis);
+  EXPECT_EQ(json["findings"][0]["evidence"], (nlohmann::json{{"log_likelihood_gain", 6788.0}, {"p_value", 1e-300}}));
+  EXPECT_EQ(json["asked"][0]["p_value"], 1e-300);
+}
+
 }  // namespace
 }  // namespace odolab

@@ -26,6 +26,7 @@ TEST(SizeText, HasTwoDigitsInTheUnitsOfTheReport) {
   EXPECT_EQ(size_text(0.0016871, "1"), "0.17 %");
   EXPECT_EQ(size_text(0.0003079, "m/(m/s2)"), "0.31 mm/(m/s2)");
   EXPECT_EQ(size_text(3.497e-5, "1/s"), "0.0035 % per s");
+  EXPECT_EQ(size_text(0.0998, "m"), "100 mm");
 }
 
 TEST(VerdictSentence, NamesWhatWasFound) {
@@ -161,6 +162,28 @@ TEST(Findings, SayInWhichOfSeveralFormsTheyFitBest) {
   EXPECT_EQ(count(summary, "its form"), 1u) << "the other has but one: " << summary;
   const std::string page = diagnosis_report(d).text();
   EXPECT_EQ(count(page, "each wheel that is on the patch"), 1u);
+}
+
+// Of what has no name, and of a truth whose clock is off, no model has more than calibration has by itself.
+TEST(Findings, AreNoStepOfTheProofWhereNoneIsPutIntoTheModel) {
+  Diagnosis d = test::diagnosis_by_hand();
+  const auto said = [&] {
+    std::string all;
+    for (const std::string& line : summary_lines(d)) all += line.substr(line.find_first_not_of(' ')) + " ";
+    return all;
+  };
+  EXPECT_EQ(count(said(), "with findings"), 3u) << said();
+  EXPECT_EQ(count(said(), "% of the mismatch"), 2u) << said();
+  d.findings.resize(2);
+  d.findings[0].effect = "unknown";
+  d.findings[1].effect = "truth_time_offset";
+  d.findings[1].share_of_mismatch = 0.0;
+  d.verdict = Verdict::unknown_effect;
+  EXPECT_EQ(count(said(), "with findings"), 0u) << said();
+  EXPECT_EQ(count(said(), "% of the mismatch"), 0u) << said();
+  const std::string page = diagnosis_report(d).text();
+  EXPECT_EQ(count(page, "calibrated, and what was found"), 0u);
+  EXPECT_EQ(count(page, "share of the mismatch"), 0u);
 }
 
 TEST(FaultsTogether, SayOnceWhatHappensInSeveralRecordingsAndWheels) {
