@@ -13,6 +13,7 @@
 #include "core/calibration/first_guess.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/likelihood_fit.h"
+#include "core/calibration/miscounted_wheel.h"
 #include "core/calibration/recording_fault.h"
 #include "core/calibration/restamped.h"
 #include "core/calibration/shape_guess.h"
@@ -385,14 +386,18 @@ class FitOfAll {
       result.warnings.push_back(
           formatted("the truth's clock differs between the recordings: from %.3f s to %.3f s", *least, *most));
     }
+    const std::vector<MiscountedWheel> miscounted = miscounted_wheels(result);
     double largest = 0.0, smallest = 1e300;  // radius by that of the file
     for (const ParameterEstimate& p : result.parameters) {
       if (!p.determined || p.unit != "m" || p.name.rfind("wheel", 0) != 0) continue;
       const double times = p.value / p.nominal;
       if (p.name.rfind("wheel_radius", 0) == 0)
         largest = std::max(largest, times), smallest = std::min(smallest, times);
-      if (std::abs(times - 1.0) > 0.1)
-        result.warnings.push_back(p.name + formatted(": %.0f %% away from its nominal value", 100.0 * (times - 1.0)));
+      if (std::abs(times - 1.0) <= 0.1) continue;
+      std::string warning = p.name + formatted(": %.0f %% away from its nominal value", 100.0 * (times - 1.0));
+      for (const MiscountedWheel& w : miscounted)
+        if (w.radius == p.name) warning += ": " + counts_in_words(w);
+      result.warnings.push_back(warning);
     }
     // No two wheels are made twice too large.
     constexpr double kAlike = 0.03;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/calibration/miscounted_wheel.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/refuted.h"
 #include "core/io/diagnosis_text.h"
@@ -108,6 +109,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       sentence = "These recordings cannot say whether anything is missing.";
       break;
   }
+  for (const MiscountedWheel& w : miscounted_wheels(diagnosis.calibration)) sentence += " " + in_words(w) + ".";
   if (!faults.empty()) sentence += " The data are at fault too: " + list_of(faults, "and") + ".";
   const bool by_unseen = is_refuted_by_unseen(diagnosis), by_simulator = is_refuted_by_simulator(diagnosis);
   const std::string unseen = diagnosis.left_out_in_turn ? "what was left out in turn" : "what was held out";
