@@ -85,6 +85,7 @@ struct DiagnosisView {
   std::optional<FitFigures> simulated_before, simulated_now;
   std::vector<ProofBar> proof;
   std::string proof_title;
+  std::string over_which_way = "over each metre or radian";  // errors are gathered
   std::vector<std::pair<std::string, std::string>> not_testable;  // what, and why with the drive that would show it
   std::vector<AskedRow> asked;                                    // the likeliest first
   std::string next_drive;                                         // in words

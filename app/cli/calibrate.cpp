@@ -15,6 +15,7 @@
 #include "core/geometry/begins_anew.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
+#include "core/io/window_words.h"
 #include "core/odometry/prediction.h"
 
 namespace odolab {
@@ -27,10 +28,12 @@ struct CalibrateOptions {
   std::string out;
 };
 
-// Root mean square over recordings of the pose error gathered over a metre, but for what was left out of each.
+// Root mean square over recordings of the pose error gathered over a metre, or to the truth's next pose, but for what
+// was left out of each.
 struct PerMetre {
   double position_sum = 0.0, heading_sum = 0.0;
   int recordings = 0;
+  std::vector<WindowSize> windows;
 
   void add(const Recording& recording, const Vehicle& vehicle, const TimeStretches& left_out) {
     const Result<Track> track = predicted_track(recording, vehicle);
@@ -44,6 +47,8 @@ struct PerMetre {
     position_sum += error->position_rms_m * error->position_rms_m;
     heading_sum += error->heading_rms_rad * error->heading_rms_rad;
     ++recordings;
+    const std::vector<WindowSize> of_it = window_sizes(*track, *error);
+    windows.insert(windows.end(), of_it.begin(), of_it.end());
   }
   std::string text() const {
     if (recordings == 0) return "not to be had: the truth has no heading";
@@ -167,7 +172,7 @@ int execute_calibrate(const CalibrateOptions& options) {
     std::printf("\nNothing could be determined, and no vehicle was written.\n");
     return kDone;
   }
-  std::printf("\nerror gathered over a metre or a radian (dead reckoning against truth)\n");
+  std::printf("\nerror gathered %s (dead reckoning against truth)\n", over_which_way(median_of(after.windows)).c_str());
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
   if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out});
   print_table(rows);

@@ -14,6 +14,7 @@
 #include "core/io/model_toml.h"
 #include "core/io/track_csv.h"
 #include "core/io/vehicle_toml.h"
+#include "core/io/window_words.h"
 
 namespace odolab {
 
@@ -82,9 +83,12 @@ int execute_predict(const PredictOptions& options) {
     print_message("warning: " + options.recording + ": its truth begins without a heading; the track begins with 0");
   std::printf("%s: %zu poses over %.1f s\n", name_of_output(options.out).c_str(), track->size(),
               track->back().time_s - track->front().time_s);
-  if (const auto error = track_error(*track, truth_track(loaded->recording)))
-    std::printf("against the recorded truth: %.2f mm and %.3f degrees per metre, %.1f mm at the end\n",
-                1e3 * error->position_rms_m, degrees(error->heading_rms_rad), 1e3 * error->end_position_m);
+  if (const auto error = track_error(*track, truth_track(loaded->recording))) {
+    const WindowSize window = median_of(window_sizes(*track, *error));
+    std::printf("against the recorded truth: %.2f mm and %.3f degrees %s, %.1f mm at the end\n",
+                1e3 * error->position_rms_m, degrees(error->heading_rms_rad),
+                window.is_long() ? over_which_way(window).c_str() : "per metre", 1e3 * error->end_position_m);
+  }
   return kDone;
 }
 

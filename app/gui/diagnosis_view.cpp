@@ -9,6 +9,7 @@
 #include "core/io/diagnosis_text.h"
 #include "core/io/number_text.h"
 #include "core/io/verdict_sentence.h"
+#include "core/io/window_words.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -83,6 +84,7 @@ ui::AskedRow asked_row(const AskedEffect& a) {
 void add_proof(ui::DiagnosisView& view, const Diagnosis& d) {
   const bool held_out = d.held_out.calibrated.has_value();
   const FitTable& fit = held_out ? d.held_out : d.train;
+  view.over_which_way = over_which_way((held_out ? d.held_out_over : d.train_over).value_or(WindowSize{}));
   view.proof_title = !held_out            ? "On the runs that were fitted"
                      : d.left_out_in_turn ? "Each run predicted from the others"
                                           : "On the runs that were held out";

@@ -9,6 +9,7 @@
 #include "core/diagnosis/by_names.h"
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/findings_of.h"
+#include "core/diagnosis/gathered_over.h"
 #include "core/diagnosis/generic/adequacy.h"
 #include "core/diagnosis/generic/responses.h"
 #include "core/diagnosis/judged_adequacy.h"
@@ -189,6 +190,13 @@ JudgedPart judged_of(const InnovationRun& run) {
 void name_recordings(Diagnosis& d, const std::vector<Recording>& train, const std::vector<Recording>& held_out) {
   for (const Recording& r : train) d.fitted_on.push_back(r.name);
   for (const Recording& r : held_out) d.held_out_runs.push_back(r.name);
+}
+
+void say_over_which_way(Diagnosis& d, const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                        const Vehicle& nominal) {
+  const Vehicle& vehicle = d.fitted_vehicle ? *d.fitted_vehicle : nominal;
+  d.train_over = gathered_over(train, vehicle);
+  d.held_out_over = d.left_out_in_turn ? d.train_over : gathered_over(held_out, vehicle);
 }
 
 // As read, or as they obey commands where these are all there is.
@@ -399,6 +407,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (has_units(nominal)) {
     Result<Diagnosis> d = diagnose_units(train, held_out, nominal, options, progress);
     if (d) name_recordings(*d, train, held_out);
+    if (d) say_over_which_way(*d, train, held_out, nominal);
     return d;
   }
   if (const std::optional<Error> other = undiagnosed_kind(nominal)) return *other;
@@ -410,6 +419,7 @@ Result<Diagnosis> diagnose(const std::vector<Recording>& train, const std::vecto
   if (d && shows_beside_held_out)
     if (std::optional<Diagnosis> named = named_beside_held_out(*d, train, held_out, nominal, options, progress))
       d = std::move(*named);
+  if (d) say_over_which_way(*d, train, held_out, nominal);
   return d;
 }
 

@@ -14,6 +14,7 @@
 #include "core/diagnosis/active_effect.h"
 #include "core/diagnosis/advice/advised_drive.h"
 #include "core/diagnosis/found_parameter.h"
+#include "core/geometry/window_size.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -81,7 +82,7 @@ struct Finding {
 };
 
 struct FitFigures {
-  double position_rms_m = 0.0;   // gathered over a metre or a radian, from a true start
+  double position_rms_m = 0.0;   // gathered over a metre or a radian, from a true start, or to the truth's next pose
   double heading_rms_rad = 0.0;  // NaN: the truth has none, and windows begin with what the model makes of the way
   double normalised_chi2 = 0.0;
 
@@ -163,6 +164,8 @@ struct Diagnosis {
   std::vector<Response> responses;                           // strongest first
   std::vector<Residuals> residuals_before, residuals_after;  // calibrated; with findings
   std::vector<JudgedPart> judged;                            // of the recordings fitted on, and of those held out
+  // Over which way the figures of `train` and of `held_out` are gathered; of `simulation` that of `train`.
+  std::optional<WindowSize> train_over, held_out_over;
 };
 
 struct TruthError;  // core/diagnosis/generic/truth_errors.h

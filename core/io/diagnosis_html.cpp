@@ -15,6 +15,7 @@
 #include "core/io/picture/coloured_track_picture.h"
 #include "core/io/picture/line_picture.h"
 #include "core/io/verdict_sentence.h"
+#include "core/io/window_words.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -308,10 +309,11 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   if (!simulated.bars.empty()) bars.groups.push_back(simulated);
   if (table.empty()) return;
   report.heading("The proof: before and after");
+  const WindowSize over = d.train_over.value_or(WindowSize{});
   report.paragraph(
-      "The error of the predicted pose, gathered over one metre of travel or one turn of a radian from a true start, "
-      "root mean "
-      "square. Held-out recordings gave no name and no number: they may take a name away that they contradict, or show "
+      "The error of the predicted pose, gathered " +
+      (over.is_long() ? over_which_way(over) : "over one metre of travel or one turn of a radian from a true start") +
+      ", root mean square. Held-out recordings gave no name and no number: they may take a name away that they contradict, or show "
       "that something is missing.");
   if (!d.fitted_on.empty())
     report.paragraph("Fitted on " + list_of(d.fitted_on, "and") +
@@ -325,7 +327,7 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
               "the calibration alone. Where each sample of the truth errs by more than the way over a metre, "
               "this shows what the errors below cannot.",
         std::abs(*d.unseen_gain)));
-  bars.title = "Position error over each metre or radian";
+  bars.title = "Position error " + over_which_way(over);
   bars.x_label = "position error [mm]";
   if (!bars.groups.empty()) report.picture(bar_picture(bars));
   report.table({"", "position [mm]", "heading [\xC2\xB0]", "normalised chi2"}, table);

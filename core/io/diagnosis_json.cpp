@@ -81,12 +81,15 @@ Json finding_json(const Finding& finding) {
   return json;
 }
 
-void put(Json& json, const char* key, const std::optional<FitFigures>& figures) {
+void put(Json& json, const char* key, const std::optional<FitFigures>& figures, const std::optional<WindowSize>& over) {
   if (!figures) return;
   Json& entry = json[key];
   entry["position_rms_m"] = figures->gathered() ? Json(figures->position_rms_m) : Json();
   entry["heading_rms_rad"] = figures->gathered() && figures->has_heading() ? Json(figures->heading_rms_rad) : Json();
   entry["normalised_chi2"] = figures->normalised_chi2;
+  if (!over || !figures->gathered()) return;
+  entry["window_m"] = over->way_m;
+  entry["window_rad"] = over->turn_rad;
 }
 
 Json asked_json(const AskedEffect& asked) {
@@ -109,14 +112,14 @@ Json asked_json(const AskedEffect& asked) {
   return json;
 }
 
-Json fit_json(const FitTable& fit) {
+Json fit_json(const FitTable& fit, const std::optional<WindowSize>& over) {
   Json json = Json::object();
-  put(json, "nominal", fit.nominal);
-  put(json, "calibrated", fit.calibrated);
-  put(json, "with_findings", fit.with_findings);
-  put(json, "noise_floor", fit.noise_floor);
-  put(json, "spline", fit.spline);
-  put(json, "placebo", fit.placebo);
+  put(json, "nominal", fit.nominal, over);
+  put(json, "calibrated", fit.calibrated, over);
+  put(json, "with_findings", fit.with_findings, over);
+  put(json, "noise_floor", fit.noise_floor, over);
+  put(json, "spline", fit.spline, over);
+  put(json, "placebo", fit.placebo, over);
   return json;
 }
 
@@ -148,12 +151,12 @@ Json diagnosis_json(const Diagnosis& diagnosis) {
   json["recordings"]["fitted_on"] = diagnosis.fitted_on;
   json["recordings"]["held_out"] = diagnosis.held_out_runs;
   Json& fit = json["fit"] = Json::object();
-  fit["train"] = fit_json(diagnosis.train);
-  fit["held_out"] = fit_json(diagnosis.held_out);
+  fit["train"] = fit_json(diagnosis.train, diagnosis.train_over);
+  fit["held_out"] = fit_json(diagnosis.held_out, diagnosis.held_out_over);
   if (diagnosis.unseen_gain) fit["unseen_log_likelihood_gain"] = *diagnosis.unseen_gain;
   Json& simulation = json["simulation"] = Json::object();
-  put(simulation, "before", diagnosis.simulation.calibrated);
-  put(simulation, "after", diagnosis.simulation.with_findings);
+  put(simulation, "before", diagnosis.simulation.calibrated, diagnosis.train_over);
+  put(simulation, "after", diagnosis.simulation.with_findings, diagnosis.train_over);
   Json& asked = json["asked"] = Json::array();
   for (const AskedEffect& a : diagnosis.asked) asked.push_back(asked_json(a));
   Json& not_testable = json["not_testable_here"] = Json::array();

@@ -13,6 +13,7 @@
 #include "core/io/number_text.h"
 #include "core/io/regime_words.h"
 #include "core/io/verdict_sentence.h"
+#include "core/io/window_words.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -323,7 +324,8 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
     calibration +=
         "; only their ratios show here: the mean radius is the vehicle file's, and nothing says how true it is";
   if (!calibration.empty()) append_wrapped(end, "calibrated: " + calibration, columns, "   ");
-  if (diagnosis.train.calibrated || diagnosis.held_out.calibrated) end.push_back("off over each metre or radian:");
+  if (diagnosis.train.calibrated || diagnosis.held_out.calibrated)
+    end.push_back("off " + over_which_way(diagnosis.train_over.value_or(WindowSize{})) + ":");
   const bool any_findings = any_is_put_in(diagnosis);
   for (const std::string& line :
        {fit_line("   fitted on: ", diagnosis.train, any_findings),

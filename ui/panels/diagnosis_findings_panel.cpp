@@ -105,7 +105,7 @@ void simulation_part(const DiagnosisView& view, const Theme& theme) {
   };
   two_columns("calibrated", figures(*view.simulated_before), theme);
   if (view.findings_on() && view.simulated_now) two_columns("switched on", figures(*view.simulated_now), theme);
-  note("Error over each metre or radian, root mean square, of all runs.", theme);
+  note("Error " + view.over_which_way + ", root mean square, of all runs.", theme);
 }
 
 void proof_part(const DiagnosisView& view, const Theme& theme) {
@@ -127,7 +127,7 @@ void proof_part(const DiagnosisView& view, const Theme& theme) {
     draw.AddRectFilled(low, {low.x + std::max(theme.px(2), length), low.y + thick}, colour, theme.px(2));
     ImGui::Dummy({width, thick + theme.px(2)});
   }
-  note("Predicted from the wheels alone, over each metre or radian.", theme);
+  note("Predicted from the wheels alone, " + view.over_which_way + ".", theme);
 }
 
 Actions advice_part(const DiagnosisView& view, DiagnosisState& state, const Theme& theme) {

@@ -6,6 +6,7 @@
 #include "core/io/picture/line_picture.h"
 #include "core/io/picture/track_picture.h"
 #include "core/io/scenario_toml.h"
+#include "core/io/window_words.h"
 
 namespace odolab {
 
@@ -22,7 +23,7 @@ DrawnLine distance_line(const std::string& label, const Track& track, const Trac
 }
 
 void add_error(RunOutputs& out, const std::string& who, const std::string& words,
-               const std::optional<TrackError>& error, bool headings) {
+               const std::optional<TrackError>& error, const Track& track, bool headings) {
   if (!error) return;
   if (!headings) {
     out.figure(who + "_end_position_error_m", error->end_position_m);
@@ -37,8 +38,9 @@ void add_error(RunOutputs& out, const std::string& who, const std::string& words
   out.figure(who + "_end_heading_error_rad", std::abs(error->end_heading_rad));
   out.figure(who + "_largest_position_error_m", error->largest_position_m);
   out.sentences.push_back(
-      text_of("%s: %.2f mm and %.3f degrees off over each metre or radian; %.1f mm at the end, %.1f mm at most.",
-              words.c_str(), 1e3 * error->position_rms_m, degrees(error->heading_rms_rad), 1e3 * error->end_position_m,
+      text_of("%s: %.2f mm and %.3f degrees off %s; %.1f mm at the end, %.1f mm at most.", words.c_str(),
+              1e3 * error->position_rms_m, degrees(error->heading_rms_rad),
+              over_which_way(median_of(window_sizes(track, *error))).c_str(), 1e3 * error->end_position_m,
               1e3 * error->largest_position_m));
 }
 
@@ -59,9 +61,9 @@ Result<RunOutputs> replay_outputs(const Scenario& scenario, const std::string& s
   out.figure("duration_s", recording->duration_s());
   out.figure("distance_m", travelled_m(replayed->simulated));
   add_error(out, "simulated", "The simulated vehicle, driven by the recording", replayed->simulated_error,
-            replayed->truth_has_headings);
+            replayed->simulated, replayed->truth_has_headings);
   add_error(out, "dead_reckoned", "Dead reckoning with the vehicle file", replayed->dead_reckoned_error,
-            replayed->truth_has_headings);
+            replayed->dead_reckoned, replayed->truth_has_headings);
   if (!replayed->truth_has_headings)
     out.sentences.push_back(
         "The truth has no headings: the heading of the start was found by laying the first metres onto it.");

@@ -127,6 +127,19 @@ TEST(DiagnosisJson, ErrorsThatATruthWithoutHeadingsDoesNotTellAreNull) {
   EXPECT_EQ(held_out["with_findings"]["position_rms_m"], 0.0019);
 }
 
+TEST(DiagnosisJson, SaysOverWhichWayErrorsAreGathered) {
+  Diagnosis diagnosis = test::diagnosis_by_hand();
+  EXPECT_FALSE(parsed(diagnosis)["fit"]["train"]["calibrated"].contains("window_m"));
+  diagnosis.train_over = WindowSize{24.0, 31.0};
+  diagnosis.held_out_over = WindowSize{1.03, 0.4};
+  const nlohmann::json json = parsed(diagnosis);
+  for (const auto& [entry, way_m] : {std::pair{json["fit"]["train"]["calibrated"], 24.0},
+                                     {json["fit"]["held_out"]["noise_floor"], 1.03},
+                                     {json["simulation"]["after"], 24.0}})
+    EXPECT_EQ(entry["window_m"], way_m);
+  EXPECT_EQ(json["fit"]["held_out"]["nominal"]["window_rad"], 0.4);
+}
+
 TEST(DiagnosisJson, AChanceBelowAllNumbersIsNotZero) {
   Diagnosis diagnosis = test::diagnosis_by_hand();
   diagnosis.findings[0].log_likelihood_gain = 6788.0;

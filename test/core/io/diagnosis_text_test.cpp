@@ -164,6 +164,24 @@ TEST(Findings, SayInWhichOfSeveralFormsTheyFitBest) {
   EXPECT_EQ(count(page, "each wheel that is on the patch"), 1u);
 }
 
+TEST(Proof, SaysOfATruthAtTheEndsAloneThatErrorsAreNotThoseOfAMetre) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.train_over = WindowSize{1.4, 0.6};
+  const auto said = [&] {
+    std::string all;
+    for (const std::string& line : summary_lines(d)) all += line + "\n";
+    return all;
+  };
+  EXPECT_NE(said().find("off over each metre or radian:"), std::string::npos) << said();
+  d.train_over = WindowSize{24.2, 30.7};
+  EXPECT_NE(said().find("off from one pose of the truth to the next, 24 m and 31 rad in the median:"),
+            std::string::npos)
+      << said();
+  const std::string page = diagnosis_report(d).text();
+  EXPECT_EQ(count(page, "gathered over one metre"), 0u);
+  EXPECT_EQ(count(page, "Position error from one pose of the truth to the next, 24 m"), 2u);  // drawn, and its name
+}
+
 // Of what has no name, and of a truth whose clock is off, no model has more than calibration has by itself.
 TEST(Findings, AreNoStepOfTheProofWhereNoneIsPutIntoTheModel) {
   Diagnosis d = test::diagnosis_by_hand();

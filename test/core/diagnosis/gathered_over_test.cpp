@@ -1,0 +1,36 @@
+#include "core/diagnosis/gathered_over.h"
+
+#include <gtest/gtest.h>
+
+#include "test/support/drive_generator.h"
+
+namespace odolab::test {
+namespace {
+
+// Straight out for 5 m, and back.
+Recording out_and_back(double truth_period_s) {
+  Random random(1);
+  GeneratorSettings g;
+  g.duration_s = 40.0;
+  g.truth_period_s = truth_period_s;
+  const double radps = 0.25 / g.drive.wheel_radius_left_m;
+  return generated(
+      g, [=](double t) { return t < 20.0 ? WheelSpeedsAt{radps, radps} : WheelSpeedsAt{-radps, -radps}; }, random);
+}
+
+TEST(GatheredOver, IsTheWholeDriveWhereTheTruthIsAtItsEndsAlone) {
+  const std::optional<WindowSize> whole = gathered_over({out_and_back(0.0)}, Vehicle{});
+  ASSERT_TRUE(whole);
+  EXPECT_NEAR(whole->way_m, 10.0, 0.1);
+  EXPECT_TRUE(whole->is_long());
+}
+
+TEST(GatheredOver, IsAMetreWhereTheTruthLooksOn) {
+  const std::optional<WindowSize> metre = gathered_over({out_and_back(0.05)}, Vehicle{});
+  ASSERT_TRUE(metre);
+  EXPECT_NEAR(metre->way_m, 1.0, 0.05);  // a window ends within a stride and a sample of its metre
+  EXPECT_FALSE(metre->is_long());
+}
+
+}  // namespace
+}  // namespace odolab::test
