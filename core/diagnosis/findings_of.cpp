@@ -90,6 +90,17 @@ void add_nearest(Finding& unknown, const std::vector<ScoredCandidate>& first_loo
     }
 }
 
+// Of what one wheel does by its angle, a look tells what no drive does.
+void look_at_the_wheel(Finding& unknown) {
+  const char* wheel = unknown.component == component_of(Wheel::left)    ? "left"
+                      : unknown.component == component_of(Wheel::right) ? "right"
+                                                                        : nullptr;
+  if (!wheel || unknown.where.regime.find(" that depends on its angle") == std::string::npos) return;
+  for (Alternative& a : unknown.alternatives)
+    if (a.component == unknown.component)
+      a.told_apart_by = std::string("a look at the ") + wheel + " wheel while it is turned by hand";
+}
+
 }  // namespace
 
 void leave_out_what_it_hardly_resembles(Finding& unknown) {
@@ -157,6 +168,7 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
       }
   if (unknown.alternatives.empty()) add_nearest(unknown, names.selected.first_look, family_wise_error);
   leave_out_what_it_hardly_resembles(unknown);
+  look_at_the_wheel(unknown);
   findings.insert(findings.begin(), std::move(unknown));
   return findings;
 }

@@ -32,7 +32,7 @@ std::string counted_in_words(std::size_t n, const char* what) {
 }
 
 // Of a number as it is written, how many digits stand behind its decimal point.
-int decimals_of(std::string_view cell) {
+int decimals_written(std::string_view cell) {
   const std::size_t e = cell.find_first_of("eE"), point = cell.substr(0, e).find_first_of(".,");
   const std::size_t end = std::min(e, cell.size());
   const int written = point < end ? static_cast<int>(end - point) - 1 : 0;
@@ -144,7 +144,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
       table.columns[i].push_back(*value);
     }
     std::vector<double>& time_s = table.columns[time_column];
-    decimals = std::max(decimals, decimals_of(cells[time_column]));
+    decimals = std::max(decimals, decimals_written(cells[time_column]));
     if (time_s.size() > 1 && time_s.back() < time_s[time_s.size() - 2] &&
         is_rounding(time_s[time_s.size() - 2], time_s.back(), decimals))
       time_s.back() = time_s[time_s.size() - 2];

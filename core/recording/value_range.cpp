@@ -21,7 +21,7 @@ constexpr Range kRanges[] = {{"_ticks", "counts", 2e19},
                              {"_rad", "rad", 1e9},
                              {"_m", "m", 1e8}};
 
-const Range* range_of(std::string_view channel) {
+const Range* physical_range(std::string_view channel) {
   for (const Range& range : kRanges)
     if (channel.ends_with(range.ending)) return &range;
   return nullptr;
@@ -30,12 +30,12 @@ const Range* range_of(std::string_view channel) {
 }  // namespace
 
 double largest_value(std::string_view channel) {
-  const Range* range = range_of(channel);
+  const Range* range = physical_range(channel);
   return range ? range->most : std::numeric_limits<double>::infinity();
 }
 
 std::string range_text(std::string_view channel) {
-  const Range* range = range_of(channel);
+  const Range* range = physical_range(channel);
   return range ? formatted("a number from -%g to %g (%s)", range->most, range->most, range->unit) : "a number";
 }
 

@@ -8,14 +8,17 @@
 #include <utility>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/base/parallel.h"
 #include "core/diagnosis/gathered_evidence.h"
+#include "core/diagnosis/generic/once_a_turn.h"
 #include "core/diagnosis/generic/unlike_recordings.h"
 #include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/moved_track.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/own_noise.h"
+#include "core/geometry/angles.h"
 
 namespace odolab {
 
@@ -206,6 +209,15 @@ std::string of_which_recordings(const GenericTest& group, const JointModel& with
   return unlike ? " (" + in_words(*unlike, names, per_metre) + ")" : "";
 }
 
+// What comes once a turn over a small part of it seems to waves to come twice.
+std::string variable_in_words(const GenericTest& group, const JointModel& without) {
+  if (const std::optional<WheelAngle> angle = angle_of(group))
+    if (const std::optional<double> part_rad = part_of_a_turn(without, angle->wheel, angle->turns))
+      return formatted("its angle, once a turn, over about %.0f degrees: a lump or a dent, or a slot of its encoder",
+                       degrees(*part_rad));
+  return group.variable;
+}
+
 // `with`: a model into which that group was let in last; `without`: that has neither it nor names.
 Unnamed unnamed_by(const GenericTest& group, const JointModel& with, const JointModel& without,
                    std::vector<Response> shape, double gain) {
@@ -213,7 +225,8 @@ Unnamed unnamed_by(const GenericTest& group, const JointModel& with, const Joint
   u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
   if (with.accepted.back().acts_on_motion()) u.moves = moved_between(without, with);
   u.component = group.component;
-  u.where.regime = group.channel + " that depends on " + group.variable + of_which_recordings(group, with);
+  u.where.regime =
+      group.channel + " that depends on " + variable_in_words(group, without) + of_which_recordings(group, with);
   u.where.zone = group.zone;
   u.gain = gain;
   u.p_value = group.p_value;

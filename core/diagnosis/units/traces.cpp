@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/naming/material.h"
+#include "core/diagnosis/units/component_names.h"
 #include "core/diagnosis/units/joint_errors.h"
 
 namespace odolab {

@@ -66,6 +66,9 @@ TEST(UnevenWheels, AreUnknownByAFlatThatResemblesOneOutOfRound) {
   const Finding& unknown = d->findings.front();
   EXPECT_EQ(unknown.where.regime.find("way of the right wheel per metre [1] that depends on its angle"), 0u)
       << unknown.where.regime;
+  EXPECT_NE(unknown.where.regime.find("its angle, once a turn, over about "), std::string::npos)
+      << unknown.where.regime;
+  EXPECT_EQ(d->next_drive, "a look at the right wheel while it is turned by hand");
   ASSERT_FALSE(unknown.alternatives.empty());
   EXPECT_EQ(unknown.alternatives.front().effect, "wheel_eccentricity");
   EXPECT_EQ(unknown.alternatives.front().component, "right_wheel");
