@@ -35,6 +35,22 @@ std::vector<AlignedClock> moved_clocks(const std::vector<Recording>& recordings,
   return moved_clocks(runs, model_of).value_or(std::vector<AlignedClock>{});
 }
 
+// One count of the encoder that is read most coarsely, on the floor; zero where readings are not rounded.
+double largest_count_m(const std::vector<Recording>& recordings, const Vehicle& vehicle) {
+  const auto* drive = std::get_if<DifferentialDrive>(&vehicle.kind);
+  double largest_rad = 0.0;
+  for (const Recording& recording : recordings)
+    if (drive)
+      if (const Result<InnovationRun> run = innovation_run(recording, vehicle))
+        largest_rad = std::max(largest_rad, count_rad(*run, *drive));
+  return drive ? largest_rad * std::max(drive->wheel_radius_left_m, drive->wheel_radius_right_m) : 0.0;
+}
+
+bool counts_are_a_long_way(double count_m, const FittedNoise& noise) {
+  constexpr double kLong_m = 0.005, kBeyondTruth = 3.0;
+  return count_m > kLong_m && count_m > kBeyondTruth * noise.truth_position_m;
+}
+
 // Of fewer samples of the truth, where its noise lasts from one to the next.
 Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Recording>& recordings,
                                                           const Vehicle& nominal, const LeastSquaresOptions& options,
@@ -93,10 +109,17 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   Result<LeastSquaresCalibration> of_fewer = clocks_are_off ? of_samples_apart(apart_s, options) : std::move(**found);
   if (!of_fewer) return of_fewer;
   of_fewer->truth_apart_s = apart_s;
-  of_fewer->warnings.push_back(formatted(
-      "the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths its poses or "
-      "joints round them: only samples %.2g s apart were used",
-      next(*all), apart_s));
+  // Wheels that stand between two counts are as far off at one sample of the truth as at the next.
+  const double count_m = largest_count_m(recordings, nominal);
+  of_fewer->warnings.push_back(
+      counts_are_a_long_way(count_m, of_fewer->noise)
+          ? formatted("what truth and wheels differ by lasts from sample to sample (correlation %.2f), as where whole "
+                      "counts hide where a wheel is, or a tracker smooths its poses: only samples %.2g s apart were "
+                      "used",
+                      next(*all), apart_s)
+          : formatted("the truth's noise lasts from sample to sample (correlation %.2f), as where a tracker smooths "
+                      "its poses or joints round them: only samples %.2g s apart were used",
+                      next(*all), apart_s));
   return of_fewer;
 }
 
@@ -123,6 +146,9 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
                                                ? calibrated_by_all(measured, turned, options, progress)
                                                : calibrated_by_white_truth(measured, turned, options, progress);
   if (!result) return result;
+  if (const double count_m = largest_count_m(measured, turned); counts_are_a_long_way(count_m, result->noise))
+    said.push_back(formatted("one count of the encoders is %.2g mm on the floor: of less than that they say nothing",
+                             1e3 * count_m));
   result->warnings.insert(result->warnings.begin(), said.begin(), said.end());
   for (ParameterEstimate& p : result->parameters)
     if (column::of_key(p.name) == column::mounting_heading) p.nominal = nominal.truth.axle_T_tracked.heading_rad;

@@ -11,17 +11,17 @@ namespace {
 
 constexpr const char* kRadius = "wheel_radius_";
 
-struct Times {
+struct SizeInWords {
   double times;
   const char *as_large, *counts;
 };
-constexpr Times kTimes[] = {{2.0, "twice", "half of"},
-                            {4.0, "four times", "a quarter of"},
-                            {0.5, "half", "twice"},
-                            {0.25, "a quarter", "four times"}};
+constexpr SizeInWords kTimes[] = {{2.0, "twice", "half of"},
+                                  {4.0, "four times", "a quarter of"},
+                                  {0.5, "half", "twice"},
+                                  {0.25, "a quarter", "four times"}};
 
-const Times& words_of(double times) {
-  return *std::find_if(std::begin(kTimes), std::end(kTimes), [&](const Times& t) { return t.times == times; });
+const SizeInWords& words_of(double times) {
+  return *std::find_if(std::begin(kTimes), std::end(kTimes), [&](const SizeInWords& t) { return t.times == times; });
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::vector<MiscountedWheel> miscounted_wheels(const LeastSquaresCalibration& ca
         std::find_if(all.begin(), all.end(), [&](const ParameterEstimate& q) { return q.name == other; });
     if (beside == all.end() || !beside->determined || std::abs(beside->value / beside->nominal - 1.0) > kOrdinary)
       continue;
-    for (const Times& t : kTimes)
+    for (const SizeInWords& t : kTimes)
       if (std::abs(p.value / (t.times * p.nominal) - 1.0) < kAlike)
         wheels.push_back({p.name, of + (left ? "left_wheel" : "right_wheel"), t.times});
   }

@@ -2,26 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/quantile.h"
 
 namespace odolab {
 
 std::vector<WindowSize> window_sizes(const Track& estimate, const TrackError& error) {
-  constexpr double kStride_m = 0.01, kStride_rad = 0.03;  // as windows are counted: what trembles does not travel
+  constexpr double kStride_m = 0.05, kStride_rad = 0.2;  // whole counts that come in turn are no way and no turn
   std::vector<WindowSize> sizes;
   for (const auto& [from_s, to_s] : error.window_s) {
     WindowSize size;
     auto at = std::lower_bound(estimate.begin(), estimate.end(), from_s,
                                [](const TimedPose& p, double t) { return p.time_s < t; });
-    for (auto counted = at; at != estimate.end() && at->time_s <= to_s; ++at) {
-      const double stride_m = length(at->pose.position() - counted->pose.position());
-      const double stride_rad = std::abs(wrapped(at->pose.heading_rad - counted->pose.heading_rad));
-      if (stride_m <= kStride_m && stride_rad <= kStride_rad) continue;
-      size.way_m += stride_m;
-      size.turn_rad += stride_rad;
-      counted = at;
+    double stride_m = 0.0, stride_rad = 0.0;
+    for (auto here = at, turned = at; at != estimate.end() && at->time_s <= to_s; ++at) {
+      stride_m = length(at->pose.position() - here->pose.position());
+      stride_rad = std::abs(wrapped(at->pose.heading_rad - turned->pose.heading_rad));
+      if (stride_m > kStride_m) size.way_m += std::exchange(stride_m, 0.0), here = at;
+      if (stride_rad > kStride_rad) size.turn_rad += std::exchange(stride_rad, 0.0), turned = at;
     }
+    size.way_m += stride_m;
+    size.turn_rad += stride_rad;
     sizes.push_back(size);
   }
   return sizes;

@@ -313,8 +313,8 @@ void add_proof(HtmlReport& report, const Diagnosis& d) {
   report.paragraph(
       "The error of the predicted pose, gathered " +
       (over.is_long() ? over_which_way(over) : "over one metre of travel or one turn of a radian from a true start") +
-      ", root mean square. Held-out recordings gave no name and no number: they may take a name away that they contradict, or show "
-      "that something is missing.");
+      ", root mean square. Held-out recordings gave no name and no number: they may take a name away that they "
+      "contradict, or show that something is missing.");
   if (!d.fitted_on.empty())
     report.paragraph("Fitted on " + list_of(d.fitted_on, "and") +
                      (d.held_out_runs.empty() ? "" : "; held out: " + list_of(d.held_out_runs, "and")) + ".");

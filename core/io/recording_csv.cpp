@@ -69,13 +69,13 @@ std::optional<std::pair<std::string, std::string>> without_partner(const std::ve
   return std::nullopt;
 }
 
-Result<Recording> read_recording_csv(const std::string& path, const Progress& progress, Values values) {
+Result<Recording> read_recording_csv(const std::string& path, const Progress& progress, AllowedValues values) {
   const auto cells_of = [](std::string_view name) {
     return is_recording_column(name) ? CsvCells::numbers_or_empty : CsvCells::anything;
   };
   const auto largest_of = [values](std::string_view name) {
-    return values == Values::of_a_robot && is_recording_column(name) ? largest_value(name)
-                                                                     : std::numeric_limits<double>::infinity();
+    return values == AllowedValues::of_a_robot && is_recording_column(name) ? largest_value(name)
+                                                                            : std::numeric_limits<double>::infinity();
   };
   Result<CsvTable> table = read_csv_table(path, {"time_s"}, cells_of, progress, largest_of);
   if (!table) return table.error();

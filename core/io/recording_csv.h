@@ -22,9 +22,9 @@ std::optional<std::pair<std::string, std::string>> without_partner(const std::ve
 
 // Errors name file, line and column, what was found and what was expected. The recording takes the file's name. Where
 // `progress` says stop the result is an Error.
-enum class Values { any, of_a_robot };  // of_a_robot: one beyond `largest_value` is an error
+enum class AllowedValues { any, of_a_robot };  // of_a_robot: one beyond `largest_value` is an error
 Result<Recording> read_recording_csv(const std::string& path, const Progress& progress = {},
-                                     Values values = Values::any);
+                                     AllowedValues values = AllowedValues::any);
 
 // Numbers read back to the same bits. A recording with problems is not written.
 Result<Done> write_recording_csv(const std::string& path, const Recording& recording);

@@ -30,8 +30,9 @@ std::string little_sentence(const Diagnosis& d) {
   }
   const MovedTrack all{std::sqrt(moved_m2), std::sqrt(moved_rad2)};
   if (all.position_rms_m > kLittle_m || all.heading_rms_rad > kLittle_rad) return "";
+  const bool is_of_a_metre = !d.train_over.value_or(WindowSize{}).is_long();
   return " It matters little: where it acts it moves each metre or radian by " + moved_text(all) +
-         (d.train.noise_floor && !d.train_over.value_or(WindowSize{}).is_long() ? ", in noise of " + figures_text(*d.train.noise_floor) : "") + ".";
+         (is_of_a_metre && d.train.noise_floor ? ", in noise of " + figures_text(*d.train.noise_floor) : "") + ".";
 }
 
 // Whether all that has no name is where the truth and the wheels part, in one stretch.

@@ -9,20 +9,17 @@ namespace odolab {
 
 namespace {
 
-struct Range {
+struct ColumnRange {
   std::string_view ending;
   const char* unit;
   double most;
 };
 
-constexpr Range kRanges[] = {{"_ticks", "counts", 2e19},
-                             {"_radps", "rad/s", 1e6},
-                             {"_mps", "m/s", 1e6},
-                             {"_rad", "rad", 1e9},
-                             {"_m", "m", 1e8}};
+constexpr ColumnRange kRanges[] = {
+    {"_ticks", "counts", 2e19}, {"_radps", "rad/s", 1e6}, {"_mps", "m/s", 1e6}, {"_rad", "rad", 1e9}, {"_m", "m", 1e8}};
 
-const Range* physical_range(std::string_view channel) {
-  for (const Range& range : kRanges)
+const ColumnRange* physical_range(std::string_view channel) {
+  for (const ColumnRange& range : kRanges)
     if (channel.ends_with(range.ending)) return &range;
   return nullptr;
 }
@@ -30,12 +27,12 @@ const Range* physical_range(std::string_view channel) {
 }  // namespace
 
 double largest_value(std::string_view channel) {
-  const Range* range = physical_range(channel);
+  const ColumnRange* range = physical_range(channel);
   return range ? range->most : std::numeric_limits<double>::infinity();
 }
 
 std::string range_text(std::string_view channel) {
-  const Range* range = physical_range(channel);
+  const ColumnRange* range = physical_range(channel);
   return range ? formatted("a number from -%g to %g (%s)", range->most, range->most, range->unit) : "a number";
 }
 

@@ -37,11 +37,10 @@ void add_error(RunOutputs& out, const std::string& who, const std::string& words
   out.figure(who + "_end_position_error_m", error->end_position_m);
   out.figure(who + "_end_heading_error_rad", std::abs(error->end_heading_rad));
   out.figure(who + "_largest_position_error_m", error->largest_position_m);
-  out.sentences.push_back(
-      text_of("%s: %.2f mm and %.3f degrees off %s; %.1f mm at the end, %.1f mm at most.", words.c_str(),
-              1e3 * error->position_rms_m, degrees(error->heading_rms_rad),
-              over_which_way(median_of(window_sizes(track, *error))).c_str(), 1e3 * error->end_position_m,
-              1e3 * error->largest_position_m));
+  out.sentences.push_back(text_of("%s: %.2f mm and %.3f degrees off %s; %.1f mm at the end, %.1f mm at most.",
+                                  words.c_str(), 1e3 * error->position_rms_m, degrees(error->heading_rms_rad),
+                                  over_which_way(median_of(window_sizes(track, *error))).c_str(),
+                                  1e3 * error->end_position_m, 1e3 * error->largest_position_m));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ Harmonics of_part(double width_rad) {
   return out;
 }
 
-double place_of(int i) { return 2.0 * kPi * i / kPlaces; }
+double angle_at(int i) { return 2.0 * kPi * i / kPlaces; }
 
 // Each turned to where it is likest to such a part, and all added up.
 Harmonics laid_over(const std::vector<Harmonics>& runs, const Harmonics& part, double sign) {
@@ -67,10 +67,10 @@ Harmonics laid_over(const std::vector<Harmonics>& runs, const Harmonics& part, d
   for (const Harmonics& run : runs) {
     int best = 0;
     for (int i = 1; i < kPlaces; ++i)
-      if (sign * product(later_in_the_turn(run, place_of(i)), part) >
-          sign * product(later_in_the_turn(run, place_of(best)), part))
+      if (sign * product(later_in_the_turn(run, angle_at(i)), part) >
+          sign * product(later_in_the_turn(run, angle_at(best)), part))
         best = i;
-    const Harmonics there = later_in_the_turn(run, place_of(best));
+    const Harmonics there = later_in_the_turn(run, angle_at(best));
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += there[k];
   }
   return sum;
@@ -82,9 +82,9 @@ double share_within_a_sixth(const Harmonics& shape) {
   for (int i = 0; i < kPlaces; ++i) {
     double value = 0.0;
     for (std::size_t k = 0; k < shape.size(); ++k)
-      value += (shape[k] * std::polar(1.0, -static_cast<double>(k + 1) * place_of(i))).real();
+      value += (shape[k] * std::polar(1.0, -static_cast<double>(k + 1) * angle_at(i))).real();
     all += value * value;
-    if (std::abs(wrapped(place_of(i))) <= kPi / 6.0 + 1e-9) within += value * value;
+    if (std::abs(wrapped(angle_at(i))) <= kPi / 6.0 + 1e-9) within += value * value;
   }
   return all > 0.0 ? within / all : 0.0;
 }

@@ -211,7 +211,7 @@ Result<ImportedRecording> load_recording(const std::string& path, const Progress
   if (is_foreign_recording(path)) return import_recording({path}, {}, progress);
   std::error_code failure;
   if (fs::is_directory(path, failure)) return folder_given(path);
-  Result<Recording> recording = read_recording_csv(path, progress, Values::of_a_robot);
+  Result<Recording> recording = read_recording_csv(path, progress, AllowedValues::of_a_robot);
   if (!recording) return recording.error();
   std::vector<std::string> warnings = unread_columns(*recording);
   std::erase_if(recording->channels, [&](const Channel& c) {

@@ -54,6 +54,33 @@ TEST(FewCountsATurn, AWheelThatTurnsInPlaceByFourCountsTellsTheWheelbase) {
   }
 }
 
+// 20 mm to a count, which a tracker looks at several times before the next.
+TEST(FewCountsATurn, AreSaidInMillimetresOfFloorAndTheTruthIsNotBlamedAlone) {
+  DifferentialDrive drive;
+  drive.wheel_radius_left_m = drive.wheel_radius_right_m = 0.0625;
+  drive.wheelbase_m = 0.42;
+  const auto warnings = [&](double counts_per_turn) {
+    drive.encoder_counts_per_revolution = counts_per_turn;
+    Random random(5);
+    GeneratorSettings g = under_motion_capture(drive, 0.0006, 0.01);
+    g.duration_s = 60.0;
+    const std::vector<Recording> recordings = three_runs(
+        g, random, [&](int) { return varied_driving(random, g.duration_s); },
+        [](int) { return std::function<void(InjectedStep&)>(); });
+    Vehicle vehicle;
+    vehicle.kind = drive;
+    const Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, vehicle);
+    std::string all;
+    for (const std::string& w : found ? found->warnings : std::vector<std::string>{"none"}) all += w + "\n";
+    return all;
+  };
+  const std::string coarse = warnings(20.0), fine = warnings(2000.0);
+  EXPECT_NE(coarse.find("one count of the encoders is 20 mm on the floor"), std::string::npos) << coarse;
+  EXPECT_EQ(coarse.find("the truth's noise lasts"), std::string::npos) << coarse;
+  EXPECT_NE(coarse.find("as where whole counts hide where a wheel is"), std::string::npos) << coarse;
+  EXPECT_EQ(fine.find("one count of the encoders"), std::string::npos) << fine;
+}
+
 // Each reading is a count too long or too short, of two or three: a noise that went by what is read would believe those
 // that are short, and radii came out 2e-3 too large.
 TEST(FewCountsATurn, RadiiAreNotLargerWhereReadingsAreTwoCountsLong) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "test/support/drive_generator.h"
 
 namespace odolab::test {
@@ -15,7 +17,11 @@ Recording out_and_back(double truth_period_s) {
   g.truth_period_s = truth_period_s;
   const double radps = 0.25 / g.drive.wheel_radius_left_m;
   return generated(
-      g, [=](double t) { return t < 20.0 ? WheelSpeedsAt{radps, radps} : WheelSpeedsAt{-radps, -radps}; }, random);
+      g,
+      [=](double t) {
+        return t < 20.0 ? WheelSpeedsAt{radps, radps} : WheelSpeedsAt{-radps, -radps};
+      },
+      random);
 }
 
 TEST(GatheredOver, IsTheWholeDriveWhereTheTruthIsAtItsEndsAlone) {
@@ -23,6 +29,19 @@ TEST(GatheredOver, IsTheWholeDriveWhereTheTruthIsAtItsEndsAlone) {
   ASSERT_TRUE(whole);
   EXPECT_NEAR(whole->way_m, 10.0, 0.1);
   EXPECT_TRUE(whole->is_long());
+}
+
+// Twenty counts a turn: 24 mm of floor to a count, which come on one wheel and then on the other.
+TEST(GatheredOver, IsNoTurnWhereCoarseCountsComeOnOneWheelAfterTheOther) {
+  Recording coarse = out_and_back(0.05);
+  for (Channel& c : coarse.channels)
+    if (c.name.find("_wheel_rad") != std::string::npos)
+      for (double& angle : c.values)
+        if (!std::isnan(angle)) angle = kPi / 10.0 * std::floor(10.0 / kPi * angle + (c.name[0] == 'l' ? 0.0 : 0.5));
+  const std::optional<WindowSize> metre = gathered_over({coarse}, Vehicle{});
+  ASSERT_TRUE(metre);
+  EXPECT_NEAR(metre->way_m, 1.0, 0.1);
+  EXPECT_LT(metre->turn_rad, 0.5);
 }
 
 TEST(GatheredOver, IsAMetreWhereTheTruthLooksOn) {

@@ -189,7 +189,7 @@ TEST(RecordingCsv, IsRefusedWithAValueThatNoRobotHas) {
 
 TEST(RecordingCsv, SendsNoBytesToTheTerminalThatItCannotShow) {
   EXPECT_EQ(complaint_of_recording("\xEA\xF5\x1B[2J,\xC2\x9Bm,\xC2\xB5m\n0,1,2\n"),
-            "run.csv:1: found the columns '??[2J', '?m', '\xC2\xB5m', expected a column 'time_s'; odolab import --map "
+            "run.csv:1: found the columns '???[2J', '?m', '\xC2\xB5m', expected a column 'time_s'; odolab import --map "
             "reads other names");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,\xFF\x80\x1B\n"),
             "run.csv:2: right_ticks: found '???', expected a number");
