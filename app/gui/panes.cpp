@@ -12,9 +12,9 @@ constexpr ImGuiWindowFlags kPane = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoNavFocus;
 
 // Of the width, for both panes beside the middle, a floor or a guide's page.
-constexpr float kMostAside = 0.68f, kMostBesidePage = 0.58f, kLeastLeft = 0.27f;
-constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;      // heights at scale 1
-constexpr float kLeastMiddleWidth = 380.0f, kLeastRight = 240.0f;  // widths at scale 1
+constexpr float kMostAside = 0.70f, kMostBesidePage = 0.58f, kLeastLeft = 0.27f;
+constexpr float kLeastMiddle = 250.0f, kLeastBottom = 130.0f;            // heights at scale 1
+constexpr float kLeastMiddleWidth = 380.0f, kLeastRightOfPage = 240.0f;  // widths at scale 1
 
 }  // namespace
 
@@ -28,10 +28,13 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on
                            : 0.0f;
   float left = state.choices.hide_interface ? 0.0f : theme.px(float(state.left_width));
   float right = state.choices.hide_interface ? 0.0f : theme.px(float(state.right_width));
-  // The middle is what people look at: what stands to the right of it, numbers, gives way first.
+  // The middle is what people look at: the panes beside it give way, what stands to the right of it first, but not
+  // below what their numbers need; a guide's page needs no such room beside it.
+  const float needed = on_page ? 0.0f : theme.px(kLeftNeeds + kRightNeeds);
   const float most = std::min((on_page ? kMostBesidePage : kMostAside) * screen.x,
-                              std::max(0.5f * screen.x, screen.x - theme.px(kLeastMiddleWidth)));
-  right = std::round(std::min(right, std::max(most - left, std::min(right, theme.px(kLeastRight)))));
+                              std::max({0.5f * screen.x, screen.x - theme.px(kLeastMiddleWidth), needed}));
+  const float least_right = theme.px(on_page ? kLeastRightOfPage : kRightNeeds);
+  right = std::round(std::min(right, std::max(most - left, std::min(right, least_right))));
   left = std::round(std::min(left, std::max(most - right, kLeastLeft * screen.x)));
   right = std::round(std::min(right, std::max(0.0f, most - left)));
   const float begin = top, height = std::max(40.0f, screen.y - begin - bottom);
@@ -47,14 +50,19 @@ Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on
   return l;
 }
 
-void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background, bool above) {
+void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background, bool above,
+                float needs) {
   ImGui::SetNextWindowPos(low);
   ImGui::SetNextWindowSize(size);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const bool sideways = size.x < needs;
+  if (sideways) ImGui::SetNextWindowContentSize({needs - 2.0f * style.WindowPadding.x - style.ScrollbarSize, 0.0f});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, background);
   if (!padded) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   ImGuiWindowFlags flags = kPane;
   if (scrolls) flags &= ~ImGuiWindowFlags_NoScrollbar;
+  if (sideways) flags |= ImGuiWindowFlags_HorizontalScrollbar;
   if (above) flags = (flags & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing;
   ImGui::Begin(name, nullptr, flags);
   ImGui::PopStyleVar(padded ? 1 : 2);

@@ -15,9 +15,13 @@ struct Layout {
 };
 Layout lay_out(const ScreenState& state, ImVec2 screen, bool has_bottom, bool on_page, const ui::Theme& theme);
 
-// Opens a pane, `above` the others where it lies over one; end with ImGui::End().
+// How wide a pane must be for the widest row of numbers of its panels, at scale 1.
+constexpr float kLeftNeeds = 288.0f, kRightNeeds = 274.0f;
+
+// Opens a pane, `above` the others where it lies over one; end with ImGui::End(). One that is narrower than it needs is
+// scrolled sideways.
 void begin_pane(const char* name, ImVec2 low, ImVec2 size, bool padded, bool scrolls, ImU32 background,
-                bool above = false);
+                bool above = false, float needs = 0.0f);
 
 // An edge between panes that is dragged; `value` is at scale 1 and grows with `grows_with` times the mouse's way.
 void splitter(const char* id, ImVec2 low, ImVec2 size, bool vertical, double& value, double grows_with, double least,

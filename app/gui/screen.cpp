@@ -158,7 +158,11 @@ Actions centre_pane(const Session& session, ScreenState& state, const Simulation
     case ui::Mode::drive:
       return ui::floor_view(drive_scene(session, shown, theme, state.estimators.shown), state.drive_floor, theme);
     case ui::Mode::calibrate:
-      if (session.guide().shown()) return ui::guide_page(guide_of(session), state.guide, theme);
+      if (session.guide().shown()) {
+        Actions actions = ui::guide_page(guide_of(session), state.guide, theme);
+        if (std::exchange(state.guide.ask_for_file, false)) state.choices.show_open = true;
+        return actions;
+      }
       ui::cluster_panel(bench_of(session), state.clusters, theme);
       return {};
     case ui::Mode::compare:
@@ -251,12 +255,16 @@ Actions draw_screen(const Session& session, ScreenState& state, const Theme& the
     ImGui::End();
 
     const char* left_names[] = {"left drive", "left calibrate", "left compare", "left diagnose", "left learn"};
-    begin_pane(left_names[int(session.mode())], l.left_low, l.left_size, true, true, theme.panel);
+    const bool left_wraps = on_page || session.mode() == ui::Mode::learn;
+    begin_pane(left_names[int(session.mode())], l.left_low, l.left_size, true, true, theme.panel, false,
+               left_wraps ? 0.0f : theme.px(kLeftNeeds));
     append(actions, left_pane(session, state, theme));
     ImGui::End();
 
     const char* right_names[] = {"right drive", "right calibrate", "right compare", "right diagnose", "right learn"};
-    begin_pane(right_names[int(session.mode())], l.right_low, l.right_size, true, true, theme.panel);
+    const bool right_wraps = on_page || session.mode() == ui::Mode::diagnose;
+    begin_pane(right_names[int(session.mode())], l.right_low, l.right_size, true, true, theme.panel, false,
+               right_wraps ? 0.0f : theme.px(kRightNeeds));
     append(actions, right_pane(session, state, shown, theme));
     ImGui::End();
 

@@ -74,7 +74,9 @@ Guide umbmark_guide() {
                  "Five squares each way make two clouds. Their centres are what is systematic; their width is chance."),
        {PageTask::result,
         "The result",
-        {"What the two clouds say about the robot, each number with its uncertainty and the setting it goes into."},
+        {"What the two clouds say about the robot, each number with its uncertainty and the setting it goes into.",
+         "They are fitted to the exact path of the square; the report's formulas (Eqs. 6.22 and 6.26), which are good "
+         "for small errors, differ from them in the third digit."},
         {"Put these numbers into the robot before going on."},
         {}},
        runs_page(PageTask::again, "Once more",

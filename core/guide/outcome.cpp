@@ -15,7 +15,7 @@ namespace {
 
 double relative(double stderr_value, double value) { return value == 0.0 ? 0.0 : stderr_value / value; }
 
-// Radii and wheelbase with what the squares and the tape leave uncertain.
+// Diameters and wheelbase with what the squares and the tape leave uncertain.
 std::vector<Setting> drive_settings(const DifferentialDrive& before, const DifferentialDrive& after,
                                     const std::optional<UmbmarkCalibration>& squares,
                                     const std::optional<ScaleCalibration>& scale) {
@@ -29,10 +29,14 @@ std::vector<Setting> drive_settings(const DifferentialDrive& before, const Diffe
   const double of_wheelbase =
       squares ? std::hypot(relative(squares->wheelbase_ratio_stderr, squares->wheelbase_ratio), scale_error) : 0.0;
   std::vector<Setting> settings(3);
-  settings[0] = {"radius of the left wheel", "wheel_radius_left_m",     "left_wheel_radius_multiplier",     "m",
-                 before.wheel_radius_left_m, after.wheel_radius_left_m, of_left * after.wheel_radius_left_m};
-  settings[1] = {"radius of the right wheel", "wheel_radius_right_m",     "right_wheel_radius_multiplier",      "m",
-                 before.wheel_radius_right_m, after.wheel_radius_right_m, of_right * after.wheel_radius_right_m};
+  const auto diameter = [](const char* words, const char* key, const char* ros2, double before_m, double after_m,
+                           double error) {
+    return Setting{words, key, ros2, "m", 2.0 * before_m, 2.0 * after_m, 2.0 * error * after_m, true, true};
+  };
+  settings[0] = diameter("diameter of the left wheel", "wheel_radius_left_m", "left_wheel_radius_multiplier",
+                         before.wheel_radius_left_m, after.wheel_radius_left_m, of_left);
+  settings[1] = diameter("diameter of the right wheel", "wheel_radius_right_m", "right_wheel_radius_multiplier",
+                         before.wheel_radius_right_m, after.wheel_radius_right_m, of_right);
   settings[2] = {"wheelbase",        "wheelbase_m",     "wheel_separation_multiplier",   "m",
                  before.wheelbase_m, after.wheelbase_m, of_wheelbase * after.wheelbase_m};
   settings[2].determined = squares.has_value();
@@ -116,11 +120,13 @@ void squares_outcome(GuideOutcome& out, const GuideSession& session) {
                   degrees(out.extended->systematic_bias_counter_clockwise_rad)));
     return;
   }
-  if (out.scale)
+  const double rolls_more = out.scale ? 1.0 / out.scale->scaling_error - 1.0 : 0.0;
+  if (out.scale && std::abs(rolls_more) < 0.5e-4)  // 0.00 %
+    out.sentences.push_back("The robot has gone as far as it believes: both wheels roll as believed.");
+  else if (out.scale)
     out.sentences.push_back(formatted(
         "The robot believes to have gone %.3f times as far as it has: both wheels roll %.2f %% %s than believed.",
-        out.scale->scaling_error, 100.0 * std::abs(1.0 / out.scale->scaling_error - 1.0),
-        out.scale->scaling_error > 1.0 ? "less" : "more"));
+        out.scale->scaling_error, 100.0 * std::abs(rolls_more), rolls_more < 0.0 ? "less" : "more"));
   else
     out.warnings.push_back("No tape was read: a scale that both wheels share is not in these numbers.");
   if (out.rounds.empty()) return;
@@ -134,10 +140,9 @@ void squares_outcome(GuideOutcome& out, const GuideSession& session) {
   tell_accuracy(out);
   // Driven rounds carry the corrections; before there is one, the first round's own calibration.
   const bool applied = session.rounds.size() > 1;
-  const std::size_t found_in = applied ? session.rounds.size() - 2 : 0;
+  const std::size_t found_in = std::min(applied ? session.rounds.size() - 2 : 0, out.rounds.size() - 1);
   const DifferentialDrive after = applied ? session.rounds.back().nominal : out.rounds.front().calibration->corrected;
-  out.settings =
-      drive_settings(*given, after, out.rounds[std::min(found_in, out.rounds.size() - 1)].calibration, out.scale);
+  out.settings = drive_settings(session.rounds[found_in].nominal, after, out.rounds[found_in].calibration, out.scale);
   out.calibrated = session.vehicle;
   out.calibrated->kind = after;
 }

@@ -14,14 +14,15 @@ namespace odolab {
 
 // One number to put into the robot.
 struct Setting {
-  std::string words;  // "diameter of the left wheel"
-  std::string key;    // of the vehicle file: "wheel_radius_left_m"
-  std::string ros2;   // of ROS 2's diff_drive_controller; empty where it has none
-  std::string unit;   // of the three numbers, SI
-  double before = 0.0;
+  std::string words;    // "diameter of the left wheel"
+  std::string key;      // of the vehicle file: "wheel_radius_left_m"
+  std::string ros2;     // of ROS 2's diff_drive_controller; empty where it has none
+  std::string unit;     // of the three numbers, SI
+  double before = 0.0;  // what the robot had on the drives that the value was found from
   double value = 0.0;
-  double stderr_value = 0.0;  // 0: unknown
-  bool determined = true;     // false: the drives say nothing about it, it keeps its value
+  double stderr_value = 0.0;   // 0: unknown
+  bool determined = true;      // false: the drives say nothing about it, it keeps its value
+  bool file_has_half = false;  // these are diameters, and the key is that of a radius
 };
 
 // What one round of squares says.

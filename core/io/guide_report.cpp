@@ -20,7 +20,7 @@ void add_settings(HtmlReport& report, const GuideOutcome& outcome) {
   for (const Setting& s : outcome.settings) {
     std::vector<std::string> row{s.words, quantity_text(s.before, 0.0, s.unit),
                                  s.determined ? quantity_text(s.value, s.stderr_value, s.unit) : "not determined",
-                                 s.key};
+                                 s.file_has_half ? s.key + " (half)" : s.key};
     if (any_ros2) row.push_back(s.ros2);
     rows.push_back(row);
   }
@@ -40,9 +40,9 @@ void add_rounds(HtmlReport& report, const GuideSession& session, const GuideOutc
   const auto table = [&](const GuideRound& round, const std::string& title) {
     if (round.runs.empty()) return;
     report.heading(title);
-    report.paragraph("Driven with a left wheel radius of " +
-                     number_text("%.4f", 1e3 * round.nominal.wheel_radius_left_m) + " mm, a right one of " +
-                     number_text("%.4f", 1e3 * round.nominal.wheel_radius_right_m) + " mm and a wheelbase of " +
+    report.paragraph("Driven with a left wheel diameter of " +
+                     number_text("%.3f", 2e3 * round.nominal.wheel_radius_left_m) + " mm, a right one of " +
+                     number_text("%.3f", 2e3 * round.nominal.wheel_radius_right_m) + " mm and a wheelbase of " +
                      number_text("%.3f", 1e3 * round.nominal.wheelbase_m) + " mm.");
     const std::vector<bool> marked = misfits(round);
     std::vector<std::vector<std::string>> rows;

@@ -86,6 +86,14 @@ TEST_F(GuidePagesTest, GoingOnToTheSecondSquaresBeginsARoundWithTheCorrectedSett
   EXPECT_NE(next->session.rounds[1].nominal.wheelbase_m, session.rounds[0].nominal.wheelbase_m);
 }
 
+TEST_F(GuidePagesTest, AVehicleFileIsOpenedByAButtonOfTheFirstPage) {
+  at(PageTask::robot);
+  session.real_robot = true;
+  screen.picture(draw);
+  for (float y = 100; y < 600 && !state.ask_for_file; y += 6) screen.click({60, y}, draw);
+  EXPECT_TRUE(state.ask_for_file);
+}
+
 TEST_F(GuidePagesTest, EveryPageOfEveryGuideDrawsEmptyLoadedAndInTrouble) {
   for (const Guide& guide : guides())
     for (const bool real : {true, false})

@@ -88,5 +88,53 @@ TEST_F(NumberFieldTest, TypedAsItWasConfirmsNothing) {
   EXPECT_EQ(done, 0);
 }
 
+TEST_F(NumberFieldTest, TakesWhatIsTypedAfterOneClick) {
+  screen.pause(draw);
+  screen.click({60, 20}, draw, {0, 0}, size);
+  screen.type("7.5", draw, {0, 0}, size);
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value, 7.5);
+  EXPECT_EQ(done, 1);
+}
+
+// Two fields below each other.
+class TwoNumberFieldsTest : public ::testing::Test {
+ protected:
+  TwoNumberFieldsTest() { screen.picture(draw, {0, 0}, size); }
+
+  HeadlessScreen screen;
+  const ImVec2 size{300, 200};
+  double value[2] = {4.0, 5.0};
+  int done[2] = {0, 0};
+  std::function<void()> draw = [this] {
+    done[0] += number_field({"##a", kMetres, 0.1, 20.0, ""}, value[0], 120.0f, screen.theme) == Edited::done;
+    done[1] += number_field({"##b", kMetres, 0.1, 20.0, ""}, value[1], 120.0f, screen.theme) == Edited::done;
+  };
+};
+
+TEST_F(TwoNumberFieldsTest, TabConfirmsTheOneAndGoesOnToTheNext) {
+  screen.click({60, 20}, draw, {0, 0}, size);
+  screen.type("7", draw, {0, 0}, size);
+  screen.press_key(ImGuiKey_Tab, draw, {0, 0}, size);
+  screen.picture(draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value[0], 7.0);
+  EXPECT_EQ(done[0], 1);
+  screen.type("8", draw, {0, 0}, size);
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_DOUBLE_EQ(value[0], 7.0);
+  EXPECT_DOUBLE_EQ(value[1], 8.0);
+  EXPECT_EQ(done[0], 1);
+  EXPECT_EQ(done[1], 1);
+}
+
+TEST_F(TwoNumberFieldsTest, TabPastANumberThatStaysConfirmsNothing) {
+  screen.click({60, 20}, draw, {0, 0}, size);
+  screen.press_key(ImGuiKey_Tab, draw, {0, 0}, size);
+  screen.picture(draw, {0, 0}, size);
+  screen.press_key(ImGuiKey_Enter, draw, {0, 0}, size);
+  EXPECT_EQ(done[0], 0);
+  EXPECT_EQ(done[1], 0);
+}
+
 }  // namespace
 }  // namespace odolab::ui

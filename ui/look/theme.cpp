@@ -126,6 +126,7 @@ void apply(const Theme& t) {
   c[ImGuiCol_NavHighlight] = vec(t.sky);
   c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.25f};
   ImGui::GetStyle() = style;
+  ImGui::GetIO().ConfigDragClickToInputText = true;
 }
 
 WithFont::WithFont(ImFont* font) : pushed_(font != nullptr) {

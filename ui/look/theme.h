@@ -48,7 +48,7 @@ struct Theme {
 
 Theme make_theme(bool dark, float scale);
 
-// Makes ImGui's own widgets look like the theme.
+// Makes ImGui's own widgets look like the theme, and a click on a number begin to type it.
 void apply(const Theme& theme);
 
 // The same colour, `alpha` times as opaque.

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/base/formatted.h"
+#include "ui/look/figure_table.h"
 
 namespace odolab::ui {
 
@@ -23,6 +24,12 @@ struct FieldInHand {
 FieldInHand& field_in_hand() {
   static FieldInHand hand;
   return hand;
+}
+
+// The one that Tab has just led away from: it hears of it when it is drawn next.
+FieldInHand& field_just_left() {
+  static FieldInHand left;
+  return left;
 }
 
 // Digits, signs and points alone; a comma counts as the point that it is on many keyboards.
@@ -59,6 +66,11 @@ std::size_t fitting_part(const std::string& word, float width) {
     if (word[i - 1] == '/' && i > 1) to_slash = i;
   }
   return to_slash > 0 ? to_slash : letters > 0 ? letters : word.size();
+}
+
+// That a number takes in a field, with its unit and a little air.
+float width_of(double value_si, const Unit& unit) {
+  return ImGui::CalcTextSize(shown(value_si, unit).c_str()).x + 0.5f * ImGui::GetStyle().FramePadding.x;
 }
 
 // Beside the item before it, so that neither it nor its neighbours are covered.
@@ -144,10 +156,13 @@ std::optional<int> segmented(const char* id, const std::vector<std::string>& lab
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   std::vector<float> widths;
   float total = 0.0f;
+  std::vector<float> needs;
   for (const std::string& label : labels) {
+    needs.push_back(ImGui::CalcTextSize(label.c_str()).x + theme.px(6));
     widths.push_back(width > 0.0f ? width / float(labels.size()) : ImGui::CalcTextSize(label.c_str()).x + 2.0f * pad);
-    total += widths.back();
   }
+  if (width > 0.0f) widths = column_widths(width, widths, needs);
+  for (const float part : widths) total += part;
   draw.AddRectFilled(at, {at.x + total, at.y + height}, theme.hovered, theme.px(5));
   float x = at.x;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -252,7 +267,11 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
   const bool bounded = field.least < field.most;
   const double least = field.least * field.unit.per_si, most = field.most * field.unit.per_si;
   char format[32];
-  const std::string unit = field.unit.name;
+  std::string unit = field.unit.name;
+  // A number is never cut: where there is no room for it, its unit goes.
+  const float room = width > 0.0f ? width : ImGui::GetContentRegionAvail().x + width;
+  const bool bare = unit != "×" && width_of(value_si, field.unit) > room;
+  if (bare) unit.clear();
   const char* gap = unit.empty() || unit == "°" ? "" : " ";
   if (unit == "×")
     std::snprintf(format, sizeof format, "×%%.%df", field.unit.decimals);
@@ -267,7 +286,10 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
   const bool changed = ImGui::DragScalar(field.id, ImGuiDataType_Double, &value, float(field.unit.drag),
                                          bounded ? &least : nullptr, bounded ? &most : nullptr, format);
   ImGui::EndDisabled();
-  if (ImGui::IsItemActivated()) hand = {id, before_si, false};
+  if (ImGui::IsItemActivated()) {
+    if (hand.id != 0 && hand.id != id) field_just_left() = hand;
+    hand = {id, before_si, false};
+  }
   if (changed) {
     hand.outside = bounded && (value < least || value > most);
     value_si = (bounded ? std::clamp(value, least, most) : value) / field.unit.per_si;
@@ -285,16 +307,28 @@ Edited number_field(const NumberField& field, double& value_si, float width, con
     }
     hand.id = 0;
   }
+  if (FieldInHand& left = field_just_left(); left.id == id) {
+    if (value_si != left.before_si) result = Edited::done;
+    if (left.outside) said_until_s = float(ImGui::GetTime()) + 6.0f;
+    left.id = 0;
+  }
   const bool outside_now = hand.id == id && ImGui::IsItemActive() && hand.outside;
   if (outside_now || float(ImGui::GetTime()) < said_until_s)
     words_under_item("from " + shown(field.least, field.unit) + " to " + shown(field.most, field.unit), theme);
   else if (!ImGui::IsItemActive())
-    tooltip_beside(field.tip.empty() ? "" : field.tip + "\n\nDrag to change, double click to type.", theme);
+    tooltip_beside(field.tip.empty() ? ""
+                                     : field.tip + (bare ? std::string("\nIn ") + field.unit.name + "." : "") +
+                                           "\n\nClick to type, drag to change; Tab goes on to the next.",
+                   theme);
   return result;
 }
 
 Edited number_row(const char* label, const NumberField& field, double& value_si, const Theme& theme) {
-  const float width = ImGui::GetContentRegionAvail().x, left = std::round(width * kLabelShare);
+  const float width = ImGui::GetContentRegionAvail().x;
+  // A long label gets what its number can spare.
+  const float longest = ImGui::CalcTextSize(label).x + theme.px(8);
+  const float most = std::max(width * kLabelShare, width - width_of(value_si, field.unit) - theme.px(8));
+  const float left = std::round(std::clamp(longest, width * kLabelShare, most));
   const float x = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(fitted(label, left - theme.px(4)).c_str());
@@ -312,6 +346,7 @@ Edited count_row(const char* label, const char* id, int& value, int least, int m
 }
 
 void text_right(const std::string& text, ImU32 colour) {
+  needs_width(ImGui::CalcTextSize(text.c_str()).x);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);

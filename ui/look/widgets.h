@@ -52,8 +52,9 @@ void warning(const std::string& text, const Theme& theme);
 // value than before.
 enum class Edited { no, changing, done };
 
-// A number that is dragged or, after a double click, typed; bounds are SI and may be equal for none. A number typed
-// outside of them is brought to the nearest bound, and a note under the field says so. Escape brings the old one back.
+// A number that is typed after a click, or dragged; Tab goes on to the next. Bounds are SI and may be equal for none. A
+// number typed outside of them is brought to the nearest bound, and a note under the field says so. Escape brings the
+// old one back.
 struct NumberField {
   const char* id;
   Unit unit;

@@ -5,6 +5,7 @@
 
 #include "core/base/formatted.h"
 #include "core/guide/rest.h"
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -12,7 +13,7 @@ namespace odolab::ui {
 namespace {
 
 // A step of the guide with its number in a disc: done, under way, or still to come.
-void step_heading(int number, const char* words, bool done, bool now, const Theme& theme) {
+void step_heading(int number, const char* title, bool done, bool now, const Theme& theme) {
   ImGui::Dummy({1, theme.px(3)});
   const float side = ImGui::GetFrameHeight() * 0.95f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -30,16 +31,12 @@ void step_heading(int number, const char* words, bool done, bool now, const Them
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5f * (side - ImGui::GetTextLineHeight()));
   WithFont strong(theme.strong);
-  ImGui::PushStyleColor(ImGuiCol_Text, now || done ? theme.ink : theme.muted);
-  ImGui::TextUnformatted(words);
-  ImGui::PopStyleColor();
+  words(title, now || done ? theme.ink : theme.muted);
 }
 
 void run_table(const BenchExperiment& experiment, const Theme& theme) {
   const Unit mm{"", 1e3, 1, 0.0}, deg{"°", kDegrees.per_si, 2, 0.0};
-  if (!ImGui::BeginTable("runs", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.7f, 1.0f, 1.0f, 1.0f})
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  if (!begin_figures("runs", {0.7f, 1.0f, 1.0f, 1.0f}, ImGuiTableFlags_BordersInnerH)) return;
   ImGui::TableNextRow();
   for (const char* title : {"run", "x mm", "y mm", "heading"}) {
     ImGui::TableNextColumn();
@@ -62,9 +59,7 @@ void run_table(const BenchExperiment& experiment, const Theme& theme) {
     for (int number = 1; arrived < errors.size() || number <= most_lost; ++number) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::PushStyleColor(ImGuiCol_Text, colour);
-      ImGui::Text("%s %d", clockwise ? "cw" : "ccw", number);
-      ImGui::PopStyleColor();
+      figure_label(formatted("%s %d", clockwise ? "cw" : "ccw", number), colour);
       ImGui::TableNextColumn();
       if (is_lost(number)) {
         text_right("lost", theme.error);
@@ -82,7 +77,7 @@ void run_table(const BenchExperiment& experiment, const Theme& theme) {
   };
   rows(experiment.runs.clockwise, true, theme.orange);
   rows(experiment.runs.counter_clockwise, false, theme.blue);
-  ImGui::EndTable();
+  end_figures();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -14,6 +15,7 @@ void figure_row(const char* label, const std::string& value, const std::string& 
   ImGui::TextUnformatted(label);
   tooltip(tip, theme);
   ImGui::SameLine();
+  if (ImGui::CalcTextSize(value.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
   text_right(value, colour ? colour : theme.ink);
 }
 
@@ -39,9 +41,7 @@ void measure_block(const BenchExperiment& e, const Theme& theme) {
 void change_table(const BenchExperiment& e, const ActualDrive& actual, const Theme& theme) {
   const UmbmarkCalibration& c = *e.calibration;
   const Unit mm{"", 1e3, 3, 0.0}, base{"", 1e3, 2, 0.0};
-  if (!ImGui::BeginTable("change", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.86f, 1.0f, 1.0f, 1.0f})
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  if (!begin_figures("change", {0.86f, 1.0f, 1.0f, 1.0f}, ImGuiTableFlags_BordersInnerH)) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextDisabled("mm");
@@ -56,7 +56,7 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
   const auto row = [&](const char* label, double before, double after, double truth, const Unit& unit) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(label);
+    figure_label(label, theme.ink);
     ImGui::TableNextColumn();
     text_right(shown(before, unit), theme.muted);
     ImGui::TableNextColumn();
@@ -69,7 +69,7 @@ void change_table(const BenchExperiment& e, const ActualDrive& actual, const The
   row("Ø right", 2 * e.vehicle.wheel_radius_right_m, 2 * c.corrected.wheel_radius_right_m,
       2 * actual.wheel_radius_right_m, mm);
   row("base", e.vehicle.wheelbase_m, c.corrected.wheelbase_m, actual.wheelbase_m, base);
-  ImGui::EndTable();
+  end_figures();
 }
 
 void one_direction_block(const BenchExperiment& e, const Theme& theme) {
@@ -119,7 +119,11 @@ void calibration_result_panel(const Bench& bench, const Theme& theme) {
     const double before = first.measure->largest_systematic_error_m, after = last.measure->largest_systematic_error_m;
     {
       WithFont large(theme.large);
-      ImGui::TextUnformatted((shown(before, kMillimetres) + " → " + shown(after, kMillimetres)).c_str());
+      const std::string from = shown(before, kMillimetres), to = " → " + shown(after, kMillimetres);
+      ImGui::TextUnformatted(from.c_str());
+      ImGui::SameLine(0.0f, 0.0f);
+      if (ImGui::CalcTextSize(to.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
+      ImGui::TextUnformatted(to.c_str());
     }
     if (const double times = std::max(before, after) / std::min(before, after); std::isfinite(times))
       note("Emax,syst, " + shown(times, {"", 1.0, times < 10 ? 1 : 0, 0.0}) +

@@ -179,9 +179,13 @@ void cluster_panel(const Bench& bench, ClusterState& state, const Theme& theme) 
     WithFont strong(theme.strong);
     ImGui::TextUnformatted("Return position errors");
   }
+  const char* what = "true minus calculated, after each square";
   ImGui::SameLine();
-  ImGui::TextDisabled("%s",
-                      fitted("true minus calculated, after each square", ImGui::GetContentRegionAvail().x).c_str());
+  if (ImGui::CalcTextSize(what).x > ImGui::GetContentRegionAvail().x) {
+    ImGui::NewLine();
+    ImGui::SetCursorPosX(theme.px(14));
+  }
+  note(what, theme);
   ImGui::SetCursorPosX(theme.px(10));
   Plot p = plot_of_errors();
   Clouds clouds;

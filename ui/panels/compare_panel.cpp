@@ -1,6 +1,9 @@
 #include "ui/panels/compare_panel.h"
 
+#include <algorithm>
+
 #include "core/vehicle/key_words.h"
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -33,17 +36,14 @@ constexpr ParameterName kNames[] = {
     {"truth_mounting.time_offset_s", "truth late", "ms", 1e3, 1},
 };
 
-void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
-  if (!ImGui::BeginTable("parameters", 4, ImGuiTableFlags_BordersInnerH)) return;
-  for (const float weight : {0.88f, 0.28f, 0.62f, 1.3f})
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
-  for (const char* title : {"nominal", "calibrated"}) {
-    ImGui::TableNextColumn();
-    text_right(title, theme.muted);
-  }
+// A parameter as the table has it.
+struct ParameterRow {
+  const ParameterEstimate* estimate;
+  std::string words, unit, nominal, calibrated;
+};
+
+std::vector<ParameterRow> parameter_rows(const LeastSquaresCalibration& c) {
+  std::vector<ParameterRow> rows;
   for (const ParameterEstimate& p : c.parameters) {
     const std::string own = parameter_words(p.name);
     ParameterName name{p.name.c_str(), own.c_str(), p.unit == "1" ? "" : p.unit.c_str(), 1.0, 4};
@@ -52,20 +52,55 @@ void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
     for (const ParameterName& n : kNames)
       if (p.name == n.key) name = n;
     const Unit bare{"", name.per_si, name.decimals, 0.0};
+    rows.push_back({&p, name.words, name.unit, shown(p.nominal, bare),
+                    p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown"});
+  }
+  return rows;
+}
+
+// Where the two numbers do not fit beside their name, the nominal one stands below the calibrated one.
+void parameter_table(const LeastSquaresCalibration& c, const Theme& theme) {
+  const std::vector<ParameterRow> rows = parameter_rows(c);
+  const auto width_of = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  float name = 0.0f, unit = 0.0f, nominal = width_of("nominal"), calibrated = width_of("calibrated");
+  for (const ParameterRow& r : rows) {
+    name = std::max(name, width_of(r.words));
+    unit = std::max(unit, width_of(r.unit));
+    nominal = std::max(nominal, width_of(r.nominal));
+    calibrated = std::max(calibrated, width_of(r.calibrated));
+  }
+  const float gaps = 6.0f * ImGui::GetStyle().CellPadding.x + theme.px(4);
+  const bool wide = name + unit + nominal + calibrated + gaps < ImGui::GetContentRegionAvail().x;
+  const std::vector<float> weights =
+      wide ? std::vector<float>{0.88f, 0.28f, 0.62f, 1.3f} : std::vector<float>{0.88f, 0.28f, 1.3f};
+  if (!begin_figures("parameters", weights, ImGuiTableFlags_BordersInnerH)) return;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TableNextColumn();
+  ImGui::TableNextColumn();
+  if (wide) {
+    text_right("nominal", theme.muted);
+    ImGui::TableNextColumn();
+  }
+  text_right("calibrated", wide ? theme.muted : theme.ink);
+  if (!wide) text_right("nominal", theme.muted);
+  for (const ParameterRow& r : rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(fitted(name.words, ImGui::GetContentRegionAvail().x).c_str());
-    tooltip(p.name, theme);
+    figure_label(r.words, theme.ink);
+    tooltip(r.estimate->name, theme);
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", name.unit);
+    figure_label(r.unit, theme.muted);
     ImGui::TableNextColumn();
-    text_right(shown(p.nominal, bare), theme.muted);
-    ImGui::TableNextColumn();
-    text_right(p.determined ? shown_with_error(p.value, p.stderr_value, bare, name.decimals) : "unknown",
-               p.determined ? theme.ink : theme.muted);
-    if (!p.determined) tooltip("The recording holds no information on it; the nominal value stays.", theme);
+    if (wide) {
+      text_right(r.nominal, theme.muted);
+      ImGui::TableNextColumn();
+    }
+    text_right(r.calibrated, r.estimate->determined ? theme.ink : theme.muted);
+    if (!r.estimate->determined) tooltip("The recording holds no information on it; the nominal value stays.", theme);
+    if (!wide) text_right(r.nominal, theme.muted);
   }
-  ImGui::EndTable();
+  end_figures();
 }
 
 }  // namespace

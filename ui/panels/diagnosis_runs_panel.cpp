@@ -45,7 +45,12 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const float pad = theme.px(5), tick = theme.px(80);
-  const float height = 2.0f * line + theme.px(2) + 2.0f * pad;
+  const float text_x = low.x + pad + theme.px(18), room = width - 2.0f * pad - theme.px(18) - tick;
+  // How long and what, on two lines where one is too short for both.
+  const std::string lasts = clock(run.duration_s), what = run.simulated ? "simulated" : run.truth;
+  const float about_room = width - 2.0f * pad - theme.px(18) - theme.px(20);
+  const bool beside = ImGui::CalcTextSize((lasts + "  " + what).c_str()).x <= about_room;
+  const float height = (beside ? 2.0f : 3.0f) * line + theme.px(2) + 2.0f * pad;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 #if IMGUI_VERSION_NUM >= 18970
   ImGui::SetNextItemAllowOverlap();
@@ -69,11 +74,9 @@ void run_row(const DiagnosedRun& run, std::size_t r, bool busy, DiagnosisState& 
   if (shown || hovered) draw.AddRectFilled(low, high, shown ? theme.pressed : theme.hovered, theme.px(5));
   const ImVec2 dot{low.x + pad + theme.px(5), low.y + pad + 0.5f * line};
   draw.AddCircleFilled(dot, theme.px(5), run.problem.empty() ? run_colour(r, theme) : theme.muted);
-  const float text_x = low.x + pad + theme.px(18), room = width - 2.0f * pad - theme.px(18) - tick;
   draw.AddText({text_x, low.y + pad}, theme.ink, fitted(run.name, room).c_str());
-  const std::string about = clock(run.duration_s) + "  " + (run.simulated ? "simulated" : run.truth);
-  draw.AddText({text_x, low.y + pad + line + theme.px(2)}, theme.muted,
-               fitted(about, width - 2.0f * pad - theme.px(18) - theme.px(24)).c_str());
+  const std::string about = lasts + (beside ? "  " : "\n") + what;
+  draw.AddText({text_x, low.y + pad + line + theme.px(2)}, theme.muted, about.c_str());
 
   ImGui::SetCursorScreenPos({high.x - pad - tick, low.y + pad - theme.px(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(theme.px(2), 0.0f));

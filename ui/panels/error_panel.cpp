@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -18,9 +19,7 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
   }
   ImGui::PopStyleColor();
   tooltip(tip, theme);
-  if (!ImGui::BeginTable(id, 3)) return;
-  for (const float weight : {1.05f, 1.0f, 1.0f})
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, weight);
+  if (!begin_figures(id, {1.05f, 1.0f, 1.0f})) return;
   const auto column = [&](const std::optional<ReplayFigures>& f, auto text) -> std::string {
     if (!f || !((*f).*which).error) return "–";
     return text(*((*f).*which).error);
@@ -28,7 +27,7 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
   const auto row = [&](const char* label, const char* row_tip, auto text) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(label);
+    figure_label(label, theme.ink);
     tooltip(row_tip, theme);
     ImGui::TableNextColumn();
     text_right(column(c.nominal, text), c.vehicle == ReplayVehicle::nominal ? theme.ink : theme.muted);
@@ -51,7 +50,7 @@ void figure_table(const char* id, const Compare& c, const char* title, const Com
       [](const TrackError& e) { return shown(e.end_heading_rad, kDegrees); });
   row("largest", "Largest position error on the way.",
       [](const TrackError& e) { return shown_length(e.largest_position_m); });
-  ImGui::EndTable();
+  end_figures();
 }
 
 }  // namespace
@@ -75,13 +74,14 @@ void error_panel(const Compare& c, const ErrorNow& now, const Theme& theme) {
   }
   heading("Gap of the simulation, now", theme);
   if (now.truth && now.simulated) {
-    {
-      WithFont large(theme.large);
-      ImGui::PushStyleColor(ImGuiCol_Text, theme.orange);
-      ImGui::TextUnformatted(
-          (shown_length(now.simulated_gap_m) + "   " + shown(now.simulated_gap_heading_rad, kDegrees)).c_str());
-      ImGui::PopStyleColor();
-    }
+    WithFont large(theme.large);
+    ImGui::PushStyleColor(ImGuiCol_Text, theme.orange);
+    const std::string turned = "   " + shown(now.simulated_gap_heading_rad, kDegrees);
+    ImGui::TextUnformatted(shown_length(now.simulated_gap_m).c_str());
+    ImGui::SameLine(0.0f, 0.0f);
+    if (ImGui::CalcTextSize(turned.c_str()).x > ImGui::GetContentRegionAvail().x) ImGui::NewLine();
+    ImGui::TextUnformatted(turned.c_str());
+    ImGui::PopStyleColor();
   } else {
     note("No truth at this time.", theme);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/floor/drawing.h"
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -20,6 +21,7 @@ void swatch(const EstimatorLook& look, const Theme& theme) {
 void estimator_row(const EstimatorRow& r, EstimatorState& state, bool finished, const Theme& theme) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
+  const float begin = ImGui::GetCursorPosX();
   bool shown_now = r.steers || state.shown.count(r.name) > 0;
   ImGui::BeginDisabled(r.steers);
   if (ImGui::Checkbox(("##" + r.name).c_str(), &shown_now)) {
@@ -38,9 +40,7 @@ void estimator_row(const EstimatorRow& r, EstimatorState& state, bool finished, 
   ImGui::SameLine(0, theme.px(6));
   swatch(r.look, theme);
   ImGui::AlignTextToFramePadding();
-  ImGui::PushStyleColor(ImGuiCol_Text, shown_now ? theme.ink : theme.muted);
-  ImGui::TextUnformatted(r.name.c_str());
-  ImGui::PopStyleColor();
+  figure_label(r.name, shown_now ? theme.ink : theme.muted, ImGui::GetCursorPosX() - begin);
   tooltip(tip, theme);
   const Unit mm{"", 1e3, 1, 0.0}, degree{"", kDegrees.per_si, 2, 0.0};
   ImGui::TableNextColumn();
@@ -64,8 +64,7 @@ EstimatorLook estimator_look(std::size_t index, const Theme& theme) {
 
 void estimator_panel(const Estimators& e, EstimatorState& state, const Theme& theme) {
   heading(e.finished ? "Errors of the estimators at the end" : "Estimators side by side", theme);
-  if (!ImGui::BeginTable("estimators", 3)) return;
-  for (const float width : {2.6f, 0.75f, 0.8f}) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
+  if (!begin_figures("estimators", {2.6f, 0.75f, 0.8f})) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TableNextColumn();
@@ -77,7 +76,7 @@ void estimator_panel(const Estimators& e, EstimatorState& state, const Theme& th
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(theme.px(2), theme.px(1)));  // a row is a line of text
   for (const EstimatorRow& r : e.rows) estimator_row(r, state, e.finished, theme);
   ImGui::PopStyleVar();
-  ImGui::EndTable();
+  end_figures();
 }
 
 }  // namespace odolab::ui

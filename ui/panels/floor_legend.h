@@ -5,6 +5,7 @@
 
 namespace odolab::ui {
 
-void floor_legend(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme);
+// Draws it over the upper left of the view, or only measures where `draw` is null; returns the height that it covers.
+float floor_legend(ImDrawList* draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme);
 
 }  // namespace odolab::ui

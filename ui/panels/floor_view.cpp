@@ -45,6 +45,7 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
     if (line.track)
       for (const TimedPose& p : *line.track) take(p.pose.position(), 0.1);
   for (const VehicleGlyph& v : scene.vehicles) take(v.pose.position(), reach_of(v));
+  for (const FloorDisc& disc : scene.discs) take(disc.centre, disc.radius_m);
   if (scene.floor && low.x_m <= high.x_m)
     for (const Bump& bump : scene.floor->bumps) {
       const auto [a, b] = ends_of(bump);
@@ -58,7 +59,8 @@ void extent_of(const FloorScene& scene, Vec2& low, Vec2& high) {
   }
 }
 
-void draw_disc(ImDrawList& draw, const Camera& camera, const FloorDisc& disc, const Theme& theme) {
+// Its label stands above it, or below where the legend, which ends at `legend_y`, lies there.
+void draw_disc(ImDrawList& draw, const Camera& camera, const FloorDisc& disc, float legend_y, const Theme& theme) {
   const ImVec2 at = camera.screen(disc.centre);
   const float radius = std::max(theme.px(8), float(disc.radius_m * camera.px_per_m));
   std::vector<ImVec2> rim;
@@ -68,7 +70,9 @@ void draw_disc(ImDrawList& draw, const Camera& camera, const FloorDisc& disc, co
   }
   dashed_line(draw, rim, theme.blue, theme.px(2), theme.px(6), theme.px(4));
   const ImVec2 size = ImGui::CalcTextSize(disc.label.c_str());
-  const ImVec2 text{std::round(at.x - 0.5f * size.x), std::round(at.y - radius - size.y - theme.px(5))};
+  const float above = at.y - radius - size.y - theme.px(5), below = at.y + radius + theme.px(4);
+  const ImVec2 text{std::round(at.x - 0.5f * size.x), std::round(above > legend_y ? above : below)};
+  if (at.y < legend_y) return;  // it is out of sight itself
   draw.AddRectFilled({text.x - theme.px(4), text.y - theme.px(1)}, {text.x + size.x + theme.px(4), text.y + size.y},
                      faded(theme.paper, 0.85f), theme.px(3));
   draw.AddText(text, theme.blue, disc.label.c_str());
@@ -86,6 +90,7 @@ void draw_trails(ImDrawList& draw, const FloorScene& scene, const Camera& camera
 
 void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState& state, const Theme& theme) {
   const Camera& camera = state.camera;
+  const float legend_y = camera.low.y + floor_legend(nullptr, scene, state, theme);
   const double factor = state.exaggerate ? state.exaggeration : 1.0;
   if (state.show_grid)
     draw_grid(draw, camera, theme);
@@ -107,7 +112,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
       draw_track(draw, camera, drawn, factor, theme);
     }
   if (state.show_things)
-    for (const FloorDisc& disc : scene.discs) draw_disc(draw, camera, disc, theme);
+    for (const FloorDisc& disc : scene.discs) draw_disc(draw, camera, disc, legend_y, theme);
   for (const VehicleGlyph& vehicle : scene.vehicles) {
     VehicleGlyph drawn = vehicle;
     if (vehicle.outline && scene.reference) drawn.pose = exaggerated(*scene.reference, vehicle.pose, factor);
@@ -128,7 +133,7 @@ void draw_scene(ImDrawList& draw, const FloorScene& scene, const FloorViewState&
                        {at.x + size.x + theme.px(10), at.y + size.y + theme.px(6)}, theme.paper, theme.px(4));
     draw.AddText(at, theme.muted, words.c_str());
   }
-  floor_legend(draw, scene, state, theme);
+  floor_legend(&draw, scene, state, theme);
   if (state.brushing)
     draw.AddRectFilled(camera.screen(state.brush_from), ImGui::GetIO().MousePos, faded(theme.sky, 0.25f));
   draw_scale_bar(draw, camera, theme);
@@ -253,7 +258,9 @@ Actions floor_view(const FloorScene& scene, FloorViewState& state, const Theme& 
     Vec2 lowest, highest;
     extent_of(scene, lowest, highest);
     const float lens = state.show_lens && scene.deviating ? lens_side(camera, theme) + theme.px(8) : 0.0f;
-    camera.fit(lowest, highest, {theme.px(58), theme.px(44), theme.px(20) + lens, theme.px(34)});
+    const float label = scene.discs.empty() ? 0.0f : ImGui::GetTextLineHeight() + theme.px(6);
+    const float above = std::max(theme.px(44), floor_legend(nullptr, scene, state, theme) + theme.px(8) + label);
+    camera.fit(lowest, highest, {theme.px(58), above, theme.px(20) + lens, theme.px(34)});
     if (state.fit_next) state.touched = false;
     state.fit_next = false;
   }

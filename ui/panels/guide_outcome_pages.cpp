@@ -19,11 +19,14 @@ Unit unit_of(const Setting& s) {
 std::optional<double> true_value(const Setting& s, const std::optional<Vehicle>& actual) {
   const auto* drive = actual ? std::get_if<DifferentialDrive>(&actual->kind) : nullptr;
   if (!drive) return std::nullopt;
-  if (s.key == "wheel_radius_left_m") return drive->wheel_radius_left_m;
-  if (s.key == "wheel_radius_right_m") return drive->wheel_radius_right_m;
+  const double times = s.file_has_half ? 2.0 : 1.0;
+  if (s.key == "wheel_radius_left_m") return times * drive->wheel_radius_left_m;
+  if (s.key == "wheel_radius_right_m") return times * drive->wheel_radius_right_m;
   if (s.key == "wheelbase_m") return drive->wheelbase_m;
   return std::nullopt;
 }
+
+std::string in_the_file(const Setting& s) { return "vehicle file: " + s.key + (s.file_has_half ? " (half)" : ""); }
 
 void settings_table(const GuideView& view, bool truth, const Theme& theme) {
   const GuideOutcome& out = *view.outcome;
@@ -50,8 +53,8 @@ void settings_table(const GuideView& view, bool truth, const Theme& theme) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(s.words.c_str());
     if (!s.ros2.empty()) {
-      ImGui::TextDisabled("vehicle file: %s", s.key.c_str());
-      ImGui::TextDisabled("ROS 2: %s", s.ros2.c_str());
+      note(in_the_file(s), theme);
+      note("ROS 2: " + s.ros2, theme);
     } else {
       tooltip(s.key, theme);
     }
@@ -86,8 +89,8 @@ void settings_below_each_other(const GuideView& view, const Theme& theme) {
                                       : shown(s.value, unit)),
           theme.ink);
     const auto value = true_value(s, view.actual);
-    note("before " + shown(s.before, unit) + (value ? ", true " + shown(*value, unit) : "") +
-             "; vehicle file: " + s.key + (s.ros2.empty() ? "" : "; ROS 2: " + s.ros2),
+    note("before " + shown(s.before, unit) + (value ? ", true " + shown(*value, unit) : "") + "; " + in_the_file(s) +
+             (s.ros2.empty() ? "" : "; ROS 2: " + s.ros2),
          theme);
   }
 }

@@ -14,6 +14,7 @@ struct GuidePageState {
   ClusterState clusters;
   std::string export_folder;   // where files are proposed
   float covered_below = 0.0f;  // px of the page, by a message
+  bool ask_for_file = false;   // a vehicle shall be opened; the caller takes it
 };
 
 Actions guide_page(const GuideView& view, GuidePageState& state, const Theme& theme);

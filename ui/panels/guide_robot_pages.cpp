@@ -79,7 +79,15 @@ Actions robot_page(const GuideView& view, GuidePageState& state, const Theme& th
       note("Runs were driven with these numbers, so they stay. To begin with others, leave and start a new session.",
            theme);
   } else {
-    note("Its numbers are those of the vehicle file; open another one with File, Open, or drop it here.", theme);
+    note(view.session->real_robot ? "Its numbers are those of the vehicle file."
+                                  : "Its numbers are those of the vehicle file; open another one with File, Open, or "
+                                    "drop it here.",
+         theme);
+  }
+  if (view.session->real_robot && !fixed) {
+    ButtonLook open;
+    open.tip = "A vehicle file (TOML), which can also be dropped here (Ctrl+O)";
+    if (text_button("Open a vehicle file…", theme, open)) state.ask_for_file = true;
   }
   if (view.session->real_robot && !fixed && !view.vehicle_files.empty()) {
     ImGui::Dummy({1, theme.px(6)});
@@ -141,11 +149,16 @@ Actions tape_page(const GuideView& view, GuidePageState& state, const Theme& the
       note("Es, believed over real (Eq. B.1): " +
                shown_with_error(scale->scaling_error, scale->scaling_error_stderr, {"", 1.0, 5, 0.0}, 5),
            theme);
-      heading("Put these diameters into the robot before the squares", theme);
       const Unit mm{"mm", 1e3, 3, 0.0};
-      ImGui::TextUnformatted(("left " + shown(2.0 * scale->corrected.wheel_radius_left_m, mm) + ",  right " +
-                              shown(2.0 * scale->corrected.wheel_radius_right_m, mm))
-                                 .c_str());
+      const auto diameters = [&](const DifferentialDrive& d) {
+        return "left " + shown(2.0 * d.wheel_radius_left_m, mm) + ",  right " + shown(2.0 * d.wheel_radius_right_m, mm);
+      };
+      const std::string corrected = diameters(scale->corrected);
+      heading(corrected == diameters(*drive) ? "The diameters stay as they are"
+              : view.session->real_robot     ? "Put these diameters into the robot before the squares"
+                                             : "With these diameters the squares will be driven",
+              theme);
+      words(corrected, theme.ink);
     }
   return actions;
 }

@@ -1,5 +1,6 @@
 #include "ui/panels/kind_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scenario/machine_parameters.h"
@@ -37,7 +38,7 @@ Edited parameter_row(const VehicleParameter& nominal, const VehicleParameter& re
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(nominal.label.c_str());
+  words(nominal.label, theme.ink);
   tooltip(nominal.about, theme);
   ImGui::PushID(nominal.label.c_str());
   ImGui::TableNextColumn();
@@ -66,7 +67,10 @@ Edited lengths(const std::vector<VehicleParameter>& nominal, const std::vector<V
     while (end < nominal.size() && nominal[end].group == group) ++end;
     const bool open = group.empty() || ImGui::TreeNodeEx(group.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     if (open && ImGui::BeginTable(("lengths" + group).c_str(), 3)) {
-      nominal_and_true_columns(0.9f, theme);
+      float widest = 0.0f;
+      for (std::size_t k = i; k < end; ++k)
+        widest = std::max(widest, ImGui::CalcTextSize(nominal[k].label.c_str()).x + theme.px(1));
+      nominal_and_true_columns(0.9f, widest, theme);
       ImGui::PushID(group.c_str());
       for (; i < end; ++i) result = more(result, parameter_row(nominal[i], real[i], theme));
       ImGui::PopID();

@@ -5,7 +5,8 @@
 
 namespace odolab::ui {
 
-// In a table of three columns that was just begun: their widths, the first this wide beside 1 of the others, and names.
-void nominal_and_true_columns(float label_weight, const Theme& theme);
+// In a table of three columns that was just begun: their names, and their widths: the first this wide beside 1 of the
+// others, or as wide as its widest label.
+void nominal_and_true_columns(float label_weight, float widest_label, const Theme& theme);
 
 }  // namespace odolab::ui

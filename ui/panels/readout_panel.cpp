@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ui/look/figure_table.h"
 #include "ui/look/widgets.h"
 
 namespace odolab::ui {
@@ -34,10 +35,7 @@ void header(const char* text, ImU32 colour) {
 }
 
 void pose_table(const Readout& r, const Theme& theme) {
-  if (!ImGui::BeginTable("poses", 3)) return;
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 0.7f);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0f);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+  if (!begin_figures("poses", {0.7f, 1.0f, 1.0f})) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("true", theme.truth);
@@ -49,7 +47,7 @@ void pose_table(const Readout& r, const Theme& theme) {
   const auto row = [&](const char* label, const std::string& true_text, const std::string& estimated) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(label);
+    figure_label(label, theme.ink);
     cell(true_text, theme.truth);
     cell(estimated, theme.orange);
   };
@@ -58,7 +56,7 @@ void pose_table(const Readout& r, const Theme& theme) {
   // However often it has turned; the estimate beside the truth, not a turn away from it.
   const double heading_rad = wrapped(t.heading_rad);
   row("heading", shown(heading_rad, kDegrees), shown(heading_rad + wrapped(e.heading_rad - t.heading_rad), kDegrees));
-  ImGui::EndTable();
+  end_figures();
 }
 
 const Unit kTreadSpeed{"mm/s", 1e3, 1, 0.0}, kNewton{"N", 1.0, 1, 0.0};
@@ -66,18 +64,13 @@ constexpr const char* kSpeedTip = "Of the tread: wheel speed times its true radi
 constexpr const char* kSlipTip = "Tread against floor, along the wheel.";
 constexpr const char* kTractionTip = "Force of the floor on the wheel, along it.";
 
-void columns(std::initializer_list<float> widths) {
-  for (const float width : widths) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, width);
-}
-
 const char* ground_under(const WheelState& s) {
   return s.on_bump ? "on a bump" : s.in_slip_zone ? "slippery" : "floor";
 }
 
 // Of two wheels, side by side.
 void wheel_pair_table(const Readout& r, const Theme& theme) {
-  if (!ImGui::BeginTable("wheels", 3)) return;
-  columns({0.7f, 1.0f, 1.0f});
+  if (!begin_figures("wheels", {0.7f, 1.0f, 1.0f})) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("left", theme.muted);
@@ -86,7 +79,7 @@ void wheel_pair_table(const Readout& r, const Theme& theme) {
   const auto row = [&](const char* label, const std::string& left, const std::string& right, const char* tip) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(label);
+    figure_label(label, theme.ink);
     tooltip(tip, theme);
     cell(left, theme.ink);
     cell(right, theme.ink);
@@ -97,16 +90,15 @@ void wheel_pair_table(const Readout& r, const Theme& theme) {
   row("traction", shown(l.traction_n, kNewton), shown(w.traction_n, kNewton), kTractionTip);
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted("stands on");
+  figure_label("stands on", theme.ink);
   cell(ground_under(l), l.on_bump || l.in_slip_zone ? theme.orange : theme.muted);
   cell(ground_under(w), w.on_bump || w.in_slip_zone ? theme.orange : theme.muted);
-  ImGui::EndTable();
+  end_figures();
 }
 
 // Of more wheels, below each other; the name of one that stands on something is orange.
 void wheel_rows(const Readout& r, const Theme& theme) {
-  if (!ImGui::BeginTable("wheels", 4)) return;
-  columns({1.45f, 0.75f, 0.7f, 0.8f});
+  if (!begin_figures("wheels", {1.45f, 0.75f, 0.7f, 0.8f})) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("speed", theme.muted);
@@ -120,20 +112,17 @@ void wheel_rows(const Readout& r, const Theme& theme) {
     const WheelState& w = r.posture.wheels[i];
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, w.on_bump || w.in_slip_zone ? theme.orange : theme.ink);
-    ImGui::TextUnformatted(r.shape->wheels[i].name.c_str());
-    ImGui::PopStyleColor();
+    figure_label(r.shape->wheels[i].name, w.on_bump || w.in_slip_zone ? theme.orange : theme.ink);
     tooltip(words_of(r.shape->wheels[i]) + ", " + ground_under(w), theme);
     cell(shown(w.speed_radps * r.shape->wheels[i].radius_m, mmps), theme.ink);
     cell(shown(w.slip_speed_mps, mmps), theme.ink);
     cell(shown(w.traction_n, newton), theme.ink);
   }
-  ImGui::EndTable();
+  end_figures();
 }
 
 void gauge_table(const Readout& r, const Theme& theme) {
-  if (!ImGui::BeginTable("gauges", 3)) return;
-  columns({0.9f, 1.0f, 1.0f});
+  if (!begin_figures("gauges", {0.9f, 1.0f, 1.0f})) return;
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   header("true", theme.truth);
@@ -144,12 +133,12 @@ void gauge_table(const Readout& r, const Theme& theme) {
     const Unit& unit = gauge.is_length ? kMillimetres : kDegrees;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(gauge.name.c_str());
+    figure_label(gauge.name, theme.ink);
     cell(shown(r.posture.gauges[i].truth, unit), theme.truth);
     const double measured = r.posture.gauges[i].measured;
     cell(std::isnan(measured) ? "–" : shown(measured, unit), theme.orange);
   }
-  ImGui::EndTable();
+  end_figures();
 }
 
 }  // namespace

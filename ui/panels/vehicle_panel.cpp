@@ -35,9 +35,7 @@ Edited pair_row(const char* label, const char* id, const Unit& unit, double& nom
 Edited drive_table(DifferentialDrive& nominal, ActualDrive& actual, const Theme& theme) {
   Edited result = Edited::no;
   if (!ImGui::BeginTable("drive", 3)) return result;
-  const float widest = ImGui::CalcTextSize("Wheelbase").x + theme.px(8);
-  nominal_and_true_columns(std::max(0.72f, 2.0f * widest / std::max(widest, ImGui::GetContentRegionAvail().x - widest)),
-                           theme);
+  nominal_and_true_columns(0.72f, ImGui::CalcTextSize("Wheelbase").x + theme.px(1), theme);
   // On the screen the field's word is the wheel's diameter, as in the paper; inside it is the radius.
   double dl = 2.0 * nominal.wheel_radius_left_m, dr = 2.0 * nominal.wheel_radius_right_m;
   double tl = 2.0 * actual.wheel_radius_left_m, tr = 2.0 * actual.wheel_radius_right_m;

@@ -64,8 +64,32 @@ TEST(GuideSession, FindsTheWheelbaseAndTheWheelsThatTheRunsWereMadeWith) {
   ASSERT_EQ(out.settings.size(), 3u);
   EXPECT_NEAR(out.settings[2].value, true_wheelbase_m, 1e-9);  // the equations are solved, not approximated
   EXPECT_GT(out.settings[1].value, out.settings[0].value);     // it curves to the left: its right wheel is larger
-  EXPECT_NEAR(out.settings[0].value + out.settings[1].value, 0.150, 1e-12);  // Eq. 6.30
+  EXPECT_NEAR(out.settings[0].value + out.settings[1].value, 0.300, 1e-12);  // diameters, Eq. 6.30
   for (const Setting& s : out.settings) EXPECT_FALSE(s.ros2.empty());
+}
+
+TEST(GuideSession, NamesDiametersAndWhatTheRobotHadOnTheSquares) {
+  GuideSession session = at_runs();
+  session.tape = TapeReading{4.0, 4.04, 0.002};
+  for (const bool cw : {true, false}) enter_run(session, PageTask::runs, run_of({0.01, 0.005}, 4.0, cw, 0.34));
+  const GuideOutcome out = outcome_of(session);
+  ASSERT_EQ(out.settings.size(), 3u);
+  EXPECT_EQ(out.settings[0].words, "diameter of the left wheel");
+  EXPECT_TRUE(out.settings[0].file_has_half);
+  EXPECT_NEAR(out.settings[0].before, 2.0 * 0.075 * 1.01, 1e-12);  // scaled by the tape, Eq. B.2
+  EXPECT_NEAR(out.settings[1].before, 2.0 * 0.075 * 1.01, 1e-12);
+  EXPECT_FALSE(out.settings[2].file_has_half);
+}
+
+TEST(GuideSession, SaysOfATapeThatAgreesThatTheWheelsRollAsBelieved) {
+  GuideSession session = at_runs();
+  session.tape = TapeReading{4.0, 4.0, 0.002};
+  EXPECT_EQ(outcome_of(session).sentences.front(),
+            "The robot has gone as far as it believes: both wheels roll as believed.");
+  session.tape = TapeReading{4.0, 4.04, 0.002};
+  EXPECT_EQ(outcome_of(session).sentences.front(),
+            "The robot believes to have gone 0.990 times as far as it has: "
+            "both wheels roll 1.00 % more than believed.");
 }
 
 TEST(GuideSession, PutsTheTapesScaleIntoTheFirstRoundAndIntoEveryUncertainty) {
