@@ -21,6 +21,7 @@
 #include "core/diagnosis/parted.h"
 #include "core/diagnosis/place_response.h"
 #include "core/diagnosis/quality/obeying_wheels.h"
+#include "core/diagnosis/quality/wheels_at_one_time.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -247,6 +248,20 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
   return Looked{*std::move(ready), std::move(predictor), *std::move(sought)};
 }
 
+// The same, of all samples of the truth where these are white beside the names. A strong effect correlates innovations
+// as a tracker does that smooths: if it has a name by few of the truth's samples, and with names all are white, it was
+// that.
+Result<Looked> looked_at_as_is(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
+                               const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
+                               const std::vector<TimeStretches>& parted) {
+  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted);
+  if (!looked || looked->ready.told().truth_apart_s == 0.0 || !looked->names_explain_all()) return looked;
+  Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted);
+  if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
+  if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
+  return looked;
+}
+
 // Whether beside what went on for a while something is found at a place or a moment, or without a name: then that was
 // where it did most, and no incident.
 bool is_met_again(const Finding& f) {
@@ -262,14 +277,17 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
                             bool* shows_beside_held_out = nullptr, const Incidents& parted = {},
                             bool by_names = false) {
   const Vehicle as_mounted = turned_as_driven(with_wheels(train, nominal), nominal);
-  Result<Looked> looked = looked_at(train, held_out, as_mounted, options, progress, false, parted.of_each);
+  Result<Looked> looked = looked_at_as_is(train, held_out, as_mounted, options, progress, parted.of_each);
   if (!looked) return looked.error();
-  // A strong effect correlates innovations as a tracker that smooths does. If it has a name by few of the truth's
-  // samples, and with names all of them are white, it was that.
-  if (looked->ready.told().truth_apart_s > 0.0 && looked->names_explain_all()) {
-    Result<Looked> by_all = looked_at(train, held_out, as_mounted, options, progress, true, parted.of_each);
-    if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
-    if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
+  // What one counter's lateness was taken for is asked again as if both were read at once.
+  std::vector<std::string> of_older_counts;
+  if (const double older_s = looked->sought.names.right_older_s; older_s != 0.0) {
+    of_older_counts = looked->sought.names.warnings;
+    const auto at_one_time = [&](const std::vector<Recording>& recordings) {
+      return with_right_wheel_newer(recordings, std::get<DifferentialDrive>(nominal.kind), older_s);
+    };
+    looked = looked_at_as_is(at_one_time(train), at_one_time(held_out), as_mounted, options, progress, parted.of_each);
+    if (!looked) return looked.error();
   }
   const ReadyRecordings* const ready = &looked->ready;
   const Predictor& predictor = looked->predictor;
@@ -314,6 +332,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   append(d.warnings, ready->warnings);
   if (!looked->names_explain_all()) append(d.warnings, ready->told().of_misfit);
   append(d.warnings, sought->of_undone);
+  append(d.warnings, of_older_counts);
   append(d.warnings, names.warnings);
   append(d.warnings, warnings_beside(joint, adequacy));
   d.responses = responses_of(adequacy.generic, !joint.accepted.empty());

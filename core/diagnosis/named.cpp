@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "core/base/chi_square.h"
+#include "core/base/formatted.h"
 #include "core/diagnosis/borne_out.h"
 #include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/naming/in_each_run.h"
+#include "core/diagnosis/naming/late_wheel.h"
 #include "core/diagnosis/naming/left_by_form.h"
 #include "core/diagnosis/refuted.h"
 #include "core/diagnosis/simpler_forms.h"
@@ -173,6 +175,11 @@ class Naming {
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
       if (selected_.evidence[k].p_value > kByChance && !joint_.accepted[k].is_held) return k;
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
+      if (const auto older_s = older_instead(joint_, k, selected_.evidence[k])) {
+        warn_of_older_counts(k, *older_s);
+        return k;
+      }
+    for (std::size_t k = joint_.accepted.size(); k-- > 0;)
       if (!stands_out(joint_, now_.intervals, k)) return to_take_out(joint_, selected_, k);
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
       if (!comes_back(joint_, k, selected_.evidence[k].test.inflation)) {
@@ -185,6 +192,14 @@ class Naming {
         return k;
       }
     return std::nullopt;
+  }
+
+  void warn_of_older_counts(std::size_t k, double older_s) {
+    now_.right_older_s = older_s;
+    now_.warnings.push_back(formatted("the right wheel's counts seem to be %.2g ms %s than the left one's, as where a "
+                                      "loop asks one counter after the other; ",
+                                      1e3 * std::abs(older_s), older_s > 0.0 ? "older" : "newer") +
+                            name_in_words(*joint_.accepted[k].effect) + " would describe no more");
   }
 
   void warn(std::size_t k, const char* of_it) {

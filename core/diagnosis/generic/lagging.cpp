@@ -1,10 +1,12 @@
 #include "core/diagnosis/generic/lagging.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/generic/counted.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/naming/late_wheel.h"
 
 namespace odolab {
 
@@ -56,6 +58,13 @@ void leave_to_readings(GenericTest& t, const JointModel& joint) {
   t.p_value = t.p_value_of(t.test);
 }
 
+// A loop that asks one counter after the other reads one of them a little later.
+void leave_to_the_loop(GenericTest& t) {
+  for (CandidateTest* of : {&t.test, &t.instead})
+    if (!of->value.empty() && std::abs(of->value.front()) < kLoopTakes_s) of->statistic = 0.0;
+  t.p_value = t.p_value_of(t.test);
+}
+
 struct Lagging {
   const char *variable, *channel;
   std::size_t amplitudes;
@@ -78,6 +87,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
     t = asked_of(asked, of.variable, of.channel, of.amplitudes, of.motions, looked_at);
     leave_displaced_to_counting(t, asked.joint);
     if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
+    if (of.motions == of_a_late_wheel) leave_to_the_loop(t);
   });
   return tests;
 }

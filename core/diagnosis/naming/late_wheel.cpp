@@ -1,0 +1,42 @@
+#include "core/diagnosis/naming/late_wheel.h"
+
+#include <cmath>
+
+#include "core/diagnosis/model/candidate_scan.h"
+#include "core/diagnosis/naming/select.h"
+
+namespace odolab {
+
+namespace {
+
+// Counts of the right wheel that are older by one second.
+Effect older_counts() {
+  Effect e;
+  e.name = "older_counts";
+  e.component = "right_wheel";
+  e.amplitudes = {{"older_s", "s"}};
+  e.motions = [](const DriveView& view, const std::vector<double>&) {
+    Motions m(view.steps.size());
+    for (std::size_t i = 0; i < view.steps.size(); ++i)
+      m[i] = by_wheel(Wheel::right, view.steps[i].right_mps2 * view.steps[i].duration_s, view.drive.wheelbase_m);
+    return motions_by_number(std::move(m));
+  };
+  return e;
+}
+
+bool is_of_a_wheel_that_speeds_up(const Effect& e) {
+  return (e.name == "traction_slip" || e.name == "drivetrain_backlash") && e.component != component_of(Wheel::both);
+}
+
+}  // namespace
+
+std::optional<double> older_instead(const JointModel& joint, std::size_t k, const ScoredCandidate& evidence) {
+  static const Effect older = older_counts();
+  if (!is_of_a_wheel_that_speeds_up(*joint.accepted[k].effect)) return std::nullopt;
+  const CandidateTest test = CandidateScan(joint, static_cast<int>(k)).test(older, {});
+  const bool says_as_much = test.statistic > evidence.test.statistic - kClearlyBeaten;
+  if (!says_as_much || test.value.empty() || std::abs(test.value[0]) > kLoopTakes_s) return std::nullopt;
+  return test.value[0];
+}
+
+}  // namespace odolab

@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diagnosis/diagnosis.h"
+#include "test/support/missing_physics.h"
+
+namespace odolab::test {
+namespace {
+
+// Stops and goes, straight and in bends, hard on and hard off.
+WheelSpeedsAt hard_on_and_off(double t, int run) {
+  const double in_go_s = std::fmod(t, 4.0), way = 6.0 * std::clamp(4.0 * std::min(in_go_s, 3.0 - in_go_s), 0.0, 1.0);
+  const double bend = 0.3 * std::sin(0.37 * t + run);
+  return {way * (1.0 - bend), way * (1.0 + bend)};
+}
+
+std::vector<Recording> runs_of_a_loop(double right_is_newer_s) {
+  Random random(87);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02);
+  g.truth_position_noise_m = 0.0003;
+  g.truth_heading_noise_rad = 0.0005;
+  g.duration_s = 60.0;
+  return three_runs(
+      g, random, [](int run) { return [run](double t) { return hard_on_and_off(t, run); }; },
+      [=](int run) {
+        return [=](InjectedStep& s) {
+          s.right_read_rad = hard_on_and_off(s.time_s + 0.5 * s.dt_s + right_is_newer_s, run).right_radps * s.dt_s;
+        };
+      });
+}
+
+// One counter is asked after the other. Half a millisecond of it had been a left wheel that slips.
+TEST(LateWheel, IsNoSlipOfTheOther) {
+  const Diagnosis d = diagnose(runs_of_a_loop(0.0005), {}, Vehicle{}).value();
+  for (const Finding& f : d.findings)
+    EXPECT_TRUE(f.effect != "traction_slip" && f.effect != "drivetrain_backlash") << f.effect << " " << f.component;
+  EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
+                          [](const std::string& w) { return w.find("the right wheel's counts seem to be 0.5") == 0; }));
+}
+
+}  // namespace
+}  // namespace odolab::test
