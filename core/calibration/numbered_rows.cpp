@@ -96,6 +96,12 @@ class MissingRows {
  public:
   MissingRows(const std::vector<double>& time_s, double tremble_s) : time_s_(time_s), tremble_s_(tremble_s) {}
 
+  MissingRows without_any() const {
+    MissingRows none(time_s_, tremble_s_);
+    none.is_missing_ = kNone;
+    return none;
+  }
+
   // Twice the least negative log-likelihood of that period; the rows' numbers where these are asked for.
   double cost(double period_s, std::vector<int>* numbers = nullptr) const {
     double sum = 0.0;
@@ -134,13 +140,13 @@ class MissingRows {
       std::vector<State> next(kStates);
       for (int k = 0; k < kStates; ++k) {
         if (now[k].cost == kNone) continue;
-        for (int missing = 0; missing <= most; ++missing) {
+        for (int missing = 0; missing <= (is_missing_ < kNone ? most : 0); ++missing) {
           const int to = k + missing - shift;
           if (to < 0 || to >= kStates) continue;
           const double number = static_cast<double>(i - from) + sure.back() + to;
           const double off = (time_s_[i] - now[k].phase_s - period_s * number) / tremble_s_;
           const double cost = now[k].cost + std::min(off * off, kMostOff2) +
-                              (missing > 0 ? kIsMissing + kAnother * (missing - 1) : 0.0);
+                              (missing > 0 ? is_missing_ + kAnother * (missing - 1) : 0.0);
           if (cost < next[to].cost)
             next[to] = {cost, now[k].phase_s + kFollows * std::clamp(off, -2.0, 2.0) * tremble_s_, k};
         }
@@ -170,6 +176,7 @@ class MissingRows {
 
   const std::vector<double>& time_s_;
   double tremble_s_;
+  double is_missing_ = kIsMissing;  // what one costs
 };
 
 // The same where stamps tremble too much for each to tell its number, but rows that are missing step the phase of all
@@ -183,11 +190,11 @@ std::vector<int> numbers_told_by_steps(const std::vector<double>& time_s, double
   double tremble_s = scatter_about_zero(std::move(off_s)) / std::sqrt(2.0);
   if (!(tremble_s > 0.0)) return {};
   const auto rows = static_cast<double>(time_s.size());
-  double best_s = period_s, least = 0.0, as_it_seems = 0.0;
+  double best_s = period_s, least = 0.0;
   const auto find_best = [&] {
     const MissingRows missing(time_s, tremble_s);
     best_s = period_s;
-    least = as_it_seems = missing.cost(period_s);
+    least = missing.cost(period_s);
     const auto try_near = [&](double middle_s, double low, double high, double step) {
       for (double times = low; times <= high; times += step)
         if (const double cost = missing.cost(times * middle_s); cost < least) least = cost, best_s = times * middle_s;
@@ -204,7 +211,8 @@ std::vector<int> numbers_told_by_steps(const std::vector<double>& time_s, double
   std::vector<int> numbers;
   MissingRows(time_s, tremble_s).cost(best_s, &numbers);
   const bool any = numbers.back() - numbers.front() > static_cast<int>(time_s.size()) - 1;
-  if (!any || least > kExplained * rows || least > as_it_seems - kDecisively) return {};
+  if (!any || least > kExplained * rows) return {};
+  if (least > MissingRows(time_s, tremble_s).without_any().cost(best_s) - kDecisively) return {};
   period_s = period_by_lines(time_s, numbers, best_s);
   return numbers;
 }
