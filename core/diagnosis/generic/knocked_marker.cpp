@@ -63,9 +63,10 @@ std::optional<Unnamed> what_sits_elsewhere_since(const JointModel& joint,
     u.where.recording = joint.runs()[static_cast<std::size_t>(a.shape[0])].name;
     u.where.time_s = {{at_s, at_s}};
     u.where.regime = formatted(
-        "the tracked point sits elsewhere on the vehicle from %.1f s on, by %.1f mm ahead and %.1f mm to the left, as "
+        "the tracked point sits elsewhere on the vehicle from %.1f s on, %.1f mm further %s and %.1f mm to the %s, as "
         "where a marker is knocked or slips",
-        at_s, 1e3 * best.value[0], 1e3 * best.value[1]);
+        at_s, 1e3 * std::abs(best.value[0]), best.value[0] < 0.0 ? "back" : "ahead", 1e3 * std::abs(best.value[1]),
+        best.value[1] < 0.0 ? "right" : "left");
     most = std::move(u);
   }
   return most;
