@@ -192,7 +192,7 @@ TEST(RecordingCsv, SendsNoBytesToTheTerminalThatItCannotShow) {
             "run.csv:1: found the columns '???[2J', '?m', '\xC2\xB5m', expected a column 'time_s'; odolab import --map "
             "reads other names");
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1,\xFF\x80\x1B\n"),
-            "run.csv:2: right_ticks: found '???', expected a number");
+            "run.csv:2: right_ticks: found '?\?\?', expected a number");
   std::string umlauts;
   for (int i = 0; i < 50; ++i) umlauts += "\xC3\xBC";
   EXPECT_EQ(complaint_of_recording("time_s,left_ticks,right_ticks\n0,1," + umlauts + "\n"),
