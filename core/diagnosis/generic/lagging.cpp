@@ -13,10 +13,7 @@ namespace odolab {
 namespace {
 
 std::vector<Motions> of_a_late_wheel(const DriveView& view, const std::vector<double>&) {
-  Motions late(view.steps.size());
-  for (std::size_t i = 0; i < view.steps.size(); ++i)
-    late[i] = by_wheel(Wheel::right, view.steps[i].right_mps2 * view.steps[i].duration_s, view.drive.wheelbase_m);
-  return {late};
+  return motions_by_number(of_older_counts(view));
 }
 
 std::vector<Motions> of_a_bending_mast(const DriveView& view, const std::vector<double>&) {

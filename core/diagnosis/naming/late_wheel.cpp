@@ -9,17 +9,13 @@ namespace odolab {
 
 namespace {
 
-// Counts of the right wheel that are older by one second.
 Effect older_counts() {
   Effect e;
   e.name = "older_counts";
   e.component = "right_wheel";
   e.amplitudes = {{"older_s", "s"}};
   e.motions = [](const DriveView& view, const std::vector<double>&) {
-    Motions m(view.steps.size());
-    for (std::size_t i = 0; i < view.steps.size(); ++i)
-      m[i] = by_wheel(Wheel::right, view.steps[i].right_mps2 * view.steps[i].duration_s, view.drive.wheelbase_m);
-    return motions_by_number(std::move(m));
+    return motions_by_number(of_older_counts(view));
   };
   return e;
 }
@@ -29,6 +25,13 @@ bool is_of_a_wheel_that_speeds_up(const Effect& e) {
 }
 
 }  // namespace
+
+Motions of_older_counts(const DriveView& view) {
+  Motions m(view.steps.size());
+  for (std::size_t i = 0; i < view.steps.size(); ++i)
+    m[i] = by_wheel(Wheel::right, view.steps[i].right_mps2 * view.steps[i].duration_s, view.drive.wheelbase_m);
+  return m;
+}
 
 std::optional<double> older_instead(const JointModel& joint, std::size_t k, const ScoredCandidate& evidence) {
   static const Effect older = older_counts();

@@ -11,6 +11,9 @@ namespace odolab {
 
 inline constexpr double kLoopTakes_s = 0.002;  // from one counter to the other, at most
 
+// What counts of the right wheel that are older by one second leave out.
+Motions of_older_counts(const DriveView& view);
+
 // By how much older the right wheel's counts are than the left one's, in seconds, negative if newer: where that is no
 // more than loops take and says as much as the k-th name that was let in, which acts on one wheel where it speeds up,
 // slows or turns round. `evidence`: that of the name.
