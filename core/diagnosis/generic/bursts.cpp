@@ -111,10 +111,9 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
   if (is_nothing(joint.gathered_error()) || counts_are_coarse(joint)) return std::nullopt;
   // Of a truth that is made up of several instruments place and heading err together, and each error would be a push.
   if (joint.truth_errors) return std::nullopt;
-  const auto push =
-      std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
+  const Effect& push = push_from_outside();
   const CandidateScan scan(joint, JointModel::kNone);
-  const SearchedShapes moments = best_shape(joint.views(), scan, *push);
+  const SearchedShapes moments = best_shape(joint.views(), scan, push);
   if (moments.statistics.empty()) return std::nullopt;
   const double scatter = std::max(doubt_of_moments(joint), scatter_of_statistics(moments.statistics, kFreedomOfAPush));
   const TremblingTruth truth(joint);
@@ -123,7 +122,7 @@ std::optional<Unnamed> what_comes_in_bursts(const JointModel& joint, double expl
     const std::vector<double>& shape = moments.shapes[moments.of_shape[n]];
     double divisor = scatter;
     if (moments.statistics[n] / scatter > kNinetySevenOfAPush) {
-      if (hides_behind_counts(scan.test(*push, shape).value, joint)) continue;
+      if (hides_behind_counts(scan.test(push, shape).value, joint)) continue;
       // Both must say so: the moments about it are wide by what goes on for seconds, too, and a truth that trembles
       // more need not make them wide.
       const double wide = std::min(truth.worse(static_cast<int>(shape[0]), shape[1]), scatter_about(moments, n));

@@ -37,12 +37,11 @@ Effect moved_for_a_while() {
 
 // What a push says at that moment, in the form in which it says most: a bump is a push that knows where it goes.
 double pushed_by(const CandidateScan& scan, std::vector<double> moment) {
-  const auto push =
-      std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
+  const Effect& push = push_from_outside();
   moment.resize(2);
   double most = 0.0;
-  for (std::size_t form = 0; form < push->forms.size(); ++form)
-    most = std::max(most, scan.test(*push, {moment[0], moment[1], static_cast<double>(form)}).statistic);
+  for (std::size_t form = 0; form < push.forms.size(); ++form)
+    most = std::max(most, scan.test(push, {moment[0], moment[1], static_cast<double>(form)}).statistic);
   return most;
 }
 
@@ -50,6 +49,10 @@ constexpr double kAwayFor_s[] = {0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1
 constexpr double kAwayAbout_s[] = {-0.1, 0.0, 0.1};
 
 }  // namespace
+
+const Effect& push_from_outside() {
+  return *std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "collision"; });
+}
 
 double away_by_chance() { return 2.0 * std::log(2.0 * std::size(kAwayFor_s) * std::size(kAwayAbout_s)); }
 

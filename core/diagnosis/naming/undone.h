@@ -17,6 +17,9 @@ struct Undone {
 // Unset where a step that stays says as much.
 std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& at_one_moment);
 
+// The catalogue's entry of a push from outside, which is what stays where something is not undone.
+const Effect& push_from_outside();
+
 // A truth that is somewhere else about a moment of a run, for 0.1 to 1.5 s: where that says most; its shape is the run,
 // and from when to when on the wheels' clock.
 CandidateTest away_for_a_while(const CandidateScan& scan, int run, double at_s);
