@@ -7,7 +7,7 @@
 
 #include "core/base/quantile.h"
 #include "core/base/stamp_digits.h"
-#include "core/geometry/angles.h"
+#include "core/calibration/truth_at_rest.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
@@ -46,22 +46,6 @@ struct Neighbours {
   double correlation() const { return products / squares; }
 };
 
-// Times at which the wheels have rested for a second, and rest still; where they rest as they begin, from then on, if
-// `rest_before`.
-std::vector<std::pair<double, double>> long_rests(const std::vector<WheelSample>& wheels, bool rest_before) {
-  constexpr double kComesToRest_s = 1.0;
-  std::vector<std::pair<double, double>> rests;
-  for (std::size_t i = 0, since = 0; i < wheels.size(); ++i) {
-    const bool moves = wheels[i].left_rad != wheels[since].left_rad || wheels[i].right_rad != wheels[since].right_rad;
-    if (!moves && i + 1 < wheels.size()) continue;
-    const double from_s = wheels[since].time_s + (since == 0 && rest_before ? 0.0 : kComesToRest_s),
-                 to_s = wheels[moves ? i - 1 : i].time_s;
-    if (from_s < to_s) rests.emplace_back(from_s, to_s);
-    since = i;
-  }
-  return rests;
-}
-
 }  // namespace
 
 Recording with_truth_apart(const Recording& recording, double apart_s) {
@@ -84,21 +68,10 @@ Recording with_truth_apart(const Recording& recording, double apart_s) {
 std::optional<double> correlation_at_rest(const std::vector<Recording>& recordings, const DifferentialDrive& drive,
                                           double truth_late_s, bool by_commands) {
   Neighbours positions, headings;
-  for (const Recording& recording : recordings) {
-    const std::vector<TruthSample> truth = truth_samples(recording);
-    for (const auto& [from_s, to_s] : long_rests(wheel_samples(recording, drive), !by_commands)) {
-      std::vector<double> x_m, y_m, heading_rad;
-      for (const TruthSample& t : truth) {
-        if (t.time_s - truth_late_s < from_s || t.time_s - truth_late_s > to_s) continue;
-        x_m.push_back(t.position.x_m);
-        y_m.push_back(t.position.y_m);
-        if (t.heading_rad)
-          heading_rad.push_back(heading_rad.empty() ? *t.heading_rad : unwrapped(*t.heading_rad, heading_rad.back()));
-      }
-      positions.add(std::move(x_m));
-      positions.add(std::move(y_m));
-      headings.add(std::move(heading_rad));
-    }
+  for (TruthAtRest& rest : truth_at_rest(recordings, drive, truth_late_s, by_commands)) {
+    positions.add(std::move(rest.x_m));
+    positions.add(std::move(rest.y_m));
+    headings.add(std::move(rest.heading_rad));
   }
   if (!positions.tells() || (headings.count > 0.0 && !headings.tells())) return std::nullopt;
   return headings.tells() ? std::max(positions.correlation(), headings.correlation()) : positions.correlation();

@@ -10,6 +10,7 @@
 #include "core/calibration/carried_truth.h"
 #include "core/calibration/column_names.h"
 #include "core/calibration/correlated_truth.h"
+#include "core/calibration/smoothed_at_rest.h"
 #include "core/calibration/turned_mounting.h"
 
 namespace odolab {
@@ -51,6 +52,42 @@ bool counts_are_a_long_way(double count_m, const FittedNoise& noise) {
   return count_m > kLong_m && count_m > kBeyondTruth * noise.truth_position_m;
 }
 
+// By samples of the truth that are so far apart.
+Result<LeastSquaresCalibration> calibrated_by_samples_apart(double apart_s, const std::vector<Recording>& recordings,
+                                                            const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                            const Progress& progress) {
+  std::vector<Recording> thinned;
+  for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
+  return calibrated_by_all(thinned, nominal, options, progress);
+}
+
+double next_to_each_other(const LeastSquaresCalibration& c) {
+  return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
+}
+
+// Beyond what a truth is smoothed where it rests; nothing where samples so far apart still know of each other: of what
+// wanders, or of what is missing.
+std::optional<Result<LeastSquaresCalibration>> calibrated_beyond_smoothing(double for_s,
+                                                                           const std::vector<Recording>& recordings,
+                                                                           const Vehicle& nominal,
+                                                                           const LeastSquaresOptions& options,
+                                                                           const Progress& progress) {
+  constexpr double kLasting = 0.2;
+  if (for_s == 0.0) return std::nullopt;
+  Result<LeastSquaresCalibration> of_fewer = calibrated_by_samples_apart(for_s, recordings, nominal, options, progress);
+  if (!of_fewer) return of_fewer;
+  if (next_to_each_other(*of_fewer) > kLasting) return std::nullopt;
+  of_fewer->truth_apart_s = for_s;
+  of_fewer->warnings.push_back(formatted(
+      "where the vehicle rests the truth is smoothed over %.2g s: only samples so far apart were used", for_s));
+  return of_fewer;
+}
+
+double smoothed_at_rest_for_s(const std::vector<Recording>& recordings, const Vehicle& nominal, bool by_commands) {
+  const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind);
+  return drive ? smoothed_for_s(recordings, *drive, nominal.truth.time_offset_s, by_commands).value_or(0.0) : 0.0;
+}
+
 // Of fewer samples of the truth, where its noise lasts from one to the next.
 Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Recording>& recordings,
                                                           const Vehicle& nominal, const LeastSquaresOptions& options,
@@ -58,9 +95,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts: then none that are
   // further apart are white.
   constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5, kWhite = 0.06, kWhiter = 0.33;
-  const auto next = [](const LeastSquaresCalibration& c) {
-    return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
-  };
+  const auto next = next_to_each_other;
   Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, progress);
   const auto is_white = [&](const LeastSquaresCalibration& c) {
     return next(c) < kNext && c.lasting_correlation < kWhite;
@@ -83,9 +118,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   }
   constexpr std::array<double, 7> kApart_s = {0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0};
   const auto of_samples_apart = [&](double apart_s, const LeastSquaresOptions& with) {
-    std::vector<Recording> thinned;
-    for (const Recording& recording : recordings) thinned.push_back(with_truth_apart(recording, apart_s));
-    return calibrated_by_all(thinned, nominal, with, {});
+    return calibrated_by_samples_apart(apart_s, recordings, nominal, with, {});
   };
   // What sways slowly and little is no such noise, and is not seen any more in samples that are far apart.
   constexpr std::size_t kOfLittle = 5;
@@ -142,10 +175,15 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   }
   const Vehicle turned = options.fit_truth_mounting ? turned_as_driven(measured, nominal) : nominal;
   // A truth without noise has none that lasts.
-  Result<LeastSquaresCalibration> result = all_are_computed || options.truth_is_white
-                                               ? calibrated_by_all(measured, turned, options, progress)
-                                               : calibrated_by_white_truth(measured, turned, options, progress);
+  const bool is_white = all_are_computed || options.truth_is_white;
+  const double smoothed_s = is_white ? 0.0 : smoothed_at_rest_for_s(measured, turned, options.by_commands);
+  std::optional<Result<LeastSquaresCalibration>> smoothed =
+      calibrated_beyond_smoothing(smoothed_s, measured, turned, options, progress);
+  Result<LeastSquaresCalibration> result = smoothed   ? *std::move(smoothed)
+                                           : is_white ? calibrated_by_all(measured, turned, options, progress)
+                                                      : calibrated_by_white_truth(measured, turned, options, progress);
   if (!result) return result;
+  result->truth_smoothed_for_s = smoothed_s;
   if (const double count_m = largest_count_m(measured, turned); counts_are_a_long_way(count_m, result->noise))
     said.push_back(formatted("one count of the encoders is %.2g mm on the floor: of less than that they say nothing",
                              1e3 * count_m));

@@ -73,6 +73,7 @@ struct LeastSquaresCalibration {
   // Where these are large and pass within half a second, the truth's noise lasts: only samples so far apart are used
   // then (correlated_truth.h). Zero: all of them.
   double truth_apart_s = 0.0;
+  double truth_smoothed_for_s = 0.0;  // as shows where the vehicle rests (smoothed_at_rest.h); 0: not, or not told
 };
 
 // Needs wheel samples and two truth samples or more in each recording; else an Error that names the recording.

@@ -261,7 +261,9 @@ std::optional<std::size_t> refuted(const Predictor& predictor, const JointModel&
     JointModel without = joint;
     without.accepted.erase(without.accepted.begin() + static_cast<std::ptrdiff_t>(k));
     without.fit(3);
-    const Denied denied = denied_where_unseen(by_joint, predictor.of(without, joint.model.noise), is_white);
+    // What shows at rest is no doing of correlated innovations.
+    const Denied denied = denied_where_unseen(by_joint, predictor.of(without, joint.model.noise),
+                                              is_white || joint.shows_at_rest(*joint.accepted[k].effect));
     if (denied > most) most = denied, worst = k;
   }
   return worst;

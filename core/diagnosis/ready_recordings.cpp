@@ -356,7 +356,9 @@ Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle&
   JointModel joint(std::move(runs), commands, ready.told(), nominal);
   joint.truth_may_come_back = truth_may_come_back;
   joint.truth_jumps = ready.truth_jumps;
-  joint.truth_noise_lasts = ready.told().truth_apart_s > 0.0;
+  const LeastSquaresCalibration told = ready.told();
+  joint.truth_smoothed_for_s = told.truth_smoothed_for_s;
+  joint.truth_noise_lasts = told.truth_apart_s > 0.0 && told.truth_apart_s != told.truth_smoothed_for_s;
   joint.linearise();
   joint.gate();
   joint.fit(3);

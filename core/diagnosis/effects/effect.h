@@ -192,6 +192,10 @@ std::vector<Effect> clock_rate();
 // The same where each recording's clock has a rate of its own. Lives as long as the program.
 const std::vector<Effect>& clock_rate_of_each_run(int runs);
 std::vector<Effect> truth_smoothing();
+// The same where it shows at rest that the truth is smoothed, and after how long its noise is another: as little as any
+// filter smooths that does so, whatever wheels and counts do by themselves, and no more than any. Lives as long as the
+// program.
+const Effect& truth_smoothing_seen_at_rest(double for_s);
 std::vector<Effect> actuator_lag();
 }  // namespace effects
 

@@ -3,6 +3,8 @@
 // derivative: it cuts corners, and starts and stops before the vehicle does. The mean time is the clock's offset. One
 // of first order with a time constant T has s = T, a mean over a window W has s = W / sqrt(12).
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/effect_motions.h"
@@ -74,6 +76,23 @@ std::vector<Effect> truth_smoothing() {
     return std::vector<double>{width_s * width_s};
   };
   return {e};
+}
+
+// A mean that is as long has s = 0.29 of it, a bell that is nearly over by then 0.4.
+const Effect& truth_smoothing_seen_at_rest(double for_s) {
+  constexpr double kNarrowest = 0.1, kWidest = 0.5;
+  static std::mutex one_at_a_time;
+  static std::map<double, Effect> seen;
+  const std::lock_guard lock(one_at_a_time);
+  const auto [at, is_new] = seen.try_emplace(for_s);
+  Effect& e = at->second;
+  if (is_new) {
+    e = truth_smoothing().front();
+    e.amplitudes[0].low = std::pow(kNarrowest * for_s, 2);
+    e.amplitudes[0].high = std::pow(kWidest * for_s, 2);
+    e.beyond_counts = nullptr;
+  }
+  return e;
 }
 
 }  // namespace odolab::effects

@@ -127,6 +127,8 @@ class JointModel {
   bool is_foretold = true;
   // Of the truth as it was recorded: its samples are not what the likelihood takes them for.
   bool truth_noise_lasts = false;
+  double truth_smoothed_for_s = 0.0;  // as its rests show (smoothed_at_rest.h); 0: they do not
+  bool shows_at_rest(const Effect& e) const { return e.of_the_truth && truth_smoothed_for_s > 0.0; }
   // Whether the first fit of the noise asks after how long the truth's frame comes back.
   bool truth_may_come_back = true;
   std::shared_ptr<const std::vector<TruthError>> truth_errors;  // what else it may err by; null: nothing

@@ -240,7 +240,8 @@ bool is_short(const Effect& e) { return e.local && (e.of_one_recording || e.name
 
 std::vector<ScoredCandidate> scored_candidates(const JointModel& joint, int without) {
   std::vector<const Effect*> all;
-  for (const Effect& e : catalogue()) all.push_back(&e);
+  for (const Effect& e : catalogue())
+    all.push_back(joint.shows_at_rest(e) ? &effects::truth_smoothing_seen_at_rest(joint.truth_smoothed_for_s) : &e);
   const int runs = static_cast<int>(joint.views().size());
   if (runs > 1)
     for (const auto* of_each : {&effects::wheel_eccentricity_of_each_run(runs), &effects::clock_rate_of_each_run(runs)})

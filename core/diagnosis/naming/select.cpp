@@ -195,8 +195,9 @@ class Selection {
       // What whitens the innovations was what correlated them.
       if (distrust > 0.0 && with.model.distrust(standing[tried]->effect->local) == 0.0) distrust = 0.0;
       if (with.gained > kLeastKept && !is_at_its_bound(with.model.accepted.back()) &&
-          is_material(distrust, joint_.truth_noise_lasts, joint_.gathered_error(), with.model.gathered_error(),
-                      standing[tried]->test.value.size())) {
+          (joint_.shows_at_rest(*standing[tried]->effect) ||
+           is_material(distrust, joint_.truth_noise_lasts, joint_.gathered_error(), with.model.gathered_error(),
+                       standing[tried]->test.value.size()))) {
         if (asks_what_is_undone_) out_.undone = undone(joint_, *standing[tried]);
         joint_ = std::move(with.model);
         return true;
