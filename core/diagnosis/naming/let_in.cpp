@@ -12,6 +12,16 @@
 
 namespace odolab {
 
+namespace {
+
+// That of the other wheel.
+const Effect& other_wheels(const Effect& of_one) {
+  const bool is_left = of_one.component == component_of(Wheel::left);
+  return *catalogue_entry({of_one.name, component_of(is_left ? Wheel::right : Wheel::left), {}});
+}
+
+}  // namespace
+
 double let_in(JointModel& joint, const ScoredCandidate& c) {
   AcceptedEffect a;
   a.effect = c.effect;
@@ -23,6 +33,14 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
   if (coarser != joint.accepted.end()) {
     for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] = coarser->value[k % coarser->value.size()];
     joint.accepted.erase(coarser);
+  }
+  // What was said of both wheels is of each by itself, at first as large in one as in the other.
+  const auto both = std::find_if(joint.accepted.begin(), joint.accepted.end(),
+                                 [&](const AcceptedEffect& other) { return is_within(*a.effect, *other.effect); });
+  if (both != joint.accepted.end()) {
+    a.value = both->value;
+    a.shape = both->shape;
+    both->effect = &other_wheels(*a.effect);
   }
   const double without = c.effect->only_commands ? joint.minus_two_log_likelihood() : 0.0;
   joint.accepted.push_back(a);
@@ -43,7 +61,7 @@ double let_in(JointModel& joint, const ScoredCandidate& c) {
 
 void look_again(const JointModel& joint, std::vector<ScoredCandidate>& scored) {
   constexpr std::size_t kMost = 3;
-  constexpr double kWorthALook = 8.0;                          // of the statistic
+  constexpr double kWorthALook = 8.0;                      // of the statistic
   constexpr double kCertain = -16.0, kOnceByChance = 0.0;  // of the logarithm of its p value
   constexpr double kGivenToAnyTerm =
       1.05;  // by which noise makes a term larger where nothing is missing, 19 in 20 times

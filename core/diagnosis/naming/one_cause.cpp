@@ -33,6 +33,11 @@ bool looks_like(const Effect& a, const Effect& b) {
   return a.name != b.name && (names(a, b) || names(b, a));
 }
 
+bool is_within(const Effect& one_wheel, const Effect& both_wheels) {
+  return one_wheel.name == both_wheels.name && one_wheel.shape_follows_amplitude &&
+         both_wheels.component == component_of(Wheel::both) && one_wheel.component != both_wheels.component;
+}
+
 bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b) {
   return a.effect->of_one_recording && b.effect->of_one_recording && a.test.shape[0] == b.test.shape[0] &&
          std::abs(a.test.shape[1] - b.test.shape[1]) < 0.5;
@@ -49,6 +54,10 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
     if (!is_finer(*c.effect, *a.effect) && !a.effect->local && a.effect->name == c.effect->name &&
         a.effect->component == c.effect->component)
       return true;
+  // What is left beside the play of one wheel is the other's.
+  if (std::any_of(joint.accepted.begin(), joint.accepted.end(),
+                  [&](const AcceptedEffect& a) { return is_within(*a.effect, *c.effect); }))
+    return true;
   if (!c.effect->local) return false;
   for (const AcceptedEffect& a : joint.accepted) {
     if (a.effect->name == "slip_zone") {

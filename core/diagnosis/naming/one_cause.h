@@ -8,6 +8,9 @@ namespace odolab {
 // Two effects that are confounded with each other.
 bool looks_like(const Effect& a, const Effect& b);
 
+// Play of both wheels, and of one of them: a wheel has but one.
+bool is_within(const Effect& one_wheel, const Effect& both_wheels);
+
 bool of_one_moment(const ScoredCandidate& a, const ScoredCandidate& b);
 
 // A bump that is met each time, and a patch about it that is no wider than a bump may be.

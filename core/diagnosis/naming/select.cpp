@@ -70,6 +70,15 @@ class Selection {
                        [&](const AcceptedEffect& a) { return a.effect == c.effect; });
   }
 
+  // Whether a candidate in the place of the k-th name would be said of a wheel twice.
+  bool is_within_another(const ScoredCandidate& c, std::size_t k) const {
+    for (std::size_t j = 0; j < joint_.accepted.size(); ++j) {
+      const Effect& other = *joint_.accepted[j].effect;
+      if (j != k && (is_within(*c.effect, other) || is_within(other, *c.effect))) return true;
+    }
+    return false;
+  }
+
   double statistic_of(std::size_t k) const {
     const AcceptedEffect& a = joint_.accepted[k];
     return joint_.test(joint_.columns_of(*a.effect, a.shape), static_cast<int>(k)).statistic;
@@ -244,7 +253,7 @@ class Selection {
                                     [&](const ScoredCandidate& c) { return c.effect == joint_.accepted[k].effect; });
       const ScoredCandidate& top = instead.front();
       if (own == instead.end() || is_taken(top) || is_refuted(top) || !stands(top, family_wise_error_) ||
-          !beats(top, *own) || is_simpler(*own, top))
+          !beats(top, *own) || is_simpler(*own, top) || is_within_another(top, k))
         continue;
       joint_.accepted.erase(joint_.accepted.begin() + static_cast<std::ptrdiff_t>(k));
       let_in(joint_, top);

@@ -126,6 +126,50 @@ TEST(DrivetrainBacklash, IsFoundAsLargeAsItIsWhereStopsThatSwingBackDoNotCrossIt
   }
 }
 
+// Of three runs of a robot whose wheels have play each.
+Diagnosis of_play_in_each(double left_rad, double right_rad) {
+  Random random(1);
+  GeneratorSettings g = under_motion_capture({0.0758, 0.0754, 0.345}, 0.0008, 0.01);
+  g.duration_s = 50.0;
+  const auto crossed = [](double by_rad, double gap_rad, double& place_rad) {
+    const double before = place_rad;
+    place_rad = std::clamp(before + by_rad, -0.5 * gap_rad, 0.5 * gap_rad);
+    return place_rad - before;
+  };
+  return diagnose(three_runs(
+                      g, random, [&](int) { return varied_driving(random, g.duration_s); },
+                      [=](int) {
+                        auto left = std::make_shared<double>(0.0), right = std::make_shared<double>(0.0);
+                        return [=](InjectedStep& s) {
+                          s.left_m -= g.drive.wheel_radius_left_m * crossed(s.left_radps * s.dt_s, left_rad, *left);
+                          s.right_m -=
+                              g.drive.wheel_radius_right_m * crossed(s.right_radps * s.dt_s, right_rad, *right);
+                        };
+                      }),
+                  {}, Vehicle{})
+      .value();
+}
+
+// It had been 0.03 rad in both wheels, and 0.004 rad in the right one once more.
+TEST(DrivetrainBacklash, OfUnlikeWheelsIsSaidOfEachAsLargeAsItIs) {
+  for (const auto& [left_rad, right_rad] : {std::pair{0.03, 0.035}, std::pair{0.05, 0.04}}) {
+    const Diagnosis d = of_play_in_each(left_rad, right_rad);
+    ASSERT_EQ(d.findings.size(), 2u);
+    for (const Finding& f : d.findings) {
+      EXPECT_EQ(f.effect, "drivetrain_backlash");
+      ASSERT_TRUE(f.component == "left_wheel" || f.component == "right_wheel") << f.component;
+      const FoundParameter& gap = f.parameters.front();
+      EXPECT_NEAR(gap.value, f.component == "left_wheel" ? left_rad : right_rad, 4.0 * gap.stderr_value);
+    }
+  }
+}
+
+TEST(DrivetrainBacklash, OfWheelsThatAreAlikeIsSaidOfBothAtOnce) {
+  const Diagnosis d = of_play_in_each(0.03, 0.03);
+  ASSERT_EQ(d.findings.size(), 1u);
+  EXPECT_EQ(d.findings.front().component, "both_wheels");
+}
+
 // To and fro, half a metre and less, in slight bends.
 WheelSpeedsAt to_and_fro(double time_s) {
   const double v = 0.15 * std::sin(2.0 * kPi * time_s / 7.0), w = 0.4 * std::sin(2.0 * kPi * time_s / 19.0);
