@@ -283,14 +283,16 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   Result<Looked> looked = looked_at_as_is(train, held_out, as_mounted, options, progress, parted.of_each);
   if (!looked) return looked.error();
   // What one counter's lateness was taken for is asked again as if both were read at once.
-  std::vector<std::string> of_older_counts;
-  if (const double older_s = looked->sought.names.right_older_s; older_s != 0.0) {
-    of_older_counts = looked->sought.names.warnings;
+  OlderCounts older = looked->sought.names.older_counts;
+  if (const double older_s = older.right_older_s; older_s != 0.0) {
     const auto at_one_time = [&](const std::vector<Recording>& recordings) {
       return with_right_wheel_newer(recordings, std::get<DifferentialDrive>(nominal.kind), older_s);
     };
     looked = looked_at_as_is(at_one_time(train), at_one_time(held_out), as_mounted, options, progress, parted.of_each);
     if (!looked) return looked.error();
+    for (const std::string& name : looked->sought.names.older_counts.instead_of)
+      if (std::find(older.instead_of.begin(), older.instead_of.end(), name) == older.instead_of.end())
+        older.instead_of.push_back(name);
   }
   const ReadyRecordings* const ready = &looked->ready;
   const Predictor& predictor = looked->predictor;
@@ -335,7 +337,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   append(d.warnings, ready->warnings);
   if (!looked->names_explain_all()) append(d.warnings, ready->told().of_misfit);
   append(d.warnings, sought->of_undone);
-  append(d.warnings, of_older_counts);
+  if (!older.instead_of.empty()) d.warnings.push_back(in_words(older));
   append(d.warnings, names.warnings);
   append(d.warnings, warnings_beside(joint, adequacy));
   d.responses = responses_of(adequacy.generic, !joint.accepted.empty());

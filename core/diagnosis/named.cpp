@@ -8,7 +8,6 @@
 #include "core/diagnosis/borne_out.h"
 #include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/naming/in_each_run.h"
-#include "core/diagnosis/naming/late_wheel.h"
 #include "core/diagnosis/naming/left_by_form.h"
 #include "core/diagnosis/refuted.h"
 #include "core/diagnosis/simpler_forms.h"
@@ -176,7 +175,8 @@ class Naming {
       if (selected_.evidence[k].p_value > kByChance && !joint_.accepted[k].is_held) return k;
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
       if (const auto older_s = older_instead(joint_, k, selected_.evidence[k])) {
-        warn_of_older_counts(k, *older_s);
+        now_.older_counts.right_older_s = *older_s;
+        now_.older_counts.instead_of.push_back(name_in_words(*joint_.accepted[k].effect));
         return k;
       }
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
@@ -192,14 +192,6 @@ class Naming {
         return k;
       }
     return std::nullopt;
-  }
-
-  void warn_of_older_counts(std::size_t k, double older_s) {
-    now_.right_older_s = older_s;
-    now_.warnings.push_back(formatted("the right wheel's counts seem to be %.2g ms %s than the left one's, as where a "
-                                      "loop asks one counter after the other; ",
-                                      1e3 * std::abs(older_s), older_s > 0.0 ? "older" : "newer") +
-                            name_in_words(*joint_.accepted[k].effect) + " would describe no more");
   }
 
   void warn(std::size_t k, const char* of_it) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/diagnosis/naming/intervals.h"
+#include "core/diagnosis/naming/late_wheel.h"
 #include "core/diagnosis/naming/select.h"
 #include "core/diagnosis/proof.h"
 
@@ -19,7 +20,7 @@ struct Named {
   std::optional<JointModel>
       with_held_out;                  // the same model fitted to what was held out as well (Predictor::fitted_to_all)
   std::vector<std::string> warnings;  // what was named and refuted
-  double right_older_s = 0.0;         // than the left wheel's counts, where that was taken for a name
+  OlderCounts older_counts;           // that were taken for a name, which is no part of the warnings
 };
 
 // Beside a model that is calibrated only. Unset where `progress` stops it. `asks_what_is_undone`: where something is

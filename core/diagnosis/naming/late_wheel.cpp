@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/formatted.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/naming/select.h"
 
@@ -40,6 +41,16 @@ std::optional<double> older_instead(const JointModel& joint, std::size_t k, cons
   const bool says_as_much = test.statistic > evidence.test.statistic - kClearlyBeaten;
   if (!says_as_much || test.value.empty() || std::abs(test.value[0]) > kLoopTakes_s) return std::nullopt;
   return test.value[0];
+}
+
+std::string in_words(const OlderCounts& older) {
+  std::string names;
+  for (const std::string& name : older.instead_of) names += (names.empty() ? "" : " or ") + name;
+  return formatted(
+             "the right wheel's counts seem to be %.2g ms %s than the left one's, as where a loop asks one counter "
+             "after the other; ",
+             1e3 * std::abs(older.right_older_s), older.right_older_s > 0.0 ? "older" : "newer") +
+         names + " would describe no more";
 }
 
 }  // namespace odolab

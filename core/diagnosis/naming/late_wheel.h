@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/diagnosis/naming/scored_candidates.h"
 
@@ -18,5 +20,12 @@ Motions of_older_counts(const DriveView& view);
 // more than loops take and says as much as the k-th name that was let in, which acts on one wheel where it speeds up,
 // slows or turns round. `evidence`: that of the name.
 std::optional<double> older_instead(const JointModel& joint, std::size_t k, const ScoredCandidate& evidence);
+
+// How much older the right wheel's counts are, 0 where that was taken for no name, and the names that say no more.
+struct OlderCounts {
+  double right_older_s = 0.0;
+  std::vector<std::string> instead_of;
+};
+std::string in_words(const OlderCounts& older);
 
 }  // namespace odolab

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "core/diagnosis/diagnosis.h"
 #include "test/support/missing_physics.h"
@@ -38,6 +39,45 @@ TEST(LateWheel, IsNoSlipOfTheOther) {
     EXPECT_TRUE(f.effect != "traction_slip" && f.effect != "drivetrain_backlash") << f.effect << " " << f.component;
   EXPECT_TRUE(std::any_of(d.warnings.begin(), d.warnings.end(),
                           [](const std::string& w) { return w.find("the right wheel's counts seem to be 0.5") == 0; }));
+}
+
+// On and back by turns, with play of just less than a count in both wheels, and right counts that are 0.5 ms newer.
+std::vector<Recording> runs_with_play() {
+  const auto on_and_back = [](double t, int run) {
+    WheelSpeedsAt w = hard_on_and_off(t, run);
+    if (std::fmod(t, 16.0) > 8.0) w.left_radps = -w.left_radps, w.right_radps = -w.right_radps;
+    return w;
+  };
+  Random random(87);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02);
+  g.truth_position_noise_m = 0.0003;
+  g.truth_heading_noise_rad = 0.0005;
+  g.duration_s = 60.0;
+  const double gap_rad = 0.95 * 2.0 * kPi / g.drive.encoder_counts_per_revolution;
+  const auto crossed = [gap_rad](double by_rad, double& place_rad) {
+    const double before = place_rad;
+    place_rad = std::clamp(before + by_rad, 0.0, gap_rad);
+    return place_rad - before;
+  };
+  return three_runs(
+      g, random, [=](int run) { return [=](double t) { return on_and_back(t, run); }; },
+      [=](int run) {
+        auto left = std::make_shared<double>(0.0), right = std::make_shared<double>(0.0);
+        return [=](InjectedStep& s) {
+          s.left_m -= g.drive.wheel_radius_left_m * crossed(s.left_radps * s.dt_s, *left);
+          s.right_m -= g.drive.wheel_radius_right_m * crossed(s.right_radps * s.dt_s, *right);
+          s.right_read_rad = on_and_back(s.time_s + 0.5 * s.dt_s + 0.0005, run).right_radps * s.dt_s;
+        };
+      });
+}
+
+// That whole counts may feign the play had been said of the counts before they were put right, beside its finding.
+TEST(LateWheel, OfWhatCountsSeemedToSayNothingStaysOnceTheyArePutRight) {
+  const Diagnosis d = diagnose(runs_with_play(), {}, Vehicle{}).value();
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_EQ(d.findings.front().effect, "drivetrain_backlash");
+  ASSERT_EQ(d.warnings.size(), 1u);
+  EXPECT_EQ(d.warnings.front().find("the right wheel's counts seem to be 0.5"), 0u) << d.warnings.front();
 }
 
 }  // namespace
