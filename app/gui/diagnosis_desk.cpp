@@ -268,7 +268,7 @@ Result<Done> DiagnosisDesk::write(const ui::ExportDiagnosis& what) const {
       what.run < given_.runs.size() ? answered(given_.runs[what.run]) : std::optional<std::size_t>();
   if (!r) return Error{what.path, "a run that was not diagnosed", "one of the answer's"};
   const UnitMismatch* unit = unit_of(*r);
-  return write_mismatch_csv(what.path, unit ? unit->mismatch : MismatchOverTime{}, *answer_->runs[*r].truth,
+  return write_mismatch_csv(what.path, unit ? unit->mismatch : MismatchOverTime{}, answer_->truth[*r],
                             *r < shown_.size() ? shown_[*r] : Track{}, what.stretches);
 }
 

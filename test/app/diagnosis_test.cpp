@@ -11,6 +11,7 @@
 #include "app/gui/session.h"
 #include "core/diagnosis/fitted_model.h"
 #include "core/diagnosis/predicted_mismatch.h"
+#include "core/io/csv_table.h"
 #include "core/io/model_toml.h"
 #include "core/io/recording_csv.h"
 #include "core/io/vehicle_toml.h"
@@ -21,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Runs of a robot whose left wheel is out of round and whose wheelbase is wider than drawn, and its file.
+// Runs of a robot whose left wheel is out of round and whose wheelbase is wider than drawn, and its file. Its marker
+// sits ahead of the axle.
 class DiagnosisWindow : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -29,6 +31,7 @@ class DiagnosisWindow : public ::testing::Test {
     fs::remove_all(folder());
     fs::create_directories(folder());
     Scenario scenario;
+    scenario.vehicle.truth.axle_T_tracked.x_m = 0.15;
     scenario.actual.wheelbase_m = 0.343;
     scenario.effects = {{"wheel_eccentricity", "left_wheel", {{"amplitude", 0.01}, {"phase_rad", 1.2}}}};
     scenario.sensors.truth_period_s = 0.02;
@@ -150,6 +153,19 @@ TEST_F(DiagnosisWindow, AnswersSwitchesAFindingOnAndMovesTheSimulationOntoTheRec
   EXPECT_FALSE(view().runs.back().simulated_track);
   const ui::FloorScene scene = diagnosis_scene(view(), ui::DiagnosisState{}, ui::Theme{});
   EXPECT_EQ(scene.trails.size(), view().runs.size());
+}
+
+TEST_F(DiagnosisWindow, WritesWhereTheAxleWasBesideWhereTheSimulatedAxleIs) {
+  for (const char* name : {"vehicle.toml", "run_1.csv", "run_2.csv"}) open(name);
+  wish(ui::FindMissing{});
+  ASSERT_TRUE(view().runs[0].truth_track) << view().problem;
+  wish(ui::ExportDiagnosis{ui::DiagnosisExport::csv, folder() + "/axle.csv", 0, {}});
+  const Result<CsvTable> rows = read_csv_table(folder() + "/axle.csv", {"simulated_x_m"},
+                                               [](std::string_view) { return CsvCells::numbers_or_empty; });
+  ASSERT_TRUE(rows) << rows.error().message();
+  // It starts where the truth does, to a few standard deviations of one sample; the marker is 150 mm ahead.
+  EXPECT_NEAR(rows->column("simulated_x_m")->front(), rows->column("x_m")->front(), 0.01);
+  EXPECT_NEAR(rows->column("simulated_y_m")->front(), rows->column("y_m")->front(), 0.01);
 }
 
 TEST_F(DiagnosisWindow, WhatIsWrongIsOneLineInThePanelAndTheRestStays) {
