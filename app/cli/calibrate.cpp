@@ -9,9 +9,8 @@
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
 #include "core/calibration/left_out.h"
-#include "core/calibration/moved_mounting.h"
 #include "core/diagnosis/given_recordings.h"
-#include "core/diagnosis/quality/bridged_recording.h"
+#include "core/diagnosis/quality/sound_recordings.h"
 #include "core/geometry/begins_anew.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/vehicle_toml.h"
@@ -132,19 +131,11 @@ int execute_calibrate(const CalibrateOptions& options) {
   // What both ways can calibrate is calibrated by the truth, where there is one.
   const bool by_truth = from_outside && (!from_inside || std::all_of(recordings.begin(), recordings.end(), has_truth));
   if (!by_truth) return calibrate_from_inside(recordings, *nominal, options.out);
-  LeastSquaresOptions how;
-  for (Recording& recording : recordings) {
-    if (interrupted()) return stopped_before_its_end();
-    BridgedRecording sound = bridged_recording(recording, *nominal, Looks::at_truth_too);
-    for (const std::string& fault : sound.said) print_message("warning: " + fault);
-    how.left_out.emplace_back();
-    if (!sound.said.empty()) how.left_out.back() = std::move(sound.left_out_s);
-    recording = std::move(sound.recording);
-  }
-  PutRight put_right = mountings_put_right(recordings, *nominal, until_interrupted());
-  for (const MovedMounting& m : put_right.moved) print_message("warning: " + m.recording + ": " + m.sentence());
-  recordings = std::move(put_right.recordings);
+  SoundRecordings sound = sound_recordings(std::move(recordings), *nominal, until_interrupted());
+  for (const std::string& fault : sound.said) print_message("warning: " + fault);
   if (interrupted()) return stopped_before_its_end();
+  recordings = std::move(sound.recordings);
+  const LeastSquaresOptions& how = sound.how;
   const Result<ExternalCalibration> calibration =
       calibrate_externally(recordings, *nominal, terminal_progress("calibrating"), how);
   if (!calibration) return bad_input(calibration.error());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/diagnosis/quality/sound_recordings.h"
 #include "core/odometry/estimators.h"
 #include "core/recording/vehicle_samples.h"
 
@@ -53,7 +54,11 @@ Scenario with_vehicle(Scenario scenario, const Vehicle& vehicle) {
 void Comparison::open(std::shared_ptr<const Recording> recording, const Scenario& scenario, Jobs& jobs,
                       OnError on_error) {
   if (jobs.running()) return;
-  recording_ = std::move(recording);
+  as_given_ = std::move(recording);
+  SoundRecordings sound = sound_recordings({*as_given_}, scenario.vehicle);
+  recording_ = std::make_shared<const Recording>(std::move(sound.recordings.front()));
+  how_ = std::move(sound.how);
+  faults_ = std::move(sound.said);
   scenario_ = scenario;
   nominal_.reset();
   calibrated_.reset();
@@ -79,12 +84,13 @@ void Comparison::calibrate(Jobs& jobs, OnError on_error) {
   if (!recording_ || jobs.running()) return;
   const std::shared_ptr<const Recording> recording = recording_;
   const Scenario scenario = scenario_;
+  const LeastSquaresOptions how = how_;
   jobs.start("calibrating from the recording",
-             [this, recording, scenario, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
+             [this, recording, scenario, how, on_error](const Progress& progress, const Jobs::Deliver& deliver) {
                const Progress first = [&](double share) { return goes_on(progress, 0.7 * share); };
                const Progress second = [&](double share) { return goes_on(progress, 0.7 + 0.3 * share); };
                const auto found = std::make_shared<Result<LeastSquaresCalibration>>(
-                   calibrate_least_squares({*recording}, scenario.vehicle, {}, first));
+                   calibrate_least_squares({*recording}, scenario.vehicle, how, first));
                if (!*found) {
                  deliver([found, on_error] {
                    if (on_error) on_error(found->error().message());

@@ -29,7 +29,7 @@ class Comparison {
  public:
   using OnError = std::function<void(const std::string&)>;
 
-  // Replays in a job; what goes wrong is reported in words.
+  // Replays in a job, as it is made sound for the command line's calibration; what goes wrong is reported in words.
   // `scenario` replays it; its vehicle is the nominal one.
   void open(std::shared_ptr<const Recording> recording, const Scenario& scenario, Jobs& jobs, OnError on_error);
   void calibrate(Jobs& jobs, OnError on_error);
@@ -37,6 +37,8 @@ class Comparison {
 
   bool loaded() const { return recording_ != nullptr; }
   const Recording& recording() const { return *recording_; }
+  const std::shared_ptr<const Recording>& as_given() const { return as_given_; }
+  const std::vector<std::string>& faults() const { return faults_; }  // of what was given, each in one line
   const Vehicle& vehicle() const { return scenario_.vehicle; }
   const Scenario& scenario() const { return scenario_; }  // that replays it
   const ComparedReplay* nominal() const { return nominal_ ? &*nominal_ : nullptr; }
@@ -56,7 +58,9 @@ class Comparison {
   double duration_s() const;
 
  private:
-  std::shared_ptr<const Recording> recording_;
+  std::shared_ptr<const Recording> as_given_, recording_;
+  LeastSquaresOptions how_;  // to calibrate from it
+  std::vector<std::string> faults_;
   Scenario scenario_;
   std::optional<ComparedReplay> nominal_, calibrated_;
   std::optional<LeastSquaresCalibration> calibration_;

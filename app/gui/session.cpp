@@ -6,7 +6,6 @@
 
 #include "app/gui/first_scenario.h"
 #include "core/diagnosis/given_recordings.h"
-#include "core/diagnosis/quality/bridged_recording.h"
 #include "core/io/file_kind.h"
 #include "core/io/import/imported_recording.h"
 #include "core/io/recording_csv.h"
@@ -228,7 +227,7 @@ bool Session::open_vehicle(const std::string& path) {
   const Scenario scenario = with_vehicle(run_->scenario(), *vehicle);
   execute(ui::EditScenario{scenario});
   if (comparison_.loaded() && !jobs_.running()) {
-    const auto recording = std::make_shared<const Recording>(comparison_.recording());
+    const auto recording = comparison_.as_given();
     compare(recording, replay_scenario(*vehicle, *recording));
   }
   return true;
@@ -254,9 +253,7 @@ bool Session::open_recording(const std::string& path) {
     say_for_a_while("Taken for a recording of " + vehicle.name +
                     ", the vehicle in Drive; open its own file if it is of another.");
   if (const std::optional<Error> unknown = ticks_of_unknown_size(read, vehicle, path)) return refused(*unknown);
-  BridgedRecording sound = bridged_recording(read, vehicle, Looks::at_truth_too);
-  for (const std::string& fault : sound.said) say(fault, false);
-  const auto recording = std::make_shared<const Recording>(std::move(sound.recording));
+  const auto recording = std::make_shared<const Recording>(std::move(imported->recording));
   compare(recording, replay_scenario(vehicle, *recording));
   return true;
 }
@@ -266,6 +263,7 @@ void Session::compare(std::shared_ptr<const Recording> recording, const Scenario
   playing_ = false;
   ++loads_;
   comparison_.open(std::move(recording), scenario, jobs_, [this](const std::string& words) { say(words, true); });
+  for (const std::string& fault : comparison_.faults()) say(fault, false);
 }
 
 }  // namespace odolab

@@ -285,7 +285,7 @@ struct Session::Executor {
   }
   void operator()(const ui::SaveRecording& a) const {
     if (comparing() && s.comparison_.loaded()) {
-      if (s.done_or_said(write_recording_csv(a.path, s.comparison_.recording())))
+      if (s.done_or_said(write_recording_csv(a.path, *s.comparison_.as_given())))
         s.say("Recording saved as " + a.path, false);
       return;
     }
