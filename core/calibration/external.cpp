@@ -114,7 +114,7 @@ Result<Recording> trailer_alone(const Recording& recording, const Vehicle& nomin
 }
 
 Result<ExternalCalibration> calibrate_train(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                                            const Progress& progress) {
+                                            const LeastSquaresOptions& options, const Progress& progress) {
   Train train = train_of(nominal);
   const auto half = [&](double begin) {
     return [progress, begin](double share) { return goes_on(progress, begin + 0.5 * share); };
@@ -124,7 +124,7 @@ Result<ExternalCalibration> calibrate_train(const std::vector<Recording>& record
       return alone.error();
   Vehicle part = nominal;
   part.kind = train.tow;
-  Result<LeastSquaresCalibration> tow = calibrate_least_squares(recordings, part, {}, half(0.0));
+  Result<LeastSquaresCalibration> tow = calibrate_least_squares(recordings, part, options, half(0.0));
   if (!tow) return tow.error();
   // Tracks that skid seem to turn about another place, and late. Only the direction of straights is free of that.
   const bool skids = std::holds_alternative<EncoderTrailer>(nominal.kind);
@@ -147,7 +147,9 @@ Result<ExternalCalibration> calibrate_train(const std::vector<Recording>& record
   part.kind = train.trailer;
   part.truth = {};
   part.truth.time_offset_s = mounting.time_offset_s;
-  Result<LeastSquaresCalibration> trailer = calibrate_least_squares(of_trailer, part, {}, half(0.5));
+  LeastSquaresOptions behind = options;
+  behind.fit_truth_mounting = true;  // there drawbar and hitch show
+  Result<LeastSquaresCalibration> trailer = calibrate_least_squares(of_trailer, part, behind, half(0.5));
   if (!trailer) return trailer.error();
 
   train.tow = std::get<DifferentialDrive>(tow->vehicle.kind);
@@ -239,7 +241,7 @@ Result<ExternalCalibration> calibrate_externally(const std::vector<Recording>& r
                                                  const Progress& progress, const LeastSquaresOptions& options) {
   if (std::holds_alternative<Tracked>(nominal.kind)) return calibrate_tracks(recordings, nominal, options, progress);
   if (std::holds_alternative<EncoderTrailer>(nominal.kind) || std::holds_alternative<SmartEncoderTrailer>(nominal.kind))
-    return calibrate_train(recordings, nominal, progress);
+    return calibrate_train(recordings, nominal, options, progress);
   Result<LeastSquaresCalibration> found = calibrate_least_squares(recordings, nominal, options, progress);
   if (!found) return found.error();
   ExternalCalibration result;

@@ -27,7 +27,7 @@ bool can_calibrate_externally(const Vehicle& vehicle);
 // vehicle's: first that one by its own wheels; then the trailer, a drive whose truth is carried back over hitch and
 // drawbar by the hitch angle as read. Where it seems to sit off that place or turned against it, the drawbar is longer
 // and the hitch's encoder biased. Needs a truth with headings. Errors as calibrate_least_squares.
-// `options`: not of vehicles with a trailer.
+// `options`: of each part; where the truth's mounting is held, that of the towing vehicle.
 Result<ExternalCalibration> calibrate_externally(const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                  const Progress& progress = {},
                                                  const LeastSquaresOptions& options = {});

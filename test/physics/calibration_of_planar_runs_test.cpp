@@ -1,7 +1,10 @@
 // Vehicles that are not as drawn, driven in the planar world and calibrated from what they recorded.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
@@ -83,6 +86,31 @@ TEST(PlanarCalibration, TheTruthTellsTowTrailerDrawbarAndHitchApart) {
   // Eight numbers within three and a half of their standard errors: one run in 270 misses.
   expect_found(all, c.truth, 3.5);
   expect_better(run, c.scenario.vehicle, found->vehicle, 2.0);  // what is left is the truth's own noise
+}
+
+// Of a second and a half in which the trailer's left encoder misses three counts in ten.
+TEST(PlanarCalibration, WhatIsLeftOutOfATrailersRunTellsNothingOfIt) {
+  SmartTrailerCase c;
+  Recording run = driven(c.scenario, 1);
+  constexpr double kFrom_s = 1.5, kTo_s = 3.0, kMissed = 0.3;
+  Channel& left = *std::find_if(run.channels.begin(), run.channels.end(),
+                                [](const Channel& channel) { return channel.name == "trailer_left_wheel_rad"; });
+  double read_rad = 0.0, before_rad = 0.0;
+  std::pair<double, double> left_out;
+  for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+    if (std::isnan(left.values[i])) continue;
+    const bool misses = run.time_s[i] > kFrom_s && run.time_s[i] < kTo_s;
+    if (run.time_s[i] <= kFrom_s) left_out.first = run.time_s[i];
+    if (run.time_s[i] < kTo_s) left_out.second = run.time_s[i];
+    read_rad += (misses ? 1.0 - kMissed : 1.0) * (left.values[i] - before_rad);
+    before_rad = std::exchange(left.values[i], read_rad);
+  }
+  LeastSquaresOptions how;
+  how.left_out.push_back({{left_out}});
+  const Result<ExternalCalibration> found = calibrate_externally({run}, c.scenario.vehicle, {}, how);
+  ASSERT_TRUE(found);
+  std::erase_if(c.truth, [](const auto& named) { return named.first == "tow.wheelbase_m"; });
+  expect_found(found->parts.back().calibration.parameters, c.truth, 3.5);
 }
 
 TEST(PlanarCalibration, TheSmartTrailersOwnEncodersTellTheSameWithoutAnyTruth) {
