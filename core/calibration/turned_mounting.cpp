@@ -1,5 +1,6 @@
 #include "core/calibration/turned_mounting.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -27,6 +28,13 @@ std::optional<double> turned_by_ends(const Recording& recording, const Different
   return wrapped(std::atan2(by_wheels.y_m, by_wheels.x_m) - std::atan2(by_truth.y_m, by_truth.x_m));
 }
 
+// Of angles that lie near each other, wherever the count of turns begins.
+double middle_angle_rad(const std::vector<double>& angles_rad) {
+  Vec2 sum;
+  for (const double angle_rad : angles_rad) sum = sum + Vec2{std::cos(angle_rad), std::sin(angle_rad)};
+  return std::atan2(sum.y_m, sum.x_m);
+}
+
 }  // namespace
 
 Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle& nominal) {
@@ -37,29 +45,28 @@ Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle
     const auto r = static_cast<std::size_t>(i);
     if (problems_in(recordings[r]).empty()) fits[r] = run_fit(recordings[r], nominal);
   });
-  std::optional<double> turned_rad;
-  for (const std::optional<RunFit>& fit : fits) {
-    if (!fit || !fit->drives || !fit->turns || fit->way_explained < kExplained || fit->turn_explained < kExplained ||
-        fit->turn_ratio <= 0.0)
-      continue;
-    const double own_rad = fit->axle_T_tracked.heading_rad;
-    if (turned_rad && std::abs(wrapped(own_rad - *turned_rad)) > kAlike_rad) return nominal;
-    if (!turned_rad) turned_rad = own_rad;
-  }
+  std::vector<double> turned_rad;  // as each run has it
+  for (const std::optional<RunFit>& fit : fits)
+    if (fit && fit->drives && fit->turns && fit->way_explained >= kExplained && fit->turn_explained >= kExplained &&
+        fit->turn_ratio > 0.0)
+      turned_rad.push_back(fit->axle_T_tracked.heading_rad);
   constexpr int kFewest = 2;  // measured at both ends alone
   int by_ends = 0;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (fits[r] || !problems_in(recordings[r]).empty()) continue;
     const std::optional<double> own_rad = turned_by_ends(recordings[r], std::get<DifferentialDrive>(nominal.kind));
     if (!own_rad) continue;
-    if (turned_rad && std::abs(wrapped(*own_rad - *turned_rad)) > kAlike_rad) return nominal;
-    if (!turned_rad) turned_rad = own_rad;
+    turned_rad.push_back(*own_rad);
     ++by_ends;
   }
   if (by_ends > 0 && by_ends < kFewest) return nominal;
+  const double middle_rad = middle_angle_rad(turned_rad);
+  if (std::any_of(turned_rad.begin(), turned_rad.end(),
+                  [&](double own_rad) { return std::abs(wrapped(own_rad - middle_rad)) > kAlike_rad; }))
+    return nominal;
   Vehicle turned = nominal;
   double& heading_rad = turned.truth.axle_T_tracked.heading_rad;
-  if (turned_rad && std::abs(wrapped(*turned_rad - heading_rad)) > kFar_rad) heading_rad = wrapped(*turned_rad);
+  if (!turned_rad.empty() && std::abs(wrapped(middle_rad - heading_rad)) > kFar_rad) heading_rad = middle_rad;
   return turned;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/calibration/least_squares.h"
 #include "core/diagnosis/diagnosis.h"
 #include "test/support/missing_physics.h"
@@ -42,6 +44,17 @@ TEST(TurnedMounting, ByAnyAngleIsFoundAsItIs) {
         }
       EXPECT_NEAR(std::get<DifferentialDrive>(fit->vehicle.kind).wheelbase_m, c.actual.wheelbase_m, 1e-3);
     }
+  }
+}
+
+// One in the middle and one to either side: whether they are alike had been asked of the first alone.
+TEST(TurnedMounting, IsFoundInWhateverOrderTheRunsCome) {
+  const Case c = three_runs_of_it();
+  std::vector<Recording> runs;
+  for (const double turned_rad : {1.35, 1.5, 1.65}) runs.push_back(with_headings_turned(c, turned_rad)[runs.size()]);
+  for (int first = 0; first < 3; ++first) {
+    EXPECT_NEAR(turned_as_driven(runs, c.nominal).truth.axle_T_tracked.heading_rad, 1.5, 0.02);
+    std::rotate(runs.begin(), runs.begin() + 1, runs.end());
   }
 }
 
