@@ -40,7 +40,7 @@ Eigen::Matrix4d synchro_jacobian(const SynchroDrive& nominal, const Eigen::Vecto
   return j;
 }
 
-// Covariance of the mean of one direction's return positions.
+// Covariance of the mean of one direction's return positions, of which there are two or more.
 Eigen::Matrix2d of_centre(const std::vector<ReturnError>& runs, const Cluster& cluster) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const ReturnError& e : runs) {
@@ -48,7 +48,7 @@ Eigen::Matrix2d of_centre(const std::vector<ReturnError>& runs, const Cluster& c
     sum += off * off.transpose();
   }
   const double n = static_cast<double>(runs.size());
-  return n < 2.0 ? sum : Eigen::Matrix2d(sum / ((n - 1.0) * n));
+  return sum / ((n - 1.0) * n);
 }
 
 }  // namespace
@@ -104,13 +104,15 @@ std::optional<SynchroCalibration> calibrate_synchro(const UmbmarkRuns& runs, con
   c.base_turn_rad_per_m = errors(1);
   c.base_turn_cos_rad_per_m = errors(2);
   c.base_turn_sin_rad_per_m = errors(3);
+  c.corrected = with_errors(nominal, errors);
+  if (runs.clockwise.size() < 2 || runs.counter_clockwise.size() < 2) return c;
   Eigen::Matrix4d of_centres = Eigen::Matrix4d::Zero();
   of_centres.topLeftCorner<2, 2>() = of_centre(runs.clockwise, measure->clockwise);
   of_centres.bottomRightCorner<2, 2>() = of_centre(runs.counter_clockwise, measure->counter_clockwise);
   const Eigen::Matrix4d inverse = synchro_jacobian(nominal, errors, side_m).inverse();
   const Eigen::Matrix4d of_errors = inverse * of_centres * inverse.transpose();
-  for (int k = 0; k < 4; ++k) c.standard_errors[static_cast<std::size_t>(k)] = std::sqrt(of_errors(k, k));
-  c.corrected = with_errors(nominal, errors);
+  c.standard_errors.emplace();
+  for (int k = 0; k < 4; ++k) (*c.standard_errors)[static_cast<std::size_t>(k)] = std::sqrt(of_errors(k, k));
   return c;
 }
 

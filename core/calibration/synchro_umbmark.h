@@ -19,11 +19,12 @@
 namespace odolab {
 
 struct SynchroCalibration {
-  double corner_error_rad = 0.0;               // a: the turn that is missing in each corner, > 0: turns too little
-  double base_turn_rad_per_m = 0.0;            // c
-  double base_turn_cos_rad_per_m = 0.0;        // A
-  double base_turn_sin_rad_per_m = 0.0;        // B
-  std::array<double, 4> standard_errors = {};  // of the four, from the spread of the runs; 0 with one run a direction
+  double corner_error_rad = 0.0;         // a: the turn that is missing in each corner, > 0: turns too little
+  double base_turn_rad_per_m = 0.0;      // c
+  double base_turn_cos_rad_per_m = 0.0;  // A
+  double base_turn_sin_rad_per_m = 0.0;  // B
+  // Of the four, from the spread of the runs; none where a direction has but one.
+  std::optional<std::array<double, 4>> standard_errors;
   SynchroDrive corrected;
 };
 

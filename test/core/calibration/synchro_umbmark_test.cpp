@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace odolab {
 namespace {
 
@@ -67,6 +69,22 @@ TEST(SynchroUmbmark, SaysNothingWithoutRunsInBothDirections) {
   UmbmarkRuns runs = squares_of(faulty(1.0), SynchroDrive{});
   runs.clockwise.clear();
   EXPECT_FALSE(calibrate_synchro(runs, SynchroDrive{}).has_value());
+}
+
+// It had been 0 of each, and less than it is where one direction had more.
+TEST(SynchroUmbmark, DoesNotSayHowUncertainItIsWhereADirectionHasOneRun) {
+  UmbmarkRuns runs = squares_of(faulty(1.0), SynchroDrive{});
+  const auto add_beside = [](std::vector<ReturnError>& of) {
+    of.push_back({of[0].x_m + 0.01, of[0].y_m - 0.01, of[0].heading_rad});
+  };
+  EXPECT_FALSE(calibrate_synchro(runs, SynchroDrive{})->standard_errors);
+  add_beside(runs.clockwise);
+  EXPECT_FALSE(calibrate_synchro(runs, SynchroDrive{})->standard_errors);
+  add_beside(runs.counter_clockwise);
+  const auto known = calibrate_synchro(runs, SynchroDrive{})->standard_errors;
+  ASSERT_TRUE(known);
+  // Eqs. 1: of a sum of two x with 5 mm each.
+  EXPECT_NEAR((*known)[0], std::sqrt(2.0) * 0.005 / (4.0 * kSide_m), 1e-5);
 }
 
 }  // namespace
