@@ -123,7 +123,7 @@ struct Response {
   std::vector<double> after;  // what is left of it with the findings; empty where nothing was found
 };
 
-// Innovations of one recording over time, for pictures.
+// Innovations of one recording over time, at the truth's stamps, for pictures.
 struct Residuals {
   std::string recording;
   std::vector<double> time_s, x_m, y_m, along_m, across_m, heading_rad, squared;  // squared: normalised, 1 per scalar

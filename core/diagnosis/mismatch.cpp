@@ -51,12 +51,16 @@ double largest_between(const std::vector<double>& time_s, const std::vector<doub
 // What lies on the floor acts in every recording; a push has a place, but happened once.
 bool is_of_the_floor(const Finding& f) { return f.effect == "slip_zone" || f.effect == "bump"; }
 
-// Residuals stand at the truth's stamps, what was found at the wheels'; those of a vehicle's units are not told apart.
+// Whether a name is that of a recording, or of one of its units: "run.csv, truck_a".
+bool is_of(const std::string& name, const std::string& recording) {
+  return name == recording || name.rfind(recording + ", ", 0) == 0;
+}
+
+// Residuals stand at the truth's stamps, what was found at the wheels'.
 double lateness_of_truth_s(const Diagnosis& d, const std::string& recording) {
-  const Residuals* own = of_recording(d.residuals_before, recording);
-  if (!own || own->recording != recording) return 0.0;
+  if (!of_recording(d.residuals_before, recording)) return 0.0;
   for (const auto& [name, offset_s] : d.truth_clock_s)
-    if (name == recording) return offset_s;
+    if (is_of(recording, name)) return offset_s;
   return 0.0;
 }
 
@@ -165,7 +169,7 @@ std::vector<LocatedStretch> located_stretches(const Diagnosis& d, const std::str
   for (std::size_t k = 0; k < d.findings.size(); ++k) {
     const WhereFound& where = d.findings[k].where;
     const double late_s = d.findings[k].effect == "truth_frozen" ? 0.0 : lateness_of_truth_s(d, recording);
-    if (where.recording.empty() || where.recording == recording)
+    if (where.recording.empty() || is_of(recording, where.recording))
       for (const auto& [from_s, to_s] : where.time_s) all.push_back({k, from_s + late_s, to_s + late_s});
     else if (where.zone && is_of_the_floor(d.findings[k]))
       add_passes(*where.zone, of_recording(d.residuals_before, recording), k, all);

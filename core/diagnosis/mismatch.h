@@ -51,8 +51,8 @@ struct MismatchOverTime {
 };
 MismatchOverTime mismatch_over_time(const Diagnosis& diagnosis, const std::string& recording);
 
-// When findings act in that recording, on the clock of its residuals: where they were tied to times, or while it is in
-// the zone that was found.
+// When findings act in that recording, or in what a unit of it did, on the clock of its residuals: where they were tied
+// to times, or while it is in the zone that was found.
 struct LocatedStretch {
   std::size_t finding = 0;
   double from_s = 0.0, to_s = 0.0;

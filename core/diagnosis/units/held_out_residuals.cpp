@@ -46,6 +46,11 @@ Result<FittedNoise> noise_beside_effects(const FittedModel& model, const std::ve
   return times(fit->noise, std::exp(high));
 }
 
+// What the joints say of a unit's way is on the encoders' clock.
+void put_at_truths_stamps(Residuals& r, const Vehicle& vehicle) {
+  for (double& t : r.time_s) t += vehicle.truth.time_offset_s;
+}
+
 void add_held_out(Diagnosis& all, const Diagnosis& diagnosis, const std::vector<Recording>& fitted,
                   const std::vector<Recording>& held_out, const VehicleUnit& unit, std::size_t u) {
   const FittedModel calibrated = calibrated_model_of(diagnosis), found = model_of(diagnosis);
@@ -59,6 +64,10 @@ void add_held_out(Diagnosis& all, const Diagnosis& diagnosis, const std::vector<
     Result<Residuals> before = residuals_under(calibrated_unit, *noise, by_calibrated.front(), calibrated_unit.vehicle);
     Result<Residuals> after = residuals_under(found_unit, *noise, by_found.front(), found_unit.vehicle);
     if (!before || !after || before->time_s.empty()) continue;
+    if (!unit.carries_truth) {
+      put_at_truths_stamps(*before, calibrated.vehicle_in(recording.name));
+      put_at_truths_stamps(*after, found.vehicle_in(recording.name));
+    }
     before->recording = after->recording = recording_of_unit(recording.name, unit.name);
     all.residuals_before.push_back(std::move(*before));
     all.residuals_after.push_back(std::move(*after));

@@ -48,6 +48,13 @@ std::vector<NotTestable> not_testable_in(const std::vector<Diagnosis>& diagnoses
   return all;
 }
 
+// What the joints say of a unit's way is on the encoders' clock.
+void put_onto_truths_clock(Residuals& r, const std::vector<std::pair<std::string, double>>& late_s) {
+  for (const auto& [recording, by_s] : late_s)
+    if (recording == r.recording)
+      for (double& t : r.time_s) t += by_s;
+}
+
 }  // namespace
 
 bool any_cannot_say(const std::vector<Diagnosis>& diagnoses) {
@@ -80,6 +87,9 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   Diagnosis d;
   d.calibration = merged_calibration(diagnoses, &Diagnosis::calibration, geometry, units, nominal);
   d.calibration_alone = merged_calibration(diagnoses, &Diagnosis::calibration_alone, geometry, units, nominal);
+  std::vector<std::pair<std::string, double>> by_geometry;  // by how much the truth's clock is late in each
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    by_geometry.emplace_back(recordings[r].name, nominal.truth.time_offset_s + geometry.clock_s[r]);
   bool truth_is_carried = false;
   Vehicle fitted = geometry.vehicle;
   for (std::size_t u = 0; u < units.size(); ++u) {
@@ -103,6 +113,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
     }
     for (std::vector<Residuals> Diagnosis::*residuals : {&Diagnosis::residuals_before, &Diagnosis::residuals_after})
       for (Residuals r : one.*residuals) {
+        if (!units[u].carries_truth) put_onto_truths_clock(r, by_geometry);
         if (!units[u].name.empty()) r.recording += ", " + units[u].name;
         (d.*residuals).push_back(std::move(r));
       }
@@ -132,9 +143,7 @@ Diagnosis merged(const std::vector<Diagnosis>& diagnoses, const GeometryFit& geo
   put_pushes_together(d.findings, units);
   if (!truth_is_carried && truth != OutsideTruth::nothing) add_mounting(geometry, nominal, d.findings);
   if (!truth_is_carried && from_outside) add_clock(geometry, nominal, d.findings);
-  if (!truth_is_carried)
-    for (std::size_t r = 0; r < recordings.size(); ++r)
-      d.truth_clock_s.emplace_back(recordings[r].name, nominal.truth.time_offset_s + geometry.clock_s[r]);
+  if (!truth_is_carried) d.truth_clock_s = by_geometry;
   if (truth == OutsideTruth::nothing)
     d.fitted_vehicle->truth = d.calibration.vehicle.truth = d.calibration_alone.vehicle.truth = nominal.truth;
   for (std::string& sentence : add_biases(geometry, units, d.findings)) d.warnings.push_back(std::move(sentence));

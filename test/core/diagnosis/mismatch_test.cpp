@@ -116,5 +116,24 @@ TEST(Mismatch, OfAUnitIsFoundByTheRecording) {
   EXPECT_FALSE(mismatch_over_time(d, "run.csv").time_s.empty());
 }
 
+// And by the unit, which its residuals are named by; they stand at the truth's stamps, too.
+TEST(Mismatch, OfAUnitIsLocatedOnTheClockOfItsResiduals) {
+  Diagnosis d;
+  d.residuals_before = {white(5)};
+  for (double& t : d.residuals_before[0].time_s) t += 1000.0;
+  d.residuals_before[0].recording = "run.csv, truck_a";
+  d.truth_clock_s = {{"run.csv", 1000.0}};
+  Finding f;
+  f.effect = "collision";
+  f.where.recording = "run.csv";
+  f.where.time_s = {{7.5, 8.0}};
+  d.findings = {f};
+  for (const char* name : {"run.csv", "run.csv, truck_a"}) {
+    const std::vector<LocatedStretch> located = located_stretches(d, name);
+    ASSERT_EQ(located.size(), 1u) << name;
+    EXPECT_DOUBLE_EQ(located[0].from_s, 1007.5) << name;
+  }
+}
+
 }  // namespace
 }  // namespace odolab
