@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "app/cli/run/outputs.h"
@@ -68,6 +69,11 @@ Json json_of_stage(const UmbmarkStage& stage) {
   return json;
 }
 
+// What one count of an encoder is on the floor: no return error is known any better.
+double count_m(const DifferentialDrive& drive) {
+  return 2.0 * kPi * std::max(drive.wheel_radius_left_m, drive.wheel_radius_right_m) / drive.counts_per_wheel_turn();
+}
+
 // The first run in which the robot did not arrive, in words; empty where all did.
 void note_lost(std::string& lost, const BenchmarkRun& run) {
   if (!run.finished && lost.empty())
@@ -113,22 +119,24 @@ Result<RunOutputs> umbmark_outputs(const Scenario& scenario, std::uint64_t seed,
   out.report.table({"[mm]", "Emax,syst", "cw", "ccw", "spread", "SEM"}, rows);
   const double before = stages.front().measure.largest_systematic_error_m,
                after = stages.back().measure.largest_systematic_error_m;
-  const double by_chance =
-      2.0 * std::hypot(stages.front().measure.standard_error_m, stages.back().measure.standard_error_m);
+  const double least = count_m(stages.front().nominal);
+  const double by_chance = std::max(
+      least, 2.0 * std::hypot(stages.front().measure.standard_error_m, stages.back().measure.standard_error_m));
+  const double improvement = std::max(before, least) / std::max(after, least);
   if (std::abs(after - before) < by_chance) {
     out.sentences.push_back(
-        "From the first to the last, that is no more than the spread of the runs makes: these squares show neither an "
-        "error of the wheelbase or the wheels' ratio, nor that it was put right.");
+        "From the first to the last, that is no more than the spread of the runs or a count of the encoders makes: "
+        "these squares show neither an error of the wheelbase or the wheels' ratio, nor that it was put right.");
   } else if (after < before) {
-    out.sentences.push_back(text_of("That is %.1f times better.", before / after));
+    out.sentences.push_back(text_of("That is %.1f times better.", improvement));
   } else {
     out.sentences.push_back(
         text_of("That is %.1f times worse: what is wrong here is not the wheelbase and not the ratio of the wheels.",
-                after / before));
+                1.0 / improvement));
   }
   out.figure("largest_systematic_error_before_m", before);
   out.figure("largest_systematic_error_after_m", after);
-  out.figure("improvement", before / after);
+  out.figure("improvement", improvement);
   out.figure("compensations", static_cast<double>(stages.size() - 1));
   out.figure("spread_before_m", stages.front().measure.spread_m);
 
