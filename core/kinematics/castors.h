@@ -23,7 +23,7 @@ class CastorKinematics {
   CastorKinematics(MultiCastor actual, const Pose& body, const std::vector<double>& castor_angles_rad = {});
 
   // Moves on by a twist, for its whole duration. The body's way is exact; the castors' angles are integrated by the
-  // classical Runge-Kutta method in steps of at most 2 ms.
+  // classical Runge-Kutta method in steps of at most 5 ms.
   void move(const BodyTwist& twist);
 
   const Pose& body() const { return body_; }

@@ -54,15 +54,6 @@ struct ShapeProblem {
 
 bool contains(const Shape& shape, Vec2 point) { return std::visit(Contains{point}, shape); }
 
-Vec2 centre_of(const Shape& shape) {
-  if (const auto* disc = std::get_if<Disc>(&shape)) return disc->centre;
-  if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return rectangle->centre;
-  const std::vector<Vec2>& corners = std::get<Polygon>(shape).corners;
-  Vec2 sum;
-  for (Vec2 c : corners) sum = sum + c;
-  return (1.0 / static_cast<double>(corners.size())) * sum;
-}
-
 Shape moved(const Shape& shape, Vec2 by) {
   Shape result = shape;
   if (auto* disc = std::get_if<Disc>(&result)) disc->centre = disc->centre + by;

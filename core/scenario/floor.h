@@ -44,7 +44,6 @@ struct Polygon {
 using Shape = std::variant<Disc, Rectangle, Polygon>;
 
 bool contains(const Shape& shape, Vec2 point);
-Vec2 centre_of(const Shape& shape);
 Shape moved(const Shape& shape, Vec2 by);
 
 // A patch where wheels grip less, or slip by a fixed share of what they roll.

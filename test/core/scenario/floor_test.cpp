@@ -24,12 +24,12 @@ TEST(Shape, ContainsByCrossingsWhicheverWayAPolygonRuns) {
   }
 }
 
-TEST(Shape, MovesWithItsCentre) {
+TEST(Shape, ContainsWhatItDidMovedAlongWithIt) {
   for (const Shape& s :
-       {Shape{Disc{{1, 2}, 1}}, Shape{Rectangle{{1, 2}, 1, 1, 0}}, Shape{Polygon{{{0, 2}, {2, 2}, {1, 2}}}}}) {
-    EXPECT_NEAR(centre_of(s).x_m, 1.0, 1e-15);
-    EXPECT_NEAR(centre_of(moved(s, {3, -1})).x_m, 4.0, 1e-15);
-    EXPECT_NEAR(centre_of(moved(s, {3, -1})).y_m, 1.0, 1e-15);
+       {Shape{Disc{{1, 2}, 1}}, Shape{Rectangle{{1, 2}, 1, 1, 0}}, Shape{Polygon{{{0, 1}, {2, 1}, {1, 3}}}}}) {
+    EXPECT_TRUE(contains(s, {1.2, 2.2}));
+    EXPECT_FALSE(contains(moved(s, {3, -1}), {1.2, 2.2}));
+    EXPECT_TRUE(contains(moved(s, {3, -1}), {4.2, 1.2}));
   }
 }
 
