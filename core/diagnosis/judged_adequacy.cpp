@@ -5,8 +5,8 @@
 #include "core/diagnosis/generic/bursts.h"
 #include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/generic_tests.h"
-#include "core/diagnosis/generic/knocked_marker.h"
 #include "core/diagnosis/generic/stretches.h"
+#include "core/diagnosis/generic/truth_otherwise_since.h"
 
 namespace odolab {
 
@@ -68,8 +68,8 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
     return adequacy;
   }
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
-  if (std::optional<Unnamed> knocked = what_sits_elsewhere_since(named.joint, named.selected.evidence))
-    adequacy.unnamed = knocked;
+  if (std::optional<Unnamed> since = what_is_otherwise_since(named.joint, named.selected.evidence))
+    adequacy.unnamed = since;
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   double explained = 0.0;
   for (const ScoredCandidate& e : named.selected.evidence)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
@@ -50,6 +51,38 @@ TEST(KnockedMarker, IsNoPush) {
     EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
     EXPECT_NE(f.where.regime.find("sits elsewhere"), std::string::npos) << f.where.regime;
   }
+}
+
+// Three runs; in the second the truth's clock is set while it runs: from 31 s on it shows what will be in 120 ms.
+std::vector<Recording> runs_under_a_clock_that_is_set() {
+  constexpr std::size_t kRows = 6;  // of 20 ms
+  Random random(85);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.02);
+  g.duration_s = 60.0;
+  std::vector<Recording> runs = three_runs(
+      g, random, [&](int) { return varied_driving(random, g.duration_s); }, [](int) { return [](InjectedStep&) {}; });
+  Recording& r = runs[1];
+  std::vector<std::size_t> rows;  // of the truth
+  for (std::size_t i = 0; i < r.time_s.size(); ++i)
+    if (!std::isnan(r.channel("truth_x_m")->values[i])) rows.push_back(i);
+  for (Channel& c : r.channels) {
+    if (c.name.rfind("truth_", 0) != 0) continue;
+    const std::vector<double> was = c.values;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (r.time_s[rows[k]] > kKnocked_s) c.values[rows[k]] = was[rows[std::min(k + kRows, rows.size() - 1)]];
+  }
+  return runs;
+}
+
+TEST(ClockThatIsSet, IsNoPush) {
+  const Diagnosis d = diagnose(runs_under_a_clock_that_is_set(), {}, Vehicle{}).value();
+  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
+  const Finding& f = d.findings.front();
+  EXPECT_EQ(f.component, "truth");
+  EXPECT_EQ(f.where.recording, "run_2");
+  ASSERT_EQ(f.where.time_s.size(), 1u);
+  EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
+  EXPECT_NE(f.where.regime.find("earlier"), std::string::npos) << f.where.regime;
 }
 
 }  // namespace
