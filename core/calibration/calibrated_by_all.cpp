@@ -367,6 +367,8 @@ class FitOfAll {
       frozen += run.frozen;
       result.outliers += static_cast<int>(std::count(run.set_aside.begin(), run.set_aside.end(), 1));
     }
+    const std::string of_outliers = std::to_string(result.outliers) + " of " + std::to_string(samples) +
+                                    " truth samples contradict their neighbours and were set aside";
     if (frozen > 0)
       result.warnings.push_back(std::to_string(frozen) +
                                 " truth samples repeat themselves while the wheels turn and were left out");
@@ -376,8 +378,26 @@ class FitOfAll {
                                 (fit_->restarts() == 1 ? " place; the fit starts anew behind it"
                                                        : " places; the fit starts anew behind them"));
     if (result.outliers > 0.02 * samples)
-      result.of_misfit.push_back(std::to_string(result.outliers) + " of " + std::to_string(samples) +
-                                 " truth samples contradict their neighbours and were set aside");
+      result.of_misfit.push_back(of_outliers);
+    else if (result.outliers > 0)
+      result.warnings.push_back(of_outliers + ": " + where_outliers_are());
+  }
+
+  // The first few of each recording.
+  std::string where_outliers_are() const {
+    constexpr std::size_t kSaid = 3;
+    std::string said;
+    for (const InnovationRun& run : fit_->runs()) {
+      std::vector<double> at_s;
+      for (std::size_t i = 0; i < run.truth.size(); ++i)
+        if (run.set_aside[i] == 1) at_s.push_back(run.truth[i].time_s);
+      if (at_s.empty()) continue;
+      said += (said.empty() ? "" : "; ") + run.name + " at";
+      for (std::size_t k = 0; k < std::min(kSaid, at_s.size()); ++k) said += formatted(k ? ", %.2f" : " %.2f", at_s[k]);
+      said += " s";
+      if (at_s.size() > kSaid) said += formatted(" and %d more", static_cast<int>(at_s.size() - kSaid));
+    }
+    return said;
   }
 
   static void warn_of_values(const Clock& clock, LeastSquaresCalibration& result) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/formatted.h"
 #include "test/support/drive_generator.h"
 #include "test/support/missing_physics.h"
 
@@ -286,6 +287,8 @@ TEST(LeastSquares, SetsOutliersAndFrozenTruthAside) {
   const auto result = calibrate_least_squares({recording}, labmate());
   ASSERT_TRUE(result.ok());
   EXPECT_EQ(result->outliers, 4);
+  EXPECT_TRUE(says(result->warnings, formatted("at %.2f, %.2f, %.2f s and 1 more", recording.time_s[rows[60]],
+                                               recording.time_s[rows[200]], recording.time_s[rows[340]])));
   EXPECT_TRUE(says(result->warnings, "repeat themselves"));
   for (const auto& [name, value] : true_values(g))
     EXPECT_NEAR(named(*result, name).value, value, 4 * named(*result, name).stderr_value) << name;
