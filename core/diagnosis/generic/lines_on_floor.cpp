@@ -191,9 +191,10 @@ std::vector<Motions> motions_on(const Line& line, OnLine channel, const DriveVie
   return out;
 }
 
-std::string name_of(const Line& line) {
+// Through the point that is nearest to the middle of the floor: a room may be far from where places are counted from.
+std::string name_of(const Line& line, const FloorSquare& floor) {
   const double middle_m = 0.5 * (line.from_m + line.to_m);
-  const Vec2 foot = middle_m * line.normal();
+  const Vec2 foot = floor.middle + (middle_m - dot(line.normal(), floor.middle)) * line.normal();
   const auto shown = [](double m) { return std::abs(m) < 0.005 ? 0.0 : m; };  // no "-0.00"
   return formatted("a line across the floor through x %.2f, y %.2f m, %.2g m wide, at %.0f degrees", shown(foot.x_m),
                    shown(foot.y_m), line.to_m - line.from_m, line.towards_rad * 180.0 / kPi - 90.0);
@@ -222,7 +223,7 @@ std::vector<GenericTest> line_tests(const AskedModel& asked, double looked_at) {
     const auto [channel, line] = chosen[static_cast<std::size_t>(i)];
     GenericTest& t = tests[static_cast<std::size_t>(i)];
     t = asked_of(
-        asked, name_of(line), named(channel).name, named(channel).terms,
+        asked, name_of(line, floor), named(channel).name, named(channel).terms,
         [channel = channel, line = line](const DriveView& view, const std::vector<double>&) {
           return motions_on(line, channel, view);
         },

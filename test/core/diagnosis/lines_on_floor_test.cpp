@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "core/diagnosis/diagnosis.h"
 #include "test/support/missing_physics.h"
+#include "test/support/other_room.h"
 
 namespace odolab::test {
 namespace {
@@ -15,7 +17,8 @@ double past_m(const Vec2& place) {
 }
 bool is_on_line(const Vec2& place) { return std::abs(past_m(place)) < 0.02; }
 
-Diagnosis on_a_lined_floor(const std::function<void(InjectedStep&)>& what_happens) {
+// `room`: where the truth has the origin of that floor.
+Diagnosis on_a_lined_floor(const std::function<void(InjectedStep&)>& what_happens, const Pose& room = {}) {
   Random random(61);
   GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0005, 0.05);
   g.duration_s = 60.0;
@@ -27,7 +30,15 @@ Diagnosis on_a_lined_floor(const std::function<void(InjectedStep&)>& what_happen
       return WheelSpeedsAt{forward - turning, forward + turning};
     };
   };
-  return diagnose(three_runs(g, random, driving, [&](int) { return what_happens; }), {}, Vehicle{}).value();
+  std::vector<Recording> runs = three_runs(g, random, driving, [&](int) { return what_happens; });
+  for (Recording& run : runs) run = in_room(std::move(run), room);
+  return diagnose(runs, {}, Vehicle{}).value();
+}
+
+void turns_on_the_line(InjectedStep& s) {
+  if (!is_on_line(s.pose.position())) return;
+  const double way_m = 0.5 * std::abs(s.left_m + s.right_m);
+  s.turn_rad += 0.4 * way_m * std::sin(2.0 * (kTowards_rad - s.pose.heading_rad));
 }
 
 void expect_unknown_on_the_line(const Diagnosis& d) {
@@ -38,11 +49,18 @@ void expect_unknown_on_the_line(const Diagnosis& d) {
 }
 
 TEST(LinesOnFloor, AreFoundWhereAJointTurnsWhateverCrossesItTowardsItsNormal) {
-  expect_unknown_on_the_line(on_a_lined_floor([](InjectedStep& s) {
-    if (!is_on_line(s.pose.position())) return;
-    const double way_m = 0.5 * std::abs(s.left_m + s.right_m);
-    s.turn_rad += 0.4 * way_m * std::sin(2.0 * (kTowards_rad - s.pose.heading_rad));
-  }));
+  expect_unknown_on_the_line(on_a_lined_floor(turns_on_the_line));
+}
+
+// Where places are counted from says nothing of the room: a satellite's are hundreds of kilometres from theirs.
+TEST(LinesOnFloor, AreSaidByAPlaceInTheRoom) {
+  const Pose room{500000.0, 4000000.0, 0.0};
+  const Diagnosis d = on_a_lined_floor(turns_on_the_line, room);
+  expect_unknown_on_the_line(d);
+  const std::string& regime = d.findings.front().where.regime;
+  Vec2 said;
+  ASSERT_EQ(std::sscanf(regime.c_str() + regime.find("through x "), "through x %lf, y %lf m", &said.x_m, &said.y_m), 2);
+  EXPECT_LT(length(said - room.position()), 10.0) << regime;
 }
 
 TEST(LinesOnFloor, AreFoundWhereTwoMapsDoNotMeet) {
