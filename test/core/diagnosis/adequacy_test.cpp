@@ -338,8 +338,8 @@ TEST(Adequacy, HearsAWheelThatIsOtherwiseAtASpeedOfItsOwn) {
   EXPECT_NE(regime.find("left wheel per metre [1] that depends on its own speed"), std::string::npos) << regime;
 }
 
-// A map that turns by a tenth of a degree in a second, about a corner of the room.
-TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) {
+// A map that turns by a tenth of a degree in a second, about a corner of the room. `room`: where the map has that.
+void expect_unknown_where_the_frame_turns(const Pose& room) {
   constexpr double kTurns_radps = 0.002;
   test::Case c = case_of("", 1.0, 3, 8);
   for (Recording& r : c.recordings) {
@@ -356,6 +356,7 @@ TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) {
       (*y)[i] = place.y_m;
       (*heading)[i] += by;
     }
+    r = test::in_room(std::move(r), room);
   }
   const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
   ASSERT_TRUE(d);
@@ -363,6 +364,14 @@ TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) {
   EXPECT_EQ(d->findings.front().component, "truth");
   EXPECT_NE(d->findings.front().where.regime.find("truth's frame"), std::string::npos)
       << d->findings.front().where.regime;
+}
+
+TEST(Adequacy, CallsATruthWhoseFrameTurnsUnknown) { expect_unknown_where_the_frame_turns({}); }
+
+// It had been a floor that creeps, from some twenty metres on.
+TEST(Adequacy, KnowsAFrameThatTurnsInARoomThatIsFarFromWherePlacesAreCountedFrom) {
+  expect_unknown_where_the_frame_turns({60.0, -40.0, 0.0});
+  expect_unknown_where_the_frame_turns({465000.0, 5247000.0, 0.0});
 }
 
 TEST(Adequacy, CallsAClockThatWandersUnknownAndSaysThatTheTruthIsLateNowAndThen) {
