@@ -77,8 +77,13 @@ std::optional<Undone> undone(const JointModel& joint, const ScoredCandidate& c) 
   const CandidateTest away = away_for_a_while(scan, static_cast<int>(c.test.shape[0]), c.test.shape[1]);
   const double stays = std::max(c.test.statistic, pushed_by(scan, c.test.shape));
   if (away.statistic < stays + kClearlyBeaten + away_by_chance()) return std::nullopt;
-  return Undone{static_cast<int>(away.shape[0]), away.shape[1], away.shape[2], std::hypot(away.value[0], away.value[1]),
-                away.value[2]};
+  // It goes, and comes back, within a step each: samples of these are off, too.
+  const auto run = static_cast<int>(away.shape[0]);
+  const DriveView& view = joint.views()[static_cast<std::size_t>(run)];
+  const EffectStep &goes = view.steps[view.step_at(away.shape[1])], &returns = view.steps[view.step_at(away.shape[2])];
+  return Undone{run, std::min(away.shape[1], goes.time_s - 0.5 * goes.duration_s),
+                std::max(away.shape[2], returns.time_s + 0.5 * returns.duration_s),
+                std::hypot(away.value[0], away.value[1]), away.value[2]};
 }
 
 }  // namespace odolab
