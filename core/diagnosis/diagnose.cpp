@@ -21,7 +21,6 @@
 #include "core/diagnosis/parted.h"
 #include "core/diagnosis/place_response.h"
 #include "core/diagnosis/quality/obeying_wheels.h"
-#include "core/diagnosis/quality/wheels_at_one_time.h"
 #include "core/diagnosis/ready_recordings.h"
 #include "core/diagnosis/units/diagnose_units.h"
 #include "core/diagnosis/units/vehicle_units.h"
@@ -225,10 +224,11 @@ struct Looked {
 
 Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                          const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                         bool truth_is_white, const std::vector<TimeStretches>& parted) {
+                         bool truth_is_white, const std::vector<TimeStretches>& parted, double right_older_s) {
   const Error stopped{"diagnosis", "stopped before its end", ""};
   Result<ReadyRecordings> ready = ready_recordings(
-      train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); }, truth_is_white, parted);
+      train, held_out, nominal, [&](double share) { return goes_on(progress, 0.25 * share); }, truth_is_white, parted,
+      right_older_s);
   if (!ready) return ready.error();
   Result<JointModel> calibrated_only = calibrated_model(*ready, nominal);
   if (!calibrated_only) return calibrated_only.error();
@@ -253,13 +253,13 @@ Result<Looked> looked_at(const std::vector<Recording>& train, const std::vector<
 // that.
 Result<Looked> looked_at_as_is(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
-                               const std::vector<TimeStretches>& parted) {
-  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted);
+                               const std::vector<TimeStretches>& parted, double right_older_s = 0.0) {
+  Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted, right_older_s);
   if (!looked || !looked->names_explain_all()) return looked;
   if (const LeastSquaresCalibration told = looked->ready.told();
       told.truth_apart_s == 0.0 || told.truth_apart_s == told.truth_smoothed_for_s)
     return looked;
-  Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted);
+  Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted, right_older_s);
   if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
   if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};
   return looked;
@@ -285,10 +285,7 @@ Result<Diagnosis> diagnosed(const std::vector<Recording>& train, const std::vect
   // What one counter's lateness was taken for is asked again as if both were read at once.
   OlderCounts older = looked->sought.names.older_counts;
   if (const double older_s = older.right_older_s; older_s != 0.0) {
-    const auto at_one_time = [&](const std::vector<Recording>& recordings) {
-      return with_right_wheel_newer(recordings, std::get<DifferentialDrive>(nominal.kind), older_s);
-    };
-    looked = looked_at_as_is(at_one_time(train), at_one_time(held_out), as_mounted, options, progress, parted.of_each);
+    looked = looked_at_as_is(train, held_out, as_mounted, options, progress, parted.of_each, older_s);
     if (!looked) return looked.error();
     for (const std::string& name : looked->sought.names.older_counts.instead_of)
       if (std::find(older.instead_of.begin(), older.instead_of.end(), name) == older.instead_of.end())

@@ -17,6 +17,7 @@
 #include "core/diagnosis/quality/lost_counts.h"
 #include "core/diagnosis/quality/noiseless_truth.h"
 #include "core/diagnosis/quality/truth_jumps.h"
+#include "core/diagnosis/quality/wheels_at_one_time.h"
 #include "core/diagnosis/truth_elsewhere.h"
 #include "core/recording/truth_left_out.h"
 
@@ -157,6 +158,14 @@ bool leave_out_alike_holds(const std::vector<CheckedRecording*>& each, const Veh
   return any;
 }
 
+// What is read of the right wheel, moved to when the left one was read. Counts need not be whole from here on.
+void read_at_one_time(const std::vector<CheckedRecording*>& each, const Vehicle& nominal, double right_older_s) {
+  for (CheckedRecording* c : each)
+    if (!c->from_commands)
+      c->recording =
+          with_right_wheel_newer({c->recording}, std::get<DifferentialDrive>(nominal.kind), right_older_s).front();
+}
+
 std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
   double squares_m2 = 0.0;
   for (const TruthJump& j : jumps) squares_m2 += dot(j.by, j.by);
@@ -164,6 +173,13 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
       "the truth jumps at %d moments, by %.1f mm root mean square, sideways as much as ahead: they are left "
       "out, and no push or bump at one moment can be told from them",
       static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
+}
+
+// Whether a clock is so far from what the vehicle's file says that the truth drives on where wheels stand.
+bool are_clocks_far_off(const LeastSquaresCalibration& calibration, const Vehicle& nominal) {
+  constexpr double kFar_s = 0.3;
+  return std::any_of(calibration.time_offset_s.begin(), calibration.time_offset_s.end(),
+                     [&](double offset_s) { return std::abs(offset_s - nominal.truth.time_offset_s) > kFar_s; });
 }
 
 // As the moments say, where that is worth a try.
@@ -232,7 +248,7 @@ TimeStretches KnownRun::as_stamped(TimeStretches on_right_clock) const {
 
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress, bool truth_is_white,
-                                         const std::vector<TimeStretches>& also_left_out_s) {
+                                         const std::vector<TimeStretches>& also_left_out_s, double right_older_s) {
   if (train.empty()) return Error{"recordings", "none", "one or more"};
   ReadyRecordings ready;
   ready.train.resize(train.size());
@@ -298,6 +314,21 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
+  const auto known_clocks = [&] {
+    std::vector<std::optional<AlignedClock>> known(each.size());
+    for (std::size_t i = 0; i < each.size(); ++i)
+      if (const auto run = known_run(ready, *each[i], i, nominal))
+        known[i] = AlignedClock{run->clocks.offset_s, run->clocks.rate};
+    return known;
+  };
+  if (are_clocks_far_off(ready.calibration, nominal)) {
+    std::vector<CheckedRecording> as_told;
+    for (const CheckedRecording* c : each) as_told.push_back(*c);
+    check(known_clocks());
+    put_mountings_right();
+    if (!calibrate())  // all that is left contradicts the wheels, as stamped
+      for (std::size_t i = 0; i < each.size(); ++i) *each[i] = std::move(as_told[i]);
+  }
   if (std::optional<std::vector<AlignedClock>> moments = clocks_by_moments(ready, nominal)) {
     ready.clocks_put_right = ClocksPutRight{*std::move(moments), {}, ready.calibration};
     if (const Result<Done> done = calibrate(); !done) return done.error();
@@ -310,10 +341,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   if (ready.clocks_put_right) {
     if (const Result<Done> done = calibrate(); !done) return done.error();
     // By clocks that ran apart the truth drove on where wheels stood.
-    std::vector<std::optional<AlignedClock>> known(each.size());
-    for (std::size_t i = 0; i < each.size(); ++i)
-      if (const auto run = known_run(ready, *each[i], i, nominal))
-        known[i] = AlignedClock{run->clocks.offset_s, run->clocks.rate};
+    const std::vector<std::optional<AlignedClock>> known = known_clocks();
     for (std::size_t i = ready.train.size(); ready.clocks_put_right && i < each.size(); ++i)
       ready.clocks_put_right->held_out_clocks.push_back(known[i].value_or(AlignedClock{nominal.truth.time_offset_s}));
     check(known);
@@ -321,7 +349,9 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     if (const Result<Done> done = calibrate(); !done) return done.error();
   }
   const bool some_is_lost = leave_out_what_encoders_lose(ready, each, nominal);
-  if (leave_out_alike_holds(each, nominal) || some_is_lost)
+  const bool some_are_alike = leave_out_alike_holds(each, nominal);
+  if (right_older_s != 0.0) read_at_one_time(each, nominal, right_older_s);
+  if (some_are_alike || some_is_lost || right_older_s != 0.0)
     if (const Result<Done> done = calibrate(); !done) return done.error();
   if (leave_out_truth_elsewhere(ready, each, nominal))
     if (const Result<Done> done = calibrate(); !done) return done.error();

@@ -52,10 +52,12 @@ std::optional<KnownRun> known_run(const ReadyRecordings& ready, const CheckedRec
 
 // Of a differential drive's recordings. An error where one is no recording, cannot be calibrated on, or `progress`
 // stops it. `truth_is_white`: as of LeastSquaresOptions. `also_left_out_s`: of each, those that are fitted first, on
-// the wheels' clock.
+// the wheels' clock. `right_older_s`: than the left wheel's counts, which is put right once the counters' faults are
+// found: these are looked for in whole counts.
 Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, const std::vector<Recording>& held_out,
                                          const Vehicle& nominal, const Progress& progress, bool truth_is_white = false,
-                                         const std::vector<TimeStretches>& also_left_out_s = {});
+                                         const std::vector<TimeStretches>& also_left_out_s = {},
+                                         double right_older_s = 0.0);
 
 // All that were fitted under their calibration, with their noise, and no effect yet. `truth_may_come_back`: whether it
 // is asked after how long the truth's frame does (JointModel::truth_may_come_back).

@@ -134,7 +134,7 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle, con
                            ", as where gaps are filled: left out");
   }
   DataFault frozen{"truth_frozen", "truth", recording.name,
-                   is_measured ? frozen_truth(truth, wheels, drive, vehicle.truth.time_offset_s) : TimeStretches{}, ""};
+                   is_measured ? frozen_truth(truth, wheels, drive, known.offset_s) : TimeStretches{}, ""};
   if (!frozen.time_s.empty()) {
     leave_truth_out(out.recording, rows_within(frozen.time_s, out.recording.time_s, false));
     frozen.sentence = in_words_of_frozen(frozen.time_s.size());

@@ -120,6 +120,19 @@ TEST(FaultyData, NamesNothingWhereTheTruthReachesBeyondTheWheelsAndItsClockIsLat
   for (const auto& [recording, late_s] : d.truth_clock_s) EXPECT_NEAR(late_s, 0.08, 0.002) << recording;
 }
 
+// The truth drives on for more than a second after the wheels came to rest, which is known once it is calibrated.
+TEST(FaultyData, AreNotWhatAClockDoesThatIsLateByMoreThanASecond) {
+  CaseSettings settings;
+  settings.truth_late_s = 1.3;
+  settings.runs = 3;
+  settings.duration_s = 40.0;
+  const Case c = generated_case(settings, 2);
+  const Diagnosis d = diagnose(c.recordings, {}, c.nominal).value();
+  for (const Finding& f : d.findings) EXPECT_NE(f.effect, "encoder_data_fault") << f.sentence;
+  EXPECT_TRUE(std::any_of(d.findings.begin(), d.findings.end(),
+                          [](const Finding& f) { return f.effect == "truth_time_offset"; }));
+}
+
 TEST(FaultyData, RefusesAnUnusableRecordingByName) {
   Case c = generated_case(short_case("", 0.0), 7601);
   c.recordings[1].time_s[5] = -100.0;
