@@ -91,6 +91,7 @@ Predicted::Side side_of(const std::vector<JointModel>& models) {
   for (const JointModel& j : models) {
     side.of_model.push_back(j.gathered_error());
     side.minus_two_log_likelihood.push_back(j.minus_two_log_likelihood());
+    side.scalars.push_back(j.scalars());
     side.error.add(side.of_model.back());
     chi2 += j.chi2(), scalars += j.scalars();
   }
@@ -227,9 +228,14 @@ void prove(Diagnosis& d, const Predictor& predictor, const Compared& compared,
 
 double likelier_where_unseen(const Predicted& one, const Predicted& other) {
   double gained = 0.0;
-  for (std::size_t m = 0; m < one.unseen->minus_two_log_likelihood.size(); ++m)
-    if (one.tells(m, other))
-      gained += other.unseen->minus_two_log_likelihood[m] - one.unseen->minus_two_log_likelihood[m];
+  for (std::size_t m = 0; m < one.unseen->minus_two_log_likelihood.size(); ++m) {
+    if (!one.tells(m, other)) continue;
+    // One may start anew, or set aside, where the other does not: a sample more counts as all others do.
+    const double misfit = other.unseen->minus_two_log_likelihood[m],
+                 of_each = misfit / std::max(1, other.unseen->scalars[m]);
+    gained += misfit - one.unseen->minus_two_log_likelihood[m] +
+              of_each * (one.unseen->scalars[m] - other.unseen->scalars[m]);
+  }
   return gained;
 }
 

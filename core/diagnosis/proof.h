@@ -21,6 +21,7 @@ struct Predicted {
     JointModel::GatheredError of_path;                // where that has none, for want of headings (path_error)
     std::vector<JointModel::GatheredError> of_model;  // what that is made of: one, or one for each run left out in turn
     std::vector<double> minus_two_log_likelihood;     // of each of these
+    std::vector<int> scalars;                         // that this is of
     const JointModel::GatheredError& shown() const { return of_path.windows > 0 ? of_path : error; }
   };
   Side fitted;
