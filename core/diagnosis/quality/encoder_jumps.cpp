@@ -105,6 +105,13 @@ bool is_off_a_steady_pace(const Rates& rates, std::size_t first, std::size_t rea
          std::max(std::abs(rates.out_by[first - 1]), std::abs(rates.out_by[behind])) <= kBeside * out_by;
 }
 
+// No count at all in one reading, of a wheel that turned before and turns behind, however slowly.
+bool makes_no_count(const Rates& rates, std::size_t i, double gap_s, double count_rad) {
+  constexpr double kCounts = 3.0;
+  return rates.step_rad[i] == 0.0 && std::abs(rates.out_by[i]) * gap_s >= kCounts * count_rad &&
+         !turns_round(rates, i);
+}
+
 // Readings in a row that stand out, of one wheel or both.
 struct StandingOut {
   std::size_t first, readings;
@@ -194,7 +201,7 @@ TimeStretches without_lost_rows(const TimeStretches& jumps, const std::vector<Wh
 
 JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationModel& calibrated) {
   constexpr double kShown = 30.0;  // of twice the log-likelihood
-  // The same where both wheels do so at once by more than 1 g: no vehicle does.
+  // The same where both wheels do so at once by more than 1 g, or make no count at all: no vehicle does.
   constexpr double kNoVehicle_mps2 = 9.81, kOfNoVehicle = 10.0;
   constexpr double kAllOfIt = 0.3;       // by so much at most what the truth shows may differ from what stands out
   std::vector<double> time_s, left_rad, right_rad;
@@ -206,15 +213,19 @@ JumpsOfWheels jumps_against_truth(const InnovationRun& run, const InnovationMode
   for (std::size_t i = 1; i + 1 < of_left.each.size(); ++i)
     for (const std::size_t readings : {1u, 2u}) {
       const double gap_s = time_s[i + 1] - time_s[i];
-      const bool left = is_off_a_steady_pace(of_left, i, readings, gap_s, count),
-                 right = is_off_a_steady_pace(of_right, i, readings, gap_s, count);
+      bool left = is_off_a_steady_pace(of_left, i, readings, gap_s, count),
+           right = is_off_a_steady_pace(of_right, i, readings, gap_s, count);
       if (!left && !right) continue;
+      // A packet that is lost has the counts of both.
+      const bool is_a_packet = readings == 1 && makes_no_count(of_left, i, gap_s, count) &&
+                               makes_no_count(of_right, i, gap_s, count);
+      left |= is_a_packet, right |= is_a_packet;
       const std::optional<ShownShare> shown =
           shown_on_the_pace(run, calibrated, time_s, of_left, of_right, {i, readings, left, right});
       const double slower_radps = std::min(std::abs(of_left.out_by[i]), std::abs(of_right.out_by[i])),
                    slowed_mps2 = slower_radps * calibrated.drive.wheel_radius_left_m / gap_s;
-      const bool is_no_vehicle = left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
-                                 slowed_mps2 > kNoVehicle_mps2;
+      const bool is_no_vehicle = is_a_packet || (left && right && of_left.out_by[i] * of_right.out_by[i] > 0.0 &&
+                                                 slowed_mps2 > kNoVehicle_mps2);
       if (!shown || shown->gain_of_all < (is_no_vehicle ? kOfNoVehicle : kShown)) continue;
       if (std::abs(shown->best - 1.0) >= kAllOfIt) continue;
       (left && right ? jumps.both : left ? jumps.left : jumps.right).emplace_back(time_s[i], time_s[i + readings]);

@@ -152,6 +152,39 @@ TEST(EncoderJumps, AreWhereBothLoseTheSameAtOnce) {
   EXPECT_TRUE(found.right.empty());
 }
 
+// In a bend the inner wheel loses less than stands out by itself.
+TEST(EncoderJumps, AreOfBothWheelsWhereAPacketIsLost) {
+  constexpr double kFast_radps = 3.0, kSlow_radps = 0.6, kStep_s = 0.04, kCount_rad = 0.0031;
+  constexpr int kLost = 150;  // the reading behind which it is
+  InnovationModel model;
+  model.drive = {0.1, 0.1, 0.4};
+  model.noise = {0.0005, 0.001, 0.002};
+  Random random(5);
+  InnovationRun run;
+  Pose pose;
+  double left_rad = 0.0, right_rad = 0.0;
+  for (int i = 0; i <= 300; ++i) {
+    const double t = kStep_s * i;
+    run.wheels.push_back(
+        {t, kCount_rad * std::floor(left_rad / kCount_rad), kCount_rad * std::floor(right_rad / kCount_rad)});
+    run.truth.push_back({t,
+                         {pose.x_m + 0.001 * random.normal(), pose.y_m + 0.001 * random.normal()},
+                         pose.heading_rad + 0.002 * random.normal()});
+    const double left_step_rad = kFast_radps * kStep_s,
+                 right_step_rad = (i > 100 && i < 200 ? kSlow_radps : kFast_radps) * kStep_s;
+    pose = dead_reckoned(pose, left_step_rad, right_step_rad, model.drive);
+    if (i == kLost) continue;
+    left_rad += left_step_rad, right_rad += right_step_rad;
+  }
+  run.truth_has_heading = true;
+  run.set_aside.assign(run.truth.size(), 0);
+  const JumpsOfWheels found = jumps_against_truth(run, model);
+  ASSERT_EQ(found.both.size(), 1u);
+  EXPECT_NEAR(found.both.front().first, kLost * kStep_s, 1e-9);
+  EXPECT_TRUE(found.left.empty());
+  EXPECT_TRUE(found.right.empty());
+}
+
 // A hundredth of a second's worth of counts, as of one byte that was read wrongly; as much too many may be a bump.
 TEST(EncoderJumps, AreWhereAnEvenPaceLosesLittle) {
   InnovationModel model;
