@@ -10,6 +10,31 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+bool lags(const AcceptedEffect& a) { return a.effect->only_commands && a.effect->shape_follows_amplitude; }
+
+// How the ways of a drive grow with a radius or the wheelbase.
+DriveView growing_with(int length, DriveView view) {
+  const DifferentialDrive& d = view.drive;
+  for (EffectStep& s : view.steps) {
+    s.left_m = length == column::wheel_radius_left ? s.left_m / d.wheel_radius_left_m : 0.0;
+    s.right_m = length == column::wheel_radius_right ? s.right_m / d.wheel_radius_right_m : 0.0;
+    s.turn_rad = (length == column::wheelbase ? -s.turn_rad : s.right_m - s.left_m) / d.wheelbase_m;
+  }
+  return view;
+}
+
+// What a base goes further with a radius or a wheelbase comes as late as all that it goes.
+void add_lagging(const AcceptedEffect& lag, const DriveView& view, const LinearisedRun& linear,
+                 const std::array<double*, column::first_extra>& of_parameters) {
+  for (const int length : {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase}) {
+    double* const out = of_parameters[static_cast<std::size_t>(length)];
+    if (!out) continue;
+    std::vector<double> behind(static_cast<std::size_t>(3 * linear.samples()), 0.0);
+    linear.of_motion(lag.effect->motions(growing_with(length, view), lag.shape).front(), behind.data());
+    for (std::size_t i = 0; i < behind.size(); ++i) out[i] += lag.value[0] * behind[i];
+  }
+}
+
 }  // namespace
 
 VectorXd JointModel::Linearisation::acting(std::size_t run, const VectorXd& of_all) const {
@@ -133,6 +158,8 @@ void JointModel::linearise(bool with_columns) {
       if (nuisance_active[c]) of_parameters[static_cast<std::size_t>(c)] = z.col(at++).data();
     if (clock_active[r]) of_parameters[column::truth_clock] = z.col(at++).data();
     linear.of_parameters(of_parameters);
+    for (const AcceptedEffect& a : accepted)
+      if (lags(a)) add_lagging(a, next->views[r], linear, of_parameters);
     if (runs_[r].counts_show)
       for (const Motions& of_wheel : counts_at_rest(runs_[r], model.drive))
         linear.of_motion(of_wheel, z.col(at++).data());
