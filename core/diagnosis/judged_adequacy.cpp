@@ -68,8 +68,9 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
     return adequacy;
   }
   if (!adequacy.unnamed) adequacy.unnamed = what_contradicts(named.joint, calibrated, of_calibration);
-  if (std::optional<Unnamed> since = what_is_otherwise_since(named.joint, named.selected.evidence))
-    adequacy.unnamed = since;
+  if (!adequacy.unnamed || adequacy.unnamed->component != "truth")
+    if (std::optional<Unnamed> since = what_is_otherwise_since(named.joint, named.selected.evidence))
+      adequacy.unnamed = std::move(since);
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   double explained = 0.0;
   for (const ScoredCandidate& e : named.selected.evidence)
