@@ -4,6 +4,7 @@
 
 #include "core/base/parallel.h"
 #include "core/calibration/averaged_truth.h"
+#include "core/calibration/between_readings.h"
 #include "core/calibration/fewer_readings.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/restamped.h"
@@ -66,6 +67,7 @@ std::vector<Result<InnovationRun>> condensed_runs(const std::vector<CheckedRecor
     averaged.wheels = runs[r]->wheels;
     averaged.smooth = runs[r]->smooth;
     averaged.left_out = runs[r]->left_out;
+    trust_less_between_readings(averaged, model);
     InnovationRun less = with_fewer_readings(averaged, std::min(kReadingsApart_s, longest_s));
     if (less.truth.size() == runs[r]->truth.size()) std::fill(less.set_aside.begin(), less.set_aside.end(), char{0});
     if (less.truth.size() < runs[r]->truth.size() || less.wheels.size() < runs[r]->wheels.size())
