@@ -42,7 +42,7 @@ double noise_at_most_m(const std::vector<TruthSample>& truth) {
 }  // namespace
 
 void trust_less_between_readings(InnovationRun& run, const InnovationModel& model) {
-  constexpr double kFarApart_s = 0.04, kHoles_s = 0.5, kOfMissed = 0.25;
+  constexpr double kFarApart_s = 0.075, kHoles_s = 0.5, kOfMissed = 0.25;
   const std::vector<WheelSample>& wheels = run.wheels;
   if (run.speeds_are_held || wheels.size() < 8 || run.truth.size() < 8) return;
   const double readings_s = (wheels.back().time_s - wheels.front().time_s) / static_cast<double>(wheels.size() - 1);
