@@ -93,7 +93,7 @@ class Naming {
         family_wise_error_(family_wise_error),
         progress_(progress),
         asks_what_is_undone_(asks_what_is_undone),
-        now_{calibrated, {}, {}, {}, {}, {}, {}} {}
+        now_{calibrated, {}, {}, {}, {}, {}, {}, {}} {}
 
   std::optional<Named> run() {
     if (!let_in(progress_)) return {};

@@ -52,7 +52,8 @@ std::vector<AskedTogether> asked_together(const std::vector<ScoredTogether>& by_
       continue;
     }
     const ScoredTogether& best = *likeliest_together(by_itself, e.name);
-    AskedTogether one{{}, visible};
+    AskedTogether one;
+    one.visible = visible;
     one.asked.effect = e.name;
     one.asked.component = best.candidate.component;
     one.asked.log_likelihood_gain = 0.5 * best.test.judged();
