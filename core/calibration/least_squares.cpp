@@ -61,6 +61,8 @@ Result<LeastSquaresCalibration> calibrated_by_samples_apart(double apart_s, cons
   return calibrated_by_all(thinned, nominal, options, progress);
 }
 
+constexpr double kLasting = 0.2;  // by which neighbours may be correlated at most where fewer samples are used
+
 double next_to_each_other(const LeastSquaresCalibration& c) {
   return std::max({c.correlation[0], c.correlation[1], c.correlation[2]});
 }
@@ -72,7 +74,6 @@ std::optional<Result<LeastSquaresCalibration>> calibrated_beyond_smoothing(doubl
                                                                            const Vehicle& nominal,
                                                                            const LeastSquaresOptions& options,
                                                                            const Progress& progress) {
-  constexpr double kLasting = 0.2;
   if (for_s == 0.0) return std::nullopt;
   Result<LeastSquaresCalibration> of_fewer = calibrated_by_samples_apart(for_s, recordings, nominal, options, progress);
   if (!of_fewer) return of_fewer;
@@ -94,7 +95,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
                                                           const Progress& progress) {
   // A missing effect correlates innovations too, but less, or over as long as a manoeuvre lasts: then none that are
   // further apart are white.
-  constexpr double kNext = 0.5, kLasting = 0.2, kOfManoeuvres = 0.5, kWhite = 0.06, kWhiter = 0.33;
+  constexpr double kNext = 0.5, kOfManoeuvres = 0.5, kWhite = 0.06, kWhiter = 0.33;
   const auto next = next_to_each_other;
   Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, progress);
   const auto is_white = [&](const LeastSquaresCalibration& c) {

@@ -31,6 +31,7 @@ FollowingWays following_ways(const std::vector<TruthAtRest>& rests, const std::v
   std::vector<double> firsts, seconds;
   for (const TruthAtRest& rest : rests) {
     const std::vector<double>& values = rest.*channel;
+    if (values.size() != rest.time_s.size()) continue;  // a heading now and then
     const auto is_even = [&](std::size_t from) {
       const double steps = (rest.time_s[from + over] - rest.time_s[from]) / step_s;
       return std::abs(steps - static_cast<double>(over)) <= kEven;
