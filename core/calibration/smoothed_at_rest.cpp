@@ -80,9 +80,9 @@ std::optional<double> smoothed_for_s(const std::vector<Recording>& recordings, c
     }
     if (channels < 2.0) break;
     correlation.push_back(sum / channels);
+    if (correlation.front() <= kNeighbours) return 0.0;
   }
   if (correlation.empty()) return std::nullopt;
-  if (correlation.front() <= kNeighbours) return 0.0;
   const double most = *std::min_element(correlation.begin(), correlation.end());
   if (most > kGoesBack) return std::nullopt;
   const auto first_beyond = [&](double share, double white) {

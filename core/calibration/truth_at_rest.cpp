@@ -1,5 +1,6 @@
 #include "core/calibration/truth_at_rest.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/geometry/angles.h"
@@ -33,14 +34,16 @@ std::vector<TruthAtRest> truth_at_rest(const std::vector<Recording>& recordings,
     const std::vector<TruthSample> truth = truth_samples(recording);
     for (const auto& [from_s, to_s] : long_rests(wheel_samples(recording, drive), !by_commands)) {
       TruthAtRest rest;
-      for (const TruthSample& t : truth) {
-        if (t.time_s - truth_late_s < from_s || t.time_s - truth_late_s > to_s) continue;
-        rest.time_s.push_back(t.time_s);
-        rest.x_m.push_back(t.position.x_m);
-        rest.y_m.push_back(t.position.y_m);
-        if (!t.heading_rad) continue;
+      const auto first = std::partition_point(truth.begin(), truth.end(), [&, from = from_s](const TruthSample& t) {
+        return t.time_s - truth_late_s < from;
+      });
+      for (auto t = first; t != truth.end() && t->time_s - truth_late_s <= to_s; ++t) {
+        rest.time_s.push_back(t->time_s);
+        rest.x_m.push_back(t->position.x_m);
+        rest.y_m.push_back(t->position.y_m);
+        if (!t->heading_rad) continue;
         std::vector<double>& h = rest.heading_rad;
-        h.push_back(h.empty() ? *t.heading_rad : unwrapped(*t.heading_rad, h.back()));
+        h.push_back(h.empty() ? *t->heading_rad : unwrapped(*t->heading_rad, h.back()));
       }
       rests.push_back(std::move(rest));
     }
