@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/model/as_many_samples.h"
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/naming/clocks_first.h"
 #include "core/diagnosis/naming/material.h"
@@ -230,11 +231,10 @@ double likelier_where_unseen(const Predicted& one, const Predicted& other) {
   double gained = 0.0;
   for (std::size_t m = 0; m < one.unseen->minus_two_log_likelihood.size(); ++m) {
     if (!one.tells(m, other)) continue;
-    // One may start anew, or set aside, where the other does not: a sample more counts as all others do.
-    const double misfit = other.unseen->minus_two_log_likelihood[m],
-                 of_each = misfit / std::max(1, other.unseen->scalars[m]);
-    gained += misfit - one.unseen->minus_two_log_likelihood[m] +
-              of_each * (one.unseen->scalars[m] - other.unseen->scalars[m]);
+    const auto of = [m](const auto& unseen) {
+      return MisfitOfSamples{unseen->minus_two_log_likelihood[m], unseen->scalars[m]};
+    };
+    gained += likelier_by(of(one.unseen), of(other.unseen));
   }
   return gained;
 }

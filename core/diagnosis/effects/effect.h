@@ -134,6 +134,7 @@ struct Effect {
   bool of_the_truth = false;             // its own doing: the vehicle does as it is told without it
   bool of_each_recording = false;        // an amplitude, or a set of them, for each recording in turn
   bool acts_on_motion() const { return !clock_rate && !of_the_truth; }
+  bool lags_behind_commands() const { return only_commands && shape_follows_amplitude; }
   // The amplitude that is the rate of a recording's clock.
   std::size_t clock_amplitude(int recording) const {
     return of_each_recording ? static_cast<std::size_t>(recording) : 0;

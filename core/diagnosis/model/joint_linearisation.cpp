@@ -10,8 +10,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool lags(const AcceptedEffect& a) { return a.effect->only_commands && a.effect->shape_follows_amplitude; }
-
 // How the ways of a drive grow with a radius or the wheelbase.
 DriveView growing_with(int length, DriveView view) {
   const DifferentialDrive& d = view.drive;
@@ -159,7 +157,7 @@ void JointModel::linearise(bool with_columns) {
     if (clock_active[r]) of_parameters[column::truth_clock] = z.col(at++).data();
     linear.of_parameters(of_parameters);
     for (const AcceptedEffect& a : accepted)
-      if (lags(a)) add_lagging(a, next->views[r], linear, of_parameters);
+      if (a.effect->lags_behind_commands()) add_lagging(a, next->views[r], linear, of_parameters);
     if (runs_[r].counts_show)
       for (const Motions& of_wheel : counts_at_rest(runs_[r], model.drive))
         linear.of_motion(of_wheel, z.col(at++).data());

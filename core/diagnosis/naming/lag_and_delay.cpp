@@ -8,21 +8,19 @@
 #include <vector>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/model/as_many_samples.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/select.h"
 
 namespace odolab {
 
 double likelier_by(const JointModel& a, const JointModel& than) {
-  const double misfit = than.minus_two_log_likelihood(), of_each = misfit / std::max(1, than.scalars());
-  return misfit - a.minus_two_log_likelihood() + of_each * (a.scalars() - than.scalars());
+  return likelier_by({a.minus_two_log_likelihood(), a.scalars()}, {than.minus_two_log_likelihood(), than.scalars()});
 }
 
 namespace {
 
-bool is_lag(const Effect& e) { return e.only_commands && e.shape_follows_amplitude; }
-
-bool is_of_lag(const AcceptedEffect& a) { return is_lag(*a.effect); }
+bool is_of_lag(const AcceptedEffect& a) { return a.effect->lags_behind_commands(); }
 
 AcceptedEffect& accepted_lag(JointModel& joint) {
   return *std::find_if(joint.accepted.begin(), joint.accepted.end(), is_of_lag);
@@ -37,7 +35,7 @@ JointModel with_lag_at(JointModel joint, double time_constant_s) {
 }
 
 const Effect* lag_behind_commands() {
-  const auto lag = std::find_if(catalogue().begin(), catalogue().end(), is_lag);
+  const auto lag = std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
   return lag == catalogue().end() ? nullptr : &*lag;
 }
 
