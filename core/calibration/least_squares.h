@@ -74,6 +74,8 @@ struct LeastSquaresCalibration {
   // then (correlated_truth.h). Zero: all of them.
   double truth_apart_s = 0.0;
   double truth_smoothed_for_s = 0.0;  // as shows where the vehicle rests (smoothed_at_rest.h); 0: not, or not told
+  // Whether fewer samples are used for another reason than that they are smoothed at rest.
+  bool truth_lasts() const { return truth_apart_s > 0.0 && truth_apart_s != truth_smoothed_for_s; }
 };
 
 // Needs wheel samples and two truth samples or more in each recording; else an Error that names the recording.

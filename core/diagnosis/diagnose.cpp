@@ -255,10 +255,7 @@ Result<Looked> looked_at_as_is(const std::vector<Recording>& train, const std::v
                                const Vehicle& nominal, const DiagnosisOptions& options, const Progress& progress,
                                const std::vector<TimeStretches>& parted, double right_older_s = 0.0) {
   Result<Looked> looked = looked_at(train, held_out, nominal, options, progress, false, parted, right_older_s);
-  if (!looked || !looked->names_explain_all()) return looked;
-  if (const LeastSquaresCalibration told = looked->ready.told();
-      told.truth_apart_s == 0.0 || told.truth_apart_s == told.truth_smoothed_for_s)
-    return looked;
+  if (!looked || !looked->ready.told().truth_lasts() || !looked->names_explain_all()) return looked;
   Result<Looked> by_all = looked_at(train, held_out, nominal, options, progress, true, parted, right_older_s);
   if (by_all && by_all->names_explain_all()) looked = std::move(by_all);
   if (!goes_on(progress, 0.75)) return Error{"diagnosis", "stopped before its end", ""};

@@ -388,7 +388,7 @@ Result<JointModel> calibrated_model(const ReadyRecordings& ready, const Vehicle&
   joint.truth_jumps = ready.truth_jumps;
   const LeastSquaresCalibration told = ready.told();
   joint.truth_smoothed_for_s = told.truth_smoothed_for_s;
-  joint.truth_noise_lasts = told.truth_apart_s > 0.0 && told.truth_apart_s != told.truth_smoothed_for_s;
+  joint.truth_noise_lasts = told.truth_lasts();
   joint.linearise();
   joint.gate();
   joint.fit(3);
