@@ -45,7 +45,9 @@ TEST(BetweenReadings, SaysLessWhereTheWheelsSpeedUp) {
   for (std::size_t k = 0; k < run.truth.size(); ++k) {
     const double at_s = run.truth[k].time_s;
     const bool is_read = k % 10 == 0;
-    if (is_read || std::abs(at_s - kSetsOff_s) > 4.0 * kRead_s) EXPECT_NEAR(run.truth_variance[k], 1.0, 1e-6) << at_s;
+    if (is_read || std::abs(at_s - kSetsOff_s) > 4.0 * kRead_s) {
+      EXPECT_NEAR(run.truth_variance[k], 1.0, 1e-6) << at_s;
+    }
   }
   EXPECT_GT(run.truth_variance[305], 10.0);  // halfway between the readings about it
 }

@@ -80,7 +80,9 @@ TEST(TurnedMounting, IsSaidAndNothingElse) {
   ASSERT_EQ(d->findings.size(), 1u);
   EXPECT_EQ(d->findings[0].effect, "truth_mounting_offset");
   for (const FoundParameter& p : d->findings[0].parameters)
-    if (p.name == "heading_rad") EXPECT_NEAR(p.value, 2.0, 4.0 * p.stderr_value);
+    if (p.name == "heading_rad") {
+      EXPECT_NEAR(p.value, 2.0, 4.0 * p.stderr_value);
+    }
 }
 
 TEST(TurnedMounting, StaysAsTheFileSaysWhereAFitFindsItByItself) {

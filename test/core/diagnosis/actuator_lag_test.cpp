@@ -12,6 +12,18 @@ namespace {
 
 constexpr double kLag_s = 0.065;
 
+// It is told what is wanted, or as much of it as its command may change by.
+void tell(test::CommandedBase& b, double wanted_mps, double wanted_radps, double most_mps, double most_radps) {
+  b.command_mps += std::clamp(wanted_mps - b.command_mps, -most_mps, most_mps);
+  b.command_radps += std::clamp(wanted_radps - b.command_radps, -most_radps, most_radps);
+}
+
+void follow(test::CommandedBase& b, double lag_s) {
+  const double follows = 1.0 - std::exp(-b.kStep_s / lag_s);
+  b.speed_mps += follows * (b.command_mps - b.speed_mps);
+  b.yaw_rate_radps += follows * (b.command_radps - b.yaw_rate_radps);
+}
+
 // Joystick driving; the base follows with a lag. It is told so often, of 2000 times a second one in so many.
 Recording driven_with_lag(int number, double lag_s, int told_every = 40) {
   Random random(static_cast<std::uint64_t>(70 + number));
@@ -19,13 +31,8 @@ Recording driven_with_lag(int number, double lag_s, int told_every = 40) {
   const double most_mps = 0.0005 * told_every, most_radps = 0.0015 * told_every;
   return test::commanded("run_" + std::to_string(number), 80000, random, [&](int i, test::CommandedBase& b) {
     if (i % 3000 == 0) wanted_mps = random.uniform(-0.3, 0.6), wanted_radps = random.uniform(-0.9, 0.9);
-    if (i % told_every == 0) {
-      b.command_mps += std::clamp(wanted_mps - b.command_mps, -most_mps, most_mps);
-      b.command_radps += std::clamp(wanted_radps - b.command_radps, -most_radps, most_radps);
-    }
-    const double follows = 1.0 - std::exp(-b.kStep_s / lag_s);
-    b.speed_mps += follows * (b.command_mps - b.speed_mps);
-    b.yaw_rate_radps += follows * (b.command_radps - b.yaw_rate_radps);
+    if (i % told_every == 0) tell(b, wanted_mps, wanted_radps, most_mps, most_radps);
+    follow(b, lag_s);
   });
 }
 
@@ -136,13 +143,8 @@ Recording from_goal_to_goal(std::uint64_t seed, int number) {
       wanted_mps = turns ? 0.0 : random.uniform(0.2, 0.6);
     }
     if (i % kLeg == kMoves) wanted_mps = wanted_radps = 0.0;
-    if (i % kTold == 0) {
-      b.command_mps += std::clamp(wanted_mps - b.command_mps, -kChange_mps, kChange_mps);
-      b.command_radps += std::clamp(wanted_radps - b.command_radps, -kChange_radps, kChange_radps);
-    }
-    const double follows = 1.0 - std::exp(-b.kStep_s / kLongLag_s);
-    b.speed_mps += follows * (b.command_mps - b.speed_mps);
-    b.yaw_rate_radps += follows * (b.command_radps - b.yaw_rate_radps);
+    if (i % kTold == 0) tell(b, wanted_mps, wanted_radps, kChange_mps, kChange_radps);
+    follow(b, kLongLag_s);
   });
 }
 
@@ -164,8 +166,9 @@ TEST(ActuatorLag, BendsNoRadiiHoweverLongItIs) {
     EXPECT_EQ(d.findings.front().effect, "actuator_lag") << seed;
     for (const Finding& f : d.findings) EXPECT_NE(f.effect, "one_sided_drag") << seed;
     for (const ParameterEstimate& p : d.calibration.parameters)
-      if (p.name.rfind("wheel_radius", 0) == 0)
+      if (p.name.rfind("wheel_radius", 0) == 0) {
         EXPECT_NEAR(p.value, p.nominal, 4.0 * p.stderr_value) << seed << " " << p.name;
+      }
   }
 }
 

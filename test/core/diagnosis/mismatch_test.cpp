@@ -90,10 +90,10 @@ TEST(Mismatch, OfAZoneIsLocatedInEveryRunThatPassesItAndThatOfAPushIsNot) {
   EXPECT_TRUE(located_stretches(d, "run.csv").empty());
 }
 
-// Residuals stand at the stamps of a truth whose clock began 1000 s before the wheels', by which findings are told.
-TEST(Mismatch, IsLocatedOnTheClockOfItsResiduals) {
+// A push at 7.5 to 8 s by the wheels' clock, and residuals at the stamps of a truth whose clock is 1000 s ahead.
+Diagnosis pushed_under_another_clock(std::uint64_t seed) {
   Diagnosis d;
-  d.residuals_before = {white(7)};
+  d.residuals_before = {white(seed)};
   for (double& t : d.residuals_before[0].time_s) t += 1000.0;
   d.truth_clock_s = {{"run.csv", 1000.0}};
   Finding f;
@@ -101,6 +101,12 @@ TEST(Mismatch, IsLocatedOnTheClockOfItsResiduals) {
   f.where.recording = "run.csv";
   f.where.time_s = {{7.5, 8.0}};
   d.findings = {f};
+  return d;
+}
+
+// Residuals stand at the stamps of a truth whose clock began 1000 s before the wheels', by which findings are told.
+TEST(Mismatch, IsLocatedOnTheClockOfItsResiduals) {
+  Diagnosis d = pushed_under_another_clock(7);
   const std::vector<LocatedStretch> located = located_stretches(d, "run.csv");
   ASSERT_EQ(located.size(), 1u);
   EXPECT_DOUBLE_EQ(located[0].from_s, 1007.5);
@@ -118,16 +124,8 @@ TEST(Mismatch, OfAUnitIsFoundByTheRecording) {
 
 // And by the unit, which its residuals are named by; they stand at the truth's stamps, too.
 TEST(Mismatch, OfAUnitIsLocatedOnTheClockOfItsResiduals) {
-  Diagnosis d;
-  d.residuals_before = {white(5)};
-  for (double& t : d.residuals_before[0].time_s) t += 1000.0;
+  Diagnosis d = pushed_under_another_clock(5);
   d.residuals_before[0].recording = "run.csv, truck_a";
-  d.truth_clock_s = {{"run.csv", 1000.0}};
-  Finding f;
-  f.effect = "collision";
-  f.where.recording = "run.csv";
-  f.where.time_s = {{7.5, 8.0}};
-  d.findings = {f};
   for (const char* name : {"run.csv", "run.csv, truck_a"}) {
     const std::vector<LocatedStretch> located = located_stretches(d, name);
     ASSERT_EQ(located.size(), 1u) << name;

@@ -38,18 +38,22 @@ std::vector<Recording> knocked_runs(bool with_headings) {
   return runs;
 }
 
+void expect_said_of_the_truth(const Diagnosis& d, const char* words) {
+  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
+  const Finding& f = d.findings.front();
+  EXPECT_EQ(f.component, "truth");
+  EXPECT_EQ(f.where.recording, "run_2");
+  ASSERT_EQ(f.where.time_s.size(), 1u);
+  // Moments are looked for 0.12 s apart, and a tenth of a second about them.
+  EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
+  EXPECT_NE(f.where.regime.find(words), std::string::npos) << f.where.regime;
+}
+
 // At its moment that had been a push of 7 mm.
 TEST(KnockedMarker, IsNoPush) {
   for (const bool with_headings : {true, false}) {
-    const Diagnosis d = diagnose(knocked_runs(with_headings), {}, Vehicle{}).value();
-    ASSERT_EQ(d.verdict, Verdict::unknown_effect) << with_headings;
-    const Finding& f = d.findings.front();
-    EXPECT_EQ(f.component, "truth");
-    EXPECT_EQ(f.where.recording, "run_2");
-    ASSERT_EQ(f.where.time_s.size(), 1u);
-    // Moments are looked for 0.12 s apart, and a tenth of a second about them.
-    EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
-    EXPECT_NE(f.where.regime.find("sits elsewhere"), std::string::npos) << f.where.regime;
+    SCOPED_TRACE(with_headings);
+    expect_said_of_the_truth(diagnose(knocked_runs(with_headings), {}, Vehicle{}).value(), "sits elsewhere");
   }
 }
 
@@ -75,14 +79,7 @@ std::vector<Recording> runs_under_a_clock_that_is_set() {
 }
 
 TEST(ClockThatIsSet, IsNoPush) {
-  const Diagnosis d = diagnose(runs_under_a_clock_that_is_set(), {}, Vehicle{}).value();
-  ASSERT_EQ(d.verdict, Verdict::unknown_effect);
-  const Finding& f = d.findings.front();
-  EXPECT_EQ(f.component, "truth");
-  EXPECT_EQ(f.where.recording, "run_2");
-  ASSERT_EQ(f.where.time_s.size(), 1u);
-  EXPECT_NEAR(f.where.time_s.front().first, kKnocked_s, 0.25);
-  EXPECT_NE(f.where.regime.find("earlier"), std::string::npos) << f.where.regime;
+  expect_said_of_the_truth(diagnose(runs_under_a_clock_that_is_set(), {}, Vehicle{}).value(), "earlier");
 }
 
 }  // namespace

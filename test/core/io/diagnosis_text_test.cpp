@@ -253,7 +253,9 @@ TEST(DiagnosisReport, SaysNothingOfASimulatorInWhichNothingWasSwitchedOn) {
   EXPECT_EQ(diagnosis_report(d).text().find("with what was found switched on"), std::string::npos);
   EXPECT_NE(diagnosis_report(d).text().find("Simulator: calibrated"), std::string::npos);
   for (const std::string& line : summary_lines(d))
-    if (line.find("simulator:") != std::string::npos) EXPECT_EQ(line.find("with findings"), std::string::npos) << line;
+    if (line.find("simulator:") != std::string::npos) {
+      EXPECT_EQ(line.find("with findings"), std::string::npos) << line;
+    }
 }
 
 TEST(DiagnosisReport, DrawsNoErrorsWhereNoneCouldBeGathered) {
