@@ -93,7 +93,17 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
     for (std::size_t k = first + 1; k < end; ++k)
       if (away_s(k) < away_s(middle) - kStampDigits_s) middle = k;
     TruthSample mean = run.truth[middle];
-    const Pose& at = predicted[middle - first];
+    Pose at = predicted[middle - first];
+    // What a base does is not what it was told: carried to the earlier of two it would be ahead by half of what is
+    // between them.
+    if (const double off_s = run.truth[first].time_s + times_s / used - mean.time_s;
+        run.speeds_are_held && middle + 1 < end && off_s > kStampDigits_s) {
+      const Pose& next = predicted[middle + 1 - first];
+      const double share = off_s / (run.truth[middle + 1].time_s - mean.time_s);
+      at = {at.x_m + share * (next.x_m - at.x_m), at.y_m + share * (next.y_m - at.y_m),
+            at.heading_rad + share * (next.heading_rad - at.heading_rad)};
+      mean.time_s += off_s;
+    }
     mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};
     mean.heading_rad.reset();
     if (headings > 0.0) mean.heading_rad = at.heading_rad + sum.heading_rad / headings;

@@ -10,11 +10,11 @@ namespace odolab {
 double averaging_s(const InnovationRun& run);
 
 // The run with its truth averaged over so many samples as come within `longest_s`, each carried to the middle one of
-// them by what the wheels did meanwhile; by smoothed readings where counts are coarse: carried by rounded ones the mean
-// would agree with their rounding, at the clock that is assumed here and at no other. White noise loses nothing by
-// that, since what the wheels do not tell within so short a time is too small to matter; and what a filter costs goes
-// with the number of samples. Samples that are set aside are left out where others are left: what contradicts for so
-// long is no glitch. The same run where truth does not come that often.
+// them by what the wheels did meanwhile (behind commands to the mean of their times); by smoothed readings where counts
+// are coarse: carried by rounded ones the mean would agree with their rounding, at the clock that is assumed here and
+// at no other. White noise loses nothing by that, since what the wheels do not tell within so short a time is too small
+// to matter; and what a filter costs goes with the number of samples. Samples that are set aside are left out where
+// others are left: what contradicts for so long is no glitch. The same run where truth does not come that often.
 InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationModel& model, double longest_s);
 
 }  // namespace odolab

@@ -71,9 +71,60 @@ void put_way(EffectStep& s, const DifferentialDrive& drive, const WheelSample& s
   s.right_by_rad = to.right_rad - from.right_rad;
 }
 
+// How fast the wheels turned in the interval between two readings, and how that changed.
+void put_speeds(EffectStep& s, const DifferentialDrive& drive, const WheelSample& from, const WheelSample& to,
+                const WheelAcceleration& of) {
+  const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
+  if (s.duration_s > 0.0) {  // two readings may have one stamp
+    s.left_radps = (to.left_rad - from.left_rad) / s.duration_s;
+    s.right_radps = (to.right_rad - from.right_rad) / s.duration_s;
+  }
+  s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
+  s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
+  s.left_mps2 = rl * of.left_radps2;
+  s.right_mps2 = rr * of.right_radps2;
+  const double left_mps2 = rl * of.left_steady_radps2, right_mps2 = rr * of.right_steady_radps2;
+  s.acceleration_mps2 = 0.5 * (left_mps2 + right_mps2);
+  s.yaw_acceleration_radps2 = (right_mps2 - left_mps2) / base;
+}
+
 }  // namespace
 
+DriveView as_it_lags(DriveView view, const Motions& lag) {
+  constexpr double kStands_mps = 1e-3;  // at such a speed: an exponential has no end
+  if (view.steps.empty()) return view;
+  const DifferentialDrive& drive = view.drive;
+  std::vector<WheelSample> wheels(1);  // as they turn
+  wheels[0].time_s = view.steps[0].time_s - 0.5 * view.steps[0].duration_s;
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    EffectStep& s = view.steps[i];
+    const BodyMotion by = lag.at(i);
+    s.late_left_m = by.forward_m - 0.5 * drive.wheelbase_m * by.turn_rad;
+    s.late_right_m = by.forward_m + 0.5 * drive.wheelbase_m * by.turn_rad;
+    WheelSample next = wheels.back();
+    next.time_s += s.duration_s;
+    next.left_rad += (s.left_m + s.late_left_m) / drive.wheel_radius_left_m;
+    next.right_rad += (s.right_m + s.late_right_m) / drive.wheel_radius_right_m;
+    wheels.push_back(next);
+  }
+  const std::vector<WheelAcceleration> accelerations = wheel_accelerations(wheels);
+  for (std::size_t i = 0; i < view.steps.size(); ++i) {
+    EffectStep& s = view.steps[i];
+    const double told_rad = s.turn_rad;
+    put_way(s, drive, wheels.front(), wheels[i], wheels[i + 1]);
+    s.late_turn_rad = s.turn_rad - told_rad;
+    put_speeds(s, drive, wheels[i], wheels[i + 1], accelerations[i]);
+    const auto read_rad = [&](double told_rad, double by_rad, double way_m) {
+      return told_rad != 0.0 || std::abs(way_m) > kStands_mps * s.duration_s ? by_rad : 0.0;
+    };
+    s.left_read_rad = read_rad(s.left_read_rad, s.left_by_rad, s.left_m);
+    s.right_read_rad = read_rad(s.right_read_rad, s.right_by_rad, s.right_m);
+  }
+  return view;
+}
+
 DriveView as_read(DriveView view, const InnovationRun& run) {
+  if (view.from_commands) return view;
   for (std::size_t i = 0; i < view.steps.size(); ++i)
     put_way(view.steps[i], view.drive, run.wheels.front(), run.wheels[i], run.wheels[i + 1]);
   return view;
@@ -124,22 +175,7 @@ DriveView drive_view(int number, const InnovationRun& run, const DifferentialDri
   const std::vector<WheelAcceleration> reckoned_now =
       run.accelerations.empty() ? wheel_accelerations(run.wheels) : std::vector<WheelAcceleration>{};
   const std::vector<WheelAcceleration>& accelerations = run.accelerations.empty() ? reckoned_now : run.accelerations;
-  const double rl = drive.wheel_radius_left_m, rr = drive.wheel_radius_right_m, base = drive.wheelbase_m;
-  for (int i = 0; i < n; ++i) {
-    EffectStep& s = view.steps[i];
-    if (s.duration_s > 0.0) {  // two readings may have one stamp
-      s.left_radps = (smooth[i + 1].left_rad - smooth[i].left_rad) / s.duration_s;
-      s.right_radps = (smooth[i + 1].right_rad - smooth[i].right_rad) / s.duration_s;
-    }
-    s.speed_mps = 0.5 * (rl * s.left_radps + rr * s.right_radps);
-    s.yaw_rate_radps = (rr * s.right_radps - rl * s.left_radps) / base;
-    s.left_mps2 = rl * accelerations[i].left_radps2;
-    s.right_mps2 = rr * accelerations[i].right_radps2;
-    const double left_mps2 = rl * accelerations[i].left_steady_radps2,
-                 right_mps2 = rr * accelerations[i].right_steady_radps2;
-    s.acceleration_mps2 = 0.5 * (left_mps2 + right_mps2);
-    s.yaw_acceleration_radps2 = (right_mps2 - left_mps2) / base;
-  }
+  for (int i = 0; i < n; ++i) put_speeds(view.steps[i], drive, smooth[i], smooth[i + 1], accelerations[i]);
   return view;
 }
 

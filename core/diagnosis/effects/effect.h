@@ -19,19 +19,25 @@ namespace odolab {
 struct EffectStep {
   double time_s = 0.0, duration_s = 0.0;
   double since_start_s = 0.0;
-  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;             // as the wheels say
-  double left_rad = 0.0, right_rad = 0.0;                         // rotation since the start, at the middle
-  double left_by_rad = 0.0, right_by_rad = 0.0;                   // rotation during the interval
-  double left_read_rad = 0.0, right_read_rad = 0.0;               // the same as it was read
-  double speed_mps = 0.0, yaw_rate_radps = 0.0;                   // smoothed over a few intervals
-  double left_radps = 0.0, right_radps = 0.0;                     // smoothed wheel speeds
-  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;  // over 0.8 s
-  double left_mps2 = 0.0, right_mps2 = 0.0;                       // of each rim, as quick as readings show
+  double left_m = 0.0, right_m = 0.0, turn_rad = 0.0;                 // as the wheels say, or as a base goes that lags
+  double late_left_m = 0.0, late_right_m = 0.0, late_turn_rad = 0.0;  // so much of that is not what it was told
+  double left_rad = 0.0, right_rad = 0.0;                             // rotation since the start, at the middle
+  double left_by_rad = 0.0, right_by_rad = 0.0;                       // rotation during the interval
+  double left_read_rad = 0.0, right_read_rad = 0.0;                   // the same as it was read
+  double speed_mps = 0.0, yaw_rate_radps = 0.0;                       // smoothed over a few intervals
+  double left_radps = 0.0, right_radps = 0.0;                         // smoothed wheel speeds
+  double acceleration_mps2 = 0.0, yaw_acceleration_radps2 = 0.0;      // over 0.8 s
+  double left_mps2 = 0.0, right_mps2 = 0.0;                           // of each rim, as quick as readings show
   double heading_rad = 0.0;
   double cos_heading = 1.0, sin_heading = 0.0;
   Vec2 position;
 
   double forward_m() const { return 0.5 * (left_m + right_m); }
+  // As the commands say; of encoders no other than the way.
+  double told_left_m() const { return left_m - late_left_m; }
+  double told_right_m() const { return right_m - late_right_m; }
+  double told_forward_m() const { return 0.5 * (told_left_m() + told_right_m()); }
+  double told_turn_rad() const { return turn_rad - late_turn_rad; }
 };
 
 struct DriveView {
@@ -65,8 +71,12 @@ enum class Way { as_read, smoothed };
 DriveView drive_view(int number, const InnovationRun& run, const DifferentialDrive& drive, bool from_commands,
                      const Track& truth_poses, Way way = Way::as_read);
 
-// The same drive as it was read.
+// The same drive as it was read. Commands are read as they are.
 DriveView as_read(DriveView smoothed, const InnovationRun& run);
+
+// The drive of a base that lags behind its commands by these motions: it comes to a place, to a bend and to rest as
+// late as it goes, and whatever depends on its way or its speed acts then.
+DriveView as_it_lags(DriveView by_commands, const Motions& lag);
 
 enum class Wheel { left, right, both };
 const char* component_of(Wheel wheel);

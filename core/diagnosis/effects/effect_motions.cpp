@@ -52,7 +52,9 @@ bool part_by_more_than_counts(const std::function<Motions(const DriveView&)>& on
   return is_more_than_counts(displaces_m(views, apart), count_rad, views);
 }
 
-bool changes_speeds(const Effect& effect) { return effect.acts_on_motion() && !effect.local; }
+bool changes_speeds(const Effect& effect) {
+  return effect.acts_on_motion() && !effect.local && !effect.lags_behind_commands();
+}
 
 DriveView as_it_goes(DriveView view, const std::function<std::vector<BodyMotion>(const DriveView&)>& motions) {
   constexpr int kMostRounds = 8;
@@ -120,7 +122,11 @@ std::vector<BodyMotion> motions_of(const DriveView& by_wheels, const std::vector
     }
     return sum;
   };
-  const DriveView view = as_it_goes(by_wheels, [&](const DriveView& v) { return sum_of(v, changes_speeds); });
+  DriveView lagging = by_wheels;
+  for (const Acting& a : acting)
+    if (a.effect->lags_behind_commands())
+      lagging = as_it_lags(std::move(lagging), motion_of(*a.effect, by_wheels, a.shape, a.value));
+  const DriveView view = as_it_goes(std::move(lagging), [&](const DriveView& v) { return sum_of(v, changes_speeds); });
   return sum_of(view, [](const Effect&) { return true; });
 }
 

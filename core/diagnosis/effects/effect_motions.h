@@ -23,7 +23,8 @@ bool part_by_more_than_counts(const std::function<Motions(const DriveView&)>& on
                               const std::function<Motions(const DriveView&)>& other, double value, double count_rad,
                               const std::vector<DriveView>& views);
 
-// Whether an effect changes how fast a vehicle goes for longer than a moment.
+// Whether an effect changes how fast a vehicle goes for longer than a moment. A lag does so before all others
+// (`as_it_lags`).
 bool changes_speeds(const Effect& effect);
 
 // The drive at the speeds and turn rates at which the vehicle goes, once what effects add to them is added to what the

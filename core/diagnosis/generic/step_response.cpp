@@ -59,10 +59,10 @@ double larger(double before, double now) { return (now - before) * std::abs(now 
 std::vector<Motions> of_the_base(const DriveView& view, const std::vector<double>&) {
   std::vector<Motions> out(kHatsAfterStep, Motions(view.steps.size()));
   add_responses(
-      view.steps, [](const EffectStep& s) { return s.forward_m(); }, change,
+      view.steps, [](const EffectStep& s) { return s.told_forward_m(); }, change,
       [&](std::size_t k, std::size_t i, double by) { out[k][i].forward_m += by; });
   add_responses(
-      view.steps, [](const EffectStep& s) { return s.turn_rad; }, change,
+      view.steps, [](const EffectStep& s) { return s.told_turn_rad(); }, change,
       [&](std::size_t k, std::size_t i, double by) { out[k][i].turn_rad += by; });
   return out;
 }
@@ -72,7 +72,8 @@ std::vector<Motions> of_each_wheel(const DriveView& view, const std::vector<doub
   std::vector<Motions> out(kHatsAfterStep, Motions(view.steps.size()));
   for (const Wheel wheel : {Wheel::left, Wheel::right})
     add_responses(
-        view.steps, [&](const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }, weight,
+        view.steps, [&](const EffectStep& s) { return wheel == Wheel::left ? s.told_left_m() : s.told_right_m(); },
+        weight,
         [&](std::size_t k, std::size_t i, double by) {
           const BodyMotion m = by_wheel(wheel, by, view.drive.wheelbase_m);
           out[k][i].forward_m += m.forward_m;

@@ -99,15 +99,15 @@ std::vector<GenericTest> told_speed_tests(const AskedModel& asked, double looked
   const auto of_wheel = [](Wheel wheel) {
     return [wheel](double way, const DriveView& view) { return by_wheel(wheel, way, view.drive.wheelbase_m); };
   };
-  const std::vector<Law> wheels = {{[](const EffectStep&s) { return s.left_m; }, of_wheel(Wheel::left)},
-                                   {[](const EffectStep&s) { return s.right_m; }, of_wheel(Wheel::right)}},
-                         forward = {{[](const EffectStep&s) { return s.forward_m(); },
+  const std::vector<Law> wheels = {{[](const EffectStep&s) { return s.told_left_m(); }, of_wheel(Wheel::left)},
+                                   {[](const EffectStep&s) { return s.told_right_m(); }, of_wheel(Wheel::right)}},
+                         forward = {{[](const EffectStep&s) { return s.told_forward_m(); },
                                      [](double way, const DriveView&) {
                                        return BodyMotion{way, 0.0, 0.0};
                                      }}},
                          turn = {{[steered_radps = steered_radps(asked.joint)](const EffectStep&s) {
                                     const double steered_rad = steered_radps * s.duration_s;
-                                    return s.turn_rad - std::clamp(s.turn_rad, -steered_rad, steered_rad);
+                                    return s.told_turn_rad() - std::clamp(s.told_turn_rad(), -steered_rad, steered_rad);
                                   },
                                   [](double way, const DriveView&) {
                                     return BodyMotion{0.0, 0.0, way};

@@ -14,9 +14,10 @@ using Eigen::VectorXd;
 DriveView growing_with(int length, DriveView view) {
   const DifferentialDrive& d = view.drive;
   for (EffectStep& s : view.steps) {
-    s.left_m = length == column::wheel_radius_left ? s.left_m / d.wheel_radius_left_m : 0.0;
-    s.right_m = length == column::wheel_radius_right ? s.right_m / d.wheel_radius_right_m : 0.0;
-    s.turn_rad = (length == column::wheelbase ? -s.turn_rad : s.right_m - s.left_m) / d.wheelbase_m;
+    s.left_m = length == column::wheel_radius_left ? s.told_left_m() / d.wheel_radius_left_m : 0.0;
+    s.right_m = length == column::wheel_radius_right ? s.told_right_m() / d.wheel_radius_right_m : 0.0;
+    s.turn_rad = (length == column::wheelbase ? -s.told_turn_rad() : s.right_m - s.left_m) / d.wheelbase_m;
+    s.late_left_m = s.late_right_m = s.late_turn_rad = 0.0;
   }
   return view;
 }

@@ -96,6 +96,11 @@ InnovationModel JointModel::model_of(int run) const {
 InnovationRun JointModel::prepared(int r) const { return prepared(r, runs_[r], now_->read_views[r]); }
 
 DriveView JointModel::as_it_goes(DriveView by_wheels) const {
+  for (const AcceptedEffect& a : accepted)
+    if (a.effect->lags_behind_commands()) {
+      const Motions lag = motion_of(*a.effect, by_wheels, a.shape, a.value);
+      by_wheels = as_it_lags(std::move(by_wheels), lag);
+    }
   const auto is_meant = [](const AcceptedEffect& a) { return changes_speeds(*a.effect); };
   if (std::none_of(accepted.begin(), accepted.end(), is_meant)) return by_wheels;
   return odolab::as_it_goes(std::move(by_wheels), [&](const DriveView& view) {

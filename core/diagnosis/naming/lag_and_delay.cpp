@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -56,12 +57,11 @@ double mean_delay_s(const JointModel& joint) {
 bool is_likelier(const JointModel& a, const JointModel& b) { return likelier_by(a, b) > 0.0; }
 
 // Under the noise as it is. Uphill by strides until the top lies between two of them, then to that of a parabola.
-void put_where_likeliest(JointModel& joint) {
-  constexpr double kStrides[] = {0.15, 0.04};  // of the size
+void put_where_likeliest(JointModel& joint, std::initializer_list<double> strides_of_size) {
   constexpr double kLeast_s = 1e-3;
   constexpr int kMostSteps = 24;
   JointModel best = with_lag_at(joint, std::max(accepted_lag(joint).value[0], kLeast_s));
-  for (const double stride : kStrides)
+  for (const double stride : strides_of_size)
     for (int step = 0; step < kMostSteps; ++step) {
       const double here_s = accepted_lag(best).value[0];
       JointModel more = with_lag_at(best, here_s * (1.0 + stride)), less = with_lag_at(best, here_s / (1.0 + stride));
@@ -84,14 +84,21 @@ void put_where_likeliest(JointModel& joint) {
 
 void put_lag_where_likeliest(JointModel& joint) {
   constexpr double kEven_s = 0.01;
-  if (joint.model.noise.command_timing_s < kEven_s) return put_where_likeliest(joint);
-  JointModel even = joint;
-  even.model.noise.command_timing_s = kEven_s;
-  for (JointModel* each : {&joint, &even}) {
-    put_where_likeliest(*each);
-    each->fit_noise_and_all();
+  const auto put = [](JointModel& each) { put_where_likeliest(each, {0.15, 0.04}); };
+  if (joint.model.noise.command_timing_s < kEven_s) {
+    put(joint);
+  } else {
+    JointModel even = joint;
+    even.model.noise.command_timing_s = kEven_s;
+    for (JointModel* each : {&joint, &even}) {
+      put(*each);
+      each->fit_noise_and_all();
+    }
+    if (is_likelier(even, joint)) joint = std::move(even);
   }
-  if (is_likelier(even, joint)) joint = std::move(even);
+  // The noise took up what the lag was off by.
+  joint.fit_noise_and_all();
+  put_where_likeliest(joint, {0.01});
 }
 
 void put_lag_anew(JointModel& joint) {

@@ -65,6 +65,19 @@ TEST(AveragedTruth, LiesThereThoughRadiiAreAHundredthTooLarge) {
   EXPECT_LT(furthest_off_m(with_averaged_truth(round_and_round(), wrong, 0.05)), 0.05 * of_one_sample_m);
 }
 
+// Of two no one is in the middle. A base that lags is slower than it is told by a tenth and more.
+TEST(AveragedTruth, LiesThereOfAnEvenNumberThoughTheBaseDoesAnotherThingThanItIsTold) {
+  InnovationModel wrong = model_of_the_circle();
+  wrong.drive.wheel_radius_left_m *= 1.1;
+  wrong.drive.wheel_radius_right_m *= 1.1;
+  InnovationRun told = round_and_round();
+  told.speeds_are_held = true;
+  const InnovationRun averaged = with_averaged_truth(told, wrong, 0.02);
+  EXPECT_EQ(averaged.truth.size(), 1001u);  // two in one, and the last by itself
+  const double of_one_sample_m = 0.1 * kSpeed_mps * kPeriod_s;
+  EXPECT_LT(furthest_off_m(averaged), 0.05 * of_one_sample_m);
+}
+
 TEST(AveragedTruth, HasWhiteNoiseThatIsSmallerByTheRootOfItsSamples) {
   InnovationRun noisy = round_and_round();
   Random random(7);
