@@ -48,10 +48,16 @@ inline constexpr double kShortKick_s = 0.15, kLeastSwing_mps = 0.01;  // a stop 
 // about the axle's middle: 2 d / b of the lateral acceleration at either wheel. `gives_way_s_per_mps`: a vehicle whose
 // wheels slip speeds up by less than they do, s' = k v (a - s'') of the way s that is lost, so that s' stays behind
 // k v a by k v; and by what a tyre's relaxation length takes (Pacejka, Tyre and Vehicle Dynamics, section 1.1).
+// That length sigma is some 0.3 to 1 of a wheel's radius. A tread that is deflected by u pushes m a = C u / sigma, and
+// u' = s' - |v| u / sigma: so beside k |v| a the vehicle stays behind by k sigma a for as long as it is pushed
+// (`yields_radii`: sigma). Where it is held back by that, s'' = a - u / (k sigma), and it swings.
+// Where the slip is what a push makes it and only builds up over a way, as a brush does that is not pulled along, it is
+// sigma dk / dx = k a - kappa (`builds_up_radii`).
 struct TractionForm {
   const char* in_words;
   double of_turning, of_bends;
   std::optional<double> gives_way_s_per_mps = std::nullopt;
+  double yields_radii = 0.0, builds_up_radii = 0.0;
 };
 inline constexpr double kTyreRelaxes_s = 0.03;
 inline constexpr TractionForm kTractionForms[] = {
@@ -65,6 +71,19 @@ inline constexpr TractionForm kTractionForms[] = {
     {"each wheel by what it pushes of a body whose mass stands ahead of the axle", 0.6, 0.3},
     {"each wheel by what it pushes of a body whose mass stands well ahead of the axle", 0.6, 0.6},
     {"each wheel by what it pushes of a body whose mass stands behind the axle", 0.6, -0.4},
+    {"each wheel by what it pushes, on a tread that yields over 0.35 of its radius", 0.6, 0.0, {}, 0.35},
+    {"each wheel by what it pushes, on a tread that yields over 0.7 of its radius", 0.6, 0.0, {}, 0.7},
+    {"each wheel on a tread that yields over 0.35 of its radius and slips 1.5 % per m/s2", 1.0, 0.0, 0.015, 0.35},
+    {"each wheel on a tread that yields over 0.35 of its radius and slips 3 % per m/s2", 1.0, 0.0, 0.03, 0.35},
+    {"each wheel on a tread that yields over 0.35 of its radius and slips 6 % per m/s2", 1.0, 0.0, 0.06, 0.35},
+    {"each wheel on a tread that yields over 0.35 of its radius and slips 12 % per m/s2", 1.0, 0.0, 0.12, 0.35},
+    {"each wheel on a tread that yields over 0.7 of its radius and slips 1.5 % per m/s2", 1.0, 0.0, 0.015, 0.7},
+    {"each wheel on a tread that yields over 0.7 of its radius and slips 3 % per m/s2", 1.0, 0.0, 0.03, 0.7},
+    {"each wheel on a tread that yields over 0.7 of its radius and slips 6 % per m/s2", 1.0, 0.0, 0.06, 0.7},
+    {"each wheel on a tread that yields over 0.7 of its radius and slips 12 % per m/s2", 1.0, 0.0, 0.12, 0.7},
+    {"each wheel by its own acceleration, built up over 0.15 of its radius", 1.0, 0.0, {}, 0.0, 0.15},
+    {"each wheel by its own acceleration, built up over 0.4 of its radius", 1.0, 0.0, {}, 0.0, 0.4},
+    {"the vehicle by its acceleration, built up over 0.4 of a wheel's radius", 0.0, 0.0, {}, 0.0, 0.4},
 };
 
 // How a wheel runs while neither flank of the play touches, braked by so much until it stands; and over what turn at

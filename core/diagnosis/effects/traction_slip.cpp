@@ -1,5 +1,7 @@
 // Traction slip: the share of a step that is lost is in proportion to the acceleration along the travel.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,15 +14,46 @@ namespace odolab::effects {
 namespace {
 
 struct Tyre {
-  double owed = 0.0;  // way that is still to be lost, for one per m/s2
+  double radius_m = 0.0;
+  double owed = 0.0;                // way that is still to be lost, for one per m/s2
+  double slips_mps2 = 0.0;          // the acceleration that its slip has come to
+  double before_mps2 = 0.0;         // that of the step before
+  std::optional<double> speed_mps;  // of the vehicle above a tread that swings
+  double deflected_m = 0.0;
 
   double slip(double way_m, double acceleration_mps2, double duration_s, const TractionForm& form) {
-    owed += std::abs(way_m) * acceleration_mps2;
+    if (form.gives_way_s_per_mps && form.yields_radii > 0.0)
+      return duration_s > 0.0 ? stays_behind_m(way_m, duration_s, form) : 0.0;
+    const double builds_up_m = form.builds_up_radii * radius_m;
+    const double built_up = builds_up_m > 0.0 ? 1.0 - std::exp(-std::abs(way_m) / builds_up_m) : 1.0;
+    slips_mps2 += built_up * (acceleration_mps2 - slips_mps2);
+    owed += std::abs(way_m) * slips_mps2;
+    owed += form.yields_radii * radius_m * (acceleration_mps2 - std::exchange(before_mps2, acceleration_mps2));
     if (!form.gives_way_s_per_mps || duration_s <= 0.0) return std::exchange(owed, 0.0);
     const double behind_s = kTyreRelaxes_s + *form.gives_way_s_per_mps * std::abs(way_m) / duration_s;
     const double lost = (1.0 - std::exp(-duration_s / behind_s)) * owed;
     owed -= lost;
     return lost;
+  }
+
+  // The same on a tread that swings.
+  double stays_behind_m(double way_m, double duration_s, const TractionForm& form) {
+    constexpr double kDamped = 0.3;  // of what is critical
+    constexpr double kPiece_s = 0.005;
+    const double k = *form.gives_way_s_per_mps, relaxes_m = form.yields_radii * radius_m, swings_s2 = k * relaxes_m,
+                 damps_s = 2.0 * kDamped * std::sqrt(swings_s2), wheel_mps = way_m / duration_s;
+    if (!speed_mps) speed_mps = wheel_mps;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(duration_s / kPiece_s)));
+    const double dt = duration_s / pieces;
+    double lost_m = way_m;
+    for (int piece = 0; piece < pieces; ++piece) {  // by the ends of the pieces: stable however long these are
+      const double keeps = 1.0 / (1.0 + dt * std::abs(*speed_mps) / relaxes_m),
+                   pulls = dt * (keeps * dt + damps_s) / swings_s2;
+      speed_mps = (*speed_mps + dt * keeps * deflected_m / swings_s2 + pulls * wheel_mps) / (1.0 + pulls);
+      deflected_m = keeps * (deflected_m + dt * (wheel_mps - *speed_mps));
+      lost_m -= dt * *speed_mps;
+    }
+    return lost_m / k;
   }
 };
 
@@ -28,7 +61,7 @@ Motions lost_by(Wheel wheel, const DriveView& view, const TractionForm& form) {
   Motions m;
   m.reserve(view.steps.size());
   const double b = view.drive.wheelbase_m;
-  Tyre left, right;
+  Tyre left{view.drive.wheel_radius_left_m}, right{view.drive.wheel_radius_right_m};
   for (const EffectStep& step : view.steps) {
     const double forward_mps2 = 0.5 * (step.left_mps2 + step.right_mps2);
     const double turning_mps2 = 0.5 * form.of_turning * (step.right_mps2 - step.left_mps2) +
@@ -43,13 +76,15 @@ Motions lost_by(Wheel wheel, const DriveView& view, const TractionForm& form) {
   return m;
 }
 
-// What stays behind by as much as it slips, to within a factor of two, and by more than whole counts feign.
+// What slip holds back stays behind by as much as it slips, to within a factor of two. And any form of its own parts
+// from the catalogue's by more than whole counts feign.
 bool stays_behind_so(const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
                      const std::vector<DriveView>& views) {
   const TractionForm& form = kTractionForms[std::lround(shape.back())];
   const double by = form.gives_way_s_per_mps.value_or(0.0);
-  if (by == 0.0) return true;
-  if (value[0] < 0.5 * by || value[0] > 2.0 * by) return false;
+  constexpr double kLittle_s_per_mps = 0.02;  // what less holds back is nearly none
+  if (by > 0.0 && (value[0] > 2.0 * by || (value[0] < 0.5 * by && by > kLittle_s_per_mps))) return false;
+  if (by == 0.0 && form.yields_radii == 0.0 && form.builds_up_radii == 0.0) return true;
   return part_by_more_than_counts([&](const DriveView& view) { return lost_by(Wheel::both, view, form); },
                                   [](const DriveView& view) { return lost_by(Wheel::both, view, kTractionForms[0]); },
                                   value[0], count_rad, views);
