@@ -28,11 +28,24 @@ std::optional<double> turned_by_ends(const Recording& recording, const Different
   return wrapped(std::atan2(by_wheels.y_m, by_wheels.x_m) - std::atan2(by_truth.y_m, by_truth.x_m));
 }
 
+// As one run has it: on circles alone a point that is turned is nearly one that sits elsewhere.
+struct TurnedBy {
+  double by_rad = 0.0, stderr_rad = 0.0;
+};
+
 // Of angles that lie near each other, wherever the count of turns begins.
-double middle_angle_rad(const std::vector<double>& angles_rad) {
+double middle_angle_rad(const std::vector<TurnedBy>& turned) {
   Vec2 sum;
-  for (const double angle_rad : angles_rad) sum = sum + Vec2{std::cos(angle_rad), std::sin(angle_rad)};
+  for (const TurnedBy& t : turned) sum = sum + Vec2{std::cos(t.by_rad), std::sin(t.by_rad)};
   return std::atan2(sum.y_m, sum.x_m);
+}
+
+// Those that know it about as well as the one that knows it best, or well enough.
+void keep_those_that_know(std::vector<TurnedBy>& turned) {
+  constexpr double kWell_rad = 0.1, kAboutAsWell = 3.0;
+  double best_rad = 1e300;
+  for (const TurnedBy& t : turned) best_rad = std::min(best_rad, t.stderr_rad);
+  std::erase_if(turned, [&](const TurnedBy& t) { return t.stderr_rad > std::max(kWell_rad, kAboutAsWell * best_rad); });
 }
 
 }  // namespace
@@ -45,28 +58,27 @@ Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle
     const auto r = static_cast<std::size_t>(i);
     if (problems_in(recordings[r]).empty()) fits[r] = run_fit(recordings[r], nominal);
   });
-  std::vector<double> turned_rad;  // as each run has it
+  std::vector<TurnedBy> turned_by;
   for (const std::optional<RunFit>& fit : fits)
     if (fit && fit->drives && fit->turns && fit->way_explained >= kExplained && fit->turn_explained >= kExplained &&
         fit->turn_ratio > 0.0)
-      turned_rad.push_back(fit->axle_T_tracked.heading_rad);
-  constexpr int kFewest = 2;  // measured at both ends alone
-  int by_ends = 0;
+      turned_by.push_back({fit->axle_T_tracked.heading_rad, fit->mounting_stderr.heading_rad});
+  constexpr std::size_t kFewest = 2;  // measured at both ends alone, where there are no others
+  const bool by_ends = turned_by.empty();
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (fits[r] || !problems_in(recordings[r]).empty()) continue;
     const std::optional<double> own_rad = turned_by_ends(recordings[r], std::get<DifferentialDrive>(nominal.kind));
-    if (!own_rad) continue;
-    turned_rad.push_back(*own_rad);
-    ++by_ends;
+    if (own_rad) turned_by.push_back({*own_rad, kAlike_rad});
   }
-  if (by_ends > 0 && by_ends < kFewest) return nominal;
-  const double middle_rad = middle_angle_rad(turned_rad);
-  if (std::any_of(turned_rad.begin(), turned_rad.end(),
-                  [&](double own_rad) { return std::abs(wrapped(own_rad - middle_rad)) > kAlike_rad; }))
+  if (by_ends && turned_by.size() < kFewest) return nominal;
+  keep_those_that_know(turned_by);
+  const double middle_rad = middle_angle_rad(turned_by);
+  if (std::any_of(turned_by.begin(), turned_by.end(),
+                  [&](const TurnedBy& own) { return std::abs(wrapped(own.by_rad - middle_rad)) > kAlike_rad; }))
     return nominal;
   Vehicle turned = nominal;
   double& heading_rad = turned.truth.axle_T_tracked.heading_rad;
-  if (!turned_rad.empty() && std::abs(wrapped(middle_rad - heading_rad)) > kFar_rad) heading_rad = middle_rad;
+  if (!turned_by.empty() && std::abs(wrapped(middle_rad - heading_rad)) > kFar_rad) heading_rad = middle_rad;
   return turned;
 }
 

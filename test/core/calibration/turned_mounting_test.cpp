@@ -58,6 +58,48 @@ TEST(TurnedMounting, IsFoundInWhateverOrderTheRunsCome) {
   }
 }
 
+// One that is too short to say anything was taken for one that is measured at its ends alone, of which one is too few.
+TEST(TurnedMounting, IsFoundBesideARunThatIsTooShort) {
+  const Case c = three_runs_of_it();
+  std::vector<Recording> runs = with_headings_turned(c, -2.75);
+  Recording brief = runs.front();
+  constexpr double kBrief_s = 6.0;
+  const std::size_t rows = static_cast<std::size_t>(
+      std::lower_bound(brief.time_s.begin(), brief.time_s.end(), brief.time_s.front() + kBrief_s) -
+      brief.time_s.begin());
+  brief.time_s.resize(rows);
+  for (Channel& channel : brief.channels) channel.values.resize(rows);
+  runs.push_back(brief);
+  EXPECT_NEAR(turned_as_driven(runs, c.nominal).truth.axle_T_tracked.heading_rad, -2.75, 0.02);
+}
+
+// On one circle a point that is turned is nearly one that sits elsewhere: such runs say a quarter of a turn more or
+// less, and know it, and those that drive eights know better.
+TEST(TurnedMounting, IsFoundByThoseThatKnowItBest) {
+  constexpr double kTurned_rad = 1.4, kSpeed_radps = 4.0;
+  Random random(311);
+  GeneratorSettings g = under_motion_capture({0.035, 0.035, 0.26}, 0.0003, 0.04);
+  g.truth_position_noise_m = 0.008;
+  g.duration_s = 20.0;
+  std::vector<Recording> runs;
+  for (int run = 0; run < 8; ++run) {
+    const bool is_eight = run == 3;
+    runs.push_back(generated(
+        g,
+        [&](double t) {
+          const double turn = is_eight && std::fmod(t, 8.0) < 4.0 ? -1.5 : 1.5;
+          return WheelSpeedsAt{kSpeed_radps - turn, kSpeed_radps + turn};
+        },
+        random));
+    for (Channel& channel : runs.back().channels)
+      if (channel.name == "truth_heading_rad")
+        for (double& v : channel.values) v = wrapped(v + kTurned_rad);
+  }
+  Vehicle file;
+  file.kind = DifferentialDrive{0.035, 0.035, 0.26};
+  EXPECT_NEAR(turned_as_driven(runs, file).truth.axle_T_tracked.heading_rad, kTurned_rad, 0.2);
+}
+
 // Measured by tape before and after each run: where it came to, against how it stood, is enough.
 TEST(TurnedMounting, IsFoundByPosesAtBothEndsAlone) {
   CaseSettings settings;
