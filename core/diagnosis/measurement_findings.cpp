@@ -5,6 +5,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/calibration/column_names.h"
+#include "core/diagnosis/model/turned_truth.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 
 namespace odolab {
@@ -49,9 +50,10 @@ FoundMounting mounting_found(const JointModel& joint, const Intervals& intervals
       return estimate.name == name.key && estimate.determined;
     });
     if (p == fit.parameters.end()) continue;
-    const double se = intervals.stderr_of_nuisance(column::mounting_x + k);
-    const double z = by[k] / std::max(p->stderr_value, se);
     const bool is_of_place = k < 2;
+    const double turned_rad = is_of_place ? 0.0 : mean_truth_turned_rad(joint);
+    const double se = std::hypot(intervals.stderr_of_nuisance(column::mounting_x + k), turned_rad);
+    const double z = by[k] / std::max(p->stderr_value, se);
     m.finding.parameters.push_back({std::string(name.key).substr(15), value[k], se, name.unit});
     m.is_shifted = m.is_shifted || (is_of_place && std::abs(by[k]) > std::max(kSigmasOfShift * se, least[k]));
     if (std::abs(z) <= kSigmasOfTruth || std::abs(by[k]) <= least[k]) continue;

@@ -12,6 +12,7 @@
 #include "core/calibration/rests.h"
 #include "core/calibration/slow_counts.h"
 #include "core/calibration/smoothed_readings.h"
+#include "core/diagnosis/model/turned_truth.h"
 
 namespace odolab {
 
@@ -26,7 +27,7 @@ struct Times {
     return static_cast<int>(std::clamp(samples / each, fewest, most));
   }
 };
-constexpr Times kCounted{6, 20, 400000}, kRolled{2, 6, 100000};
+constexpr Times kCounted{6, 20, 400000}, kRolled{2, 6, 100000}, kTurned{4, 8, 150000};
 
 // Within a count, where wheels rest: nobody knows, so each is tried in turn.
 enum class Where { as_read, anywhere, further };
@@ -139,6 +140,22 @@ InnovationRun rolled(const InnovationRun& run, const InnovationModel& model, Ran
   return with_readings(std::move(again), std::move(wheels));
 }
 
+// The truth's headings, slowly off to one side and the other.
+InnovationRun under_turned_truth(const InnovationRun& run, const InnovationModel& model, Random& random) {
+  InnovationRun again = as_smoothed(run);
+  follow(again, model);
+  const double off_by_rad = truth_turned_rad(run, model.noise);
+  double off_rad = off_by_rad * random.normal(), before_s = again.truth.front().time_s;
+  for (TruthSample& t : again.truth) {
+    const double keeps = std::exp(-(t.time_s - before_s) / kTurnedFor_s);
+    off_rad = keeps * off_rad + std::sqrt(1.0 - keeps * keeps) * off_by_rad * random.normal();
+    before_s = t.time_s;
+    if (t.heading_rad) *t.heading_rad += off_rad;
+  }
+  std::vector<WheelSample> wheels = again.wheels;
+  return with_readings(std::move(again), std::move(wheels));
+}
+
 // So many times the recordings, each driven again by `drive(run, k, random)`.
 template <typename Drive>
 std::vector<JointModel> driven(const JointModel& calibrated, int times, std::uint64_t first_seed, const Drive& drive) {
@@ -193,7 +210,7 @@ DrivenAgain::DrivenAgain(const JointModel& joint, bool counts_may_feign)
 
 void DrivenAgain::drive() const {
   if (drives_) return;
-  constexpr std::uint64_t kRolledFrom = 1000;  // seeds of its own
+  constexpr std::uint64_t kRolledFrom = 1000, kTurnedFrom = 2000;  // seeds of their own
   const std::vector<InnovationRun>& runs = calibrated_.runs();
   const auto run = [&](int r) -> const InnovationRun& { return runs[static_cast<std::size_t>(r)]; };
   drives_.emplace();
@@ -204,6 +221,11 @@ void DrivenAgain::drive() const {
   if (std::none_of(runs.begin(), runs.end(), std::mem_fn(&InnovationRun::speeds_are_held)))
     drives_->rolled = driven(calibrated_, kRolled.of(calibrated_), kRolledFrom, [&](int r, int, Random& random) {
       return rolled(run(r), calibrated_.model_of(r), random);
+    });
+  const bool frame_is_known_to_turn = calibrated_.model.noise.wander_lasts_s > 0.0;
+  if (!frame_is_known_to_turn && std::any_of(runs.begin(), runs.end(), std::mem_fn(&InnovationRun::truth_has_heading)))
+    drives_->turned = driven(calibrated_, kTurned.of(calibrated_), kTurnedFrom, [&](int r, int, Random& random) {
+      return under_turned_truth(run(r), calibrated_.model_of(r), random);
     });
 }
 
@@ -221,6 +243,8 @@ Feigned DrivenAgain::feigned(const Effect& effect, const std::vector<double>& sh
         (of.mean - 1.0) * std::pow(noise.wheel_m_per_sqrt_m / calibrated_.model.noise.wheel_m_per_sqrt_m, 2);
     if (more > most.more) most.more = more;
   }
+  if (const Squares of = squares_of(drives_->turned, effect, shape, how); of.numbers > 0)
+    most.more = std::max(most.more, of.mean);
   return most;
 }
 
