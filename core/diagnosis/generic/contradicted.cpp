@@ -9,6 +9,7 @@
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
+#include "core/vehicle/key_words.h"
 
 namespace odolab {
 
@@ -176,6 +177,34 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
   const Vec2 between = 0.5 * (moments[0].place + moments[1].place);
   u.where.zone = WhereFound::Zone{between.x_m, between.y_m, std::max(kOnePlace_m, joint.model.drive.wheelbase_m)};
   u.where.regime = "what happens at one place, otherwise each time that the vehicle comes there";
+  return u;
+}
+
+std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEffect>& names,
+                                                    const std::vector<ScoredCandidate>& evidence) {
+  constexpr std::size_t kMany = 3, kApart = 2;
+  constexpr double kBeyondDoubt = 200.0;  // in twice the log-likelihood
+  std::string words;
+  std::vector<const Effect*> kinds;
+  std::size_t count = 0, apart = 0;
+  double weakest = kBeyondDoubt, gain = 0.0;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const AcceptedEffect& a = names[k];
+    if (!a.acts_on_motion()) continue;
+    const double judged = evidence[k].test.judged();
+    gain += judged;
+    words += (count++ > 0 ? ", " : "") + effect_words(a.effect->name);
+    if (std::none_of(kinds.begin(), kinds.end(), [&](const Effect* e) { return e->name == a.effect->name; }))
+      kinds.push_back(a.effect);
+    if (!a.effect->local) continue;
+    ++apart;
+    weakest = std::min(weakest, judged);
+  }
+  if (count < kMany || apart < kApart || kinds.size() < 2 || weakest >= kBeyondDoubt) return std::nullopt;
+  Unnamed u;
+  u.gain = gain;
+  u.where.regime = "what would take " + std::to_string(count) + " causes at once (" + words + "), " +
+                   std::to_string(apart) + " of them each at a place or a moment of its own";
   return u;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/diagnosis/generic/unnamed.h"
 #include "core/diagnosis/model/joint_model.h"
+#include "core/diagnosis/naming/scored_candidates.h"
 
 namespace odolab {
 
@@ -19,6 +21,11 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
 // Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier; or two
 // of them at one place of the floor.
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint);
+
+// Three names and more, of which two are of what happens once or in one place, and one of these is not beyond doubt: one
+// cause that no list holds, and that acts there, is likelier than so many that have come together. `evidence`: of each.
+std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEffect>& names,
+                                                    const std::vector<ScoredCandidate>& evidence);
 
 // Where what the wheels say scatters more than any wheel rolls, as if that were noise.
 std::optional<Unnamed> what_scatters_too_much(const JointModel& joint);

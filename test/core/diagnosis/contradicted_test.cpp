@@ -1,0 +1,58 @@
+#include "core/diagnosis/generic/contradicted.h"
+
+#include <gtest/gtest.h>
+
+#include "core/diagnosis/effects/effect.h"
+
+namespace odolab {
+namespace {
+
+struct NamesAndEvidence {
+  std::vector<AcceptedEffect> names;
+  std::vector<ScoredCandidate> evidence;
+};
+
+NamesAndEvidence named_with(const std::vector<std::pair<const char*, double>>& gains) {
+  NamesAndEvidence all;
+  for (const auto& [name, gain] : gains) {
+    AcceptedEffect a;
+    a.effect = catalogue_entry({name, "", {}});
+    ScoredCandidate c;
+    c.effect = a.effect;
+    c.test.statistic = gain;
+    all.names.push_back(a);
+    all.evidence.push_back(c);
+  }
+  return all;
+}
+
+bool are_too_many(const std::vector<std::pair<const char*, double>>& gains) {
+  const NamesAndEvidence all = named_with(gains);
+  return what_so_many_names_stand_for(all.names, all.evidence).has_value();
+}
+
+// A load that moves the points on which its tyres stand had a patch of floor, two pushes and a load; gusts had a patch,
+// two pushes and a creep.
+TEST(Contradicted, ThreeNamesOfWhichTwoAreOfPlacesAndMomentsAreOneCauseWithoutAName) {
+  EXPECT_TRUE(are_too_many({{"payload_radius_change", 179.0}, {"collision", 66.0}, {"collision", 46.0}}));
+  EXPECT_TRUE(are_too_many({{"slip_zone", 54.0}, {"collision", 37.0}, {"floor_slope_creep", 20.0}}));
+  const NamesAndEvidence all = named_with({{"slip_zone", 54.0}, {"bump", 37.0}, {"floor_slope_creep", 20.0}});
+  const std::optional<Unnamed> of = what_so_many_names_stand_for(all.names, all.evidence);
+  ASSERT_TRUE(of);
+  EXPECT_EQ(of->gain, 111.0);
+  EXPECT_EQ(of->where.regime,
+            "what would take 3 causes at once (slip zone, bump, floor slope creep), 2 of them each at a place or a "
+            "moment of its own");
+}
+
+// A floor with a patch and two sills, each met again and again: none of them is in doubt. Nor are sills alone, nor one
+// place beside what acts all along.
+TEST(Contradicted, NamesThatAreBeyondDoubtOrOfOneKindStandHoweverManyTheyAre) {
+  EXPECT_FALSE(are_too_many({{"slip_zone", 900.0}, {"bump", 300.0}, {"bump", 250.0}}));
+  EXPECT_FALSE(are_too_many({{"bump", 90.0}, {"bump", 60.0}, {"bump", 50.0}}));
+  EXPECT_FALSE(are_too_many({{"wheel_eccentricity", 90.0}, {"tyre_compression", 60.0}, {"bump", 50.0}}));
+  EXPECT_FALSE(are_too_many({{"slip_zone", 54.0}, {"bump", 37.0}}));
+}
+
+}  // namespace
+}  // namespace odolab
