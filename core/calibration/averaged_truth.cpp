@@ -33,6 +33,24 @@ bool rounding_shows(const InnovationRun& run, const InnovationModel& model) {
   return !run.smooth.empty() && count_m / std::sqrt(12.0) > kOfTheTruth * model.noise.truth_position_m;
 }
 
+// From a sample of the truth on.
+Pose motion_until(const InnovationRun& run, const InnovationModel& model, const TruthSample& from, double until_s) {
+  if (!(until_s > from.time_s)) return {};
+  InnovationRun part;
+  part.speeds_are_held = run.speeds_are_held;
+  const auto is_before = [](const WheelSample& w, double time_s) { return w.time_s < time_s; };
+  const double late_s = model.truth.time_offset_s;
+  auto first = std::lower_bound(run.wheels.begin(), run.wheels.end(), from.time_s - late_s, is_before),
+       last = std::lower_bound(first, run.wheels.end(), until_s - late_s, is_before);
+  if (first != run.wheels.begin()) --first;
+  if (last != run.wheels.end()) ++last;
+  if (last - first < 2) return {};
+  part.wheels.assign(first, last);
+  part.truth = {from, {until_s, {}, {}}};
+  part.set_aside.assign(part.truth.size(), 0);
+  return summed_up(part, model).motions.front().motion;
+}
+
 }  // namespace
 
 double averaging_s(const InnovationRun& run) {
@@ -96,13 +114,9 @@ InnovationRun with_averaged_truth(const InnovationRun& run, const InnovationMode
     Pose at = predicted[middle - first];
     // What a base does is not what it was told: carried to the earlier of two it would be ahead by half of what is
     // between them.
-    if (const double off_s = run.truth[first].time_s + times_s / used - mean.time_s;
-        run.speeds_are_held && middle + 1 < end && off_s > kStampDigits_s) {
-      const Pose& next = predicted[middle + 1 - first];
-      const double share = off_s / (run.truth[middle + 1].time_s - mean.time_s);
-      at = {at.x_m + share * (next.x_m - at.x_m), at.y_m + share * (next.y_m - at.y_m),
-            at.heading_rad + share * (next.heading_rad - at.heading_rad)};
-      mean.time_s += off_s;
+    if (run.speeds_are_held) {
+      mean.time_s = run.truth[first].time_s + times_s / used;
+      at = poses[first] * motion_until(carries, model, run.truth[first], mean.time_s) * model.truth.axle_T_tracked;
     }
     mean.position = {at.x_m + sum.x_m / used, at.y_m + sum.y_m / used};
     mean.heading_rad.reset();

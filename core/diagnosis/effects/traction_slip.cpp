@@ -58,6 +58,8 @@ struct Tyre {
 };
 
 Motions lost_by(Wheel wheel, const DriveView& view, const TractionForm& form) {
+  // A base that swings about what it was told has a loop that does.
+  if (view.from_commands && (form.yields_radii > 0.0 || form.builds_up_radii > 0.0)) return {};
   Motions m;
   m.reserve(view.steps.size());
   const double b = view.drive.wheelbase_m;

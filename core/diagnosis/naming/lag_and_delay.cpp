@@ -40,13 +40,14 @@ const Effect* lag_behind_commands() {
   return lag == catalogue().end() ? nullptr : &*lag;
 }
 
-// In the place of so much of the clocks' delay.
+// In the place of so much of the clocks' delay. Moments that put a clock right know of no lag.
 JointModel with_lag_for(JointModel joint, const Effect& lag, double delay_s) {
   AcceptedEffect a;
   a.effect = &lag;
   a.shape = a.value = {delay_s};
   joint.accepted.push_back(a);
   for (double& clock : joint.clock_s) clock -= delay_s;
+  joint.clocks_are_held = false;
   return joint;
 }
 
@@ -84,21 +85,19 @@ void put_where_likeliest(JointModel& joint, std::initializer_list<double> stride
 
 void put_lag_where_likeliest(JointModel& joint) {
   constexpr double kEven_s = 0.01;
-  const auto put = [](JointModel& each) { put_where_likeliest(each, {0.15, 0.04}); };
-  if (joint.model.noise.command_timing_s < kEven_s) {
-    put(joint);
-  } else {
+  constexpr double kFurther = 1.0;  // in twice the log-likelihood
+  constexpr int kMostTimes = 4;
+  put_where_likeliest(joint, {0.15, 0.04});
+  // The noise took up what the lag was off by: each time it is less of both.
+  for (int time = 0; time < kMostTimes; ++time) {
+    joint.fit_noise_and_all();
     JointModel even = joint;
-    even.model.noise.command_timing_s = kEven_s;
-    for (JointModel* each : {&joint, &even}) {
-      put(*each);
-      each->fit_noise_and_all();
-    }
-    if (is_likelier(even, joint)) joint = std::move(even);
+    even.model.noise.command_timing_s = std::min(kEven_s, joint.model.noise.command_timing_s);
+    put_where_likeliest(even, {0.04, 0.01});
+    even.fit_noise_and_all();
+    if (likelier_by(even, joint) < kFurther) break;
+    joint = std::move(even);
   }
-  // The noise took up what the lag was off by.
-  joint.fit_noise_and_all();
-  put_where_likeliest(joint, {0.01});
 }
 
 void put_lag_anew(JointModel& joint) {
@@ -114,6 +113,7 @@ void let_lag_in(JointModel& joint) {
   const double delay_s = mean_delay_s(joint);
   if (!lag || delay_s < kShortest_s) return;
   JointModel late = joint;
+  late.clocks_are_held = false;
   late.fit(3);
   late.fit_noise_and_all();
   JointModel half = with_lag_at(with_lag_for(joint, *lag, 0.5 * delay_s), 0.5 * delay_s),

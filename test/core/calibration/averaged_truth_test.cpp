@@ -78,6 +78,37 @@ TEST(AveragedTruth, LiesThereOfAnEvenNumberThoughTheBaseDoesAnotherThingThanItIs
   EXPECT_LT(furthest_off_m(averaged), 0.05 * of_one_sample_m);
 }
 
+// Told another speed each tenth of a second, of which one in twelve samples of the truth has a half before and a half
+// behind: a straight line between two of them lies 0.6 mm beside the way.
+TEST(AveragedTruth, LiesOnTheWayThoughTheSpeedJumpsBetweenTwoSamples) {
+  constexpr double kTold_s = 0.1, kTruth_s = 1.0 / 119.88;
+  const InnovationModel model = model_of_the_circle();
+  InnovationRun told;
+  told.speeds_are_held = true;
+  told.truth_has_heading = true;
+  const auto speed_mps = [](int i) { return i % 2 ? 0.5 : 0.2; };
+  for (int i = 0; i <= 100; ++i) {
+    const double rad = i == 0 ? 0.0 : told.wheels.back().left_rad + kTold_s * speed_mps(i - 1) / kRadius_m;
+    told.wheels.push_back({kTold_s * i, rad, rad});
+  }
+  const auto way_m = [&](double t) {
+    const auto i = static_cast<std::size_t>(t / kTold_s);
+    return kRadius_m * told.wheels[i].left_rad + (t - told.wheels[i].time_s) * speed_mps(static_cast<int>(i));
+  };
+  for (double t = 0.05; t < 9.9; t += kTruth_s) {
+    const Pose tracked = Pose{way_m(t), 0.0, 0.0} * model.truth.axle_T_tracked;
+    told.truth.push_back({t, tracked.position(), tracked.heading_rad});
+  }
+  told.set_aside.assign(told.truth.size(), 0);
+  const InnovationRun averaged = with_averaged_truth(told, model, 0.02);
+  EXPECT_LT(averaged.truth.size(), told.truth.size() / 2 + 2);
+  for (const TruthSample& t : averaged.truth) {
+    const Pose tracked = Pose{way_m(t.time_s), 0.0, 0.0} * model.truth.axle_T_tracked;
+    // The mean of what a sample before a jump and one behind it have beyond the model, which is nothing.
+    EXPECT_NEAR(t.position.x_m, tracked.x_m, 1e-9) << t.time_s;
+  }
+}
+
 TEST(AveragedTruth, HasWhiteNoiseThatIsSmallerByTheRootOfItsSamples) {
   InnovationRun noisy = round_and_round();
   Random random(7);

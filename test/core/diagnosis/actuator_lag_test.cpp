@@ -165,6 +165,35 @@ TEST(ActuatorLag, StandsAloneHoweverLongItIs) {
   }
 }
 
+// Seen five times a second by a truth whose clock is another one in each recording: its moments put the clocks where
+// the mean delay is, and a lag that had to leave them there came out a tenth too short, and beside it something without
+// a name.
+TEST(ActuatorLag, MovesClocksThatTheirMomentsHadPutRight) {
+  constexpr int kSeldom = 20;                    // of rows a hundredth of a second apart
+  constexpr int kLateRows[] = {-8, 8, -19, -4};  // each clock
+  std::vector<Recording> recordings;
+  for (int n = 1; n <= 4; ++n) {
+    Recording r = from_goal_to_goal(7, n, 0.4);
+    for (Channel& c : r.channels) {
+      if (c.name.rfind("truth", 0) != 0) continue;
+      const std::vector<double> right = c.values;
+      for (int row = 0; row < static_cast<int>(right.size()); ++row) {
+        const int from = row - kLateRows[n - 1];
+        const bool is_there = row % kSeldom == 0 && from >= 0 && from < static_cast<int>(right.size());
+        c.values[static_cast<std::size_t>(row)] = is_there ? right[static_cast<std::size_t>(from)] : std::nan("");
+      }
+    }
+    recordings.push_back(std::move(r));
+  }
+  const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
+  ASSERT_FALSE(d.findings.empty());
+  EXPECT_NE(d.verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d.findings.front().effect, "actuator_lag");
+  EXPECT_NEAR(d.findings.front().parameters.front().value, 0.4, 0.01);
+  for (int n = 0; n < 4; ++n)
+    EXPECT_NEAR(d.truth_clock_s[static_cast<std::size_t>(n)].second, 0.01 * kLateRows[n], 0.01);
+}
+
 // It is told to go at once, and its recording begins with that.
 TEST(ActuatorLag, BeginsAtRestWhereTheBaseStoodAndAtItsSpeedWhereItWasOnItsWay) {
   constexpr double kTold_mps = 0.5, kStep_s = 0.02;
