@@ -82,6 +82,7 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
     if (!adequacy.unnamed) adequacy.unnamed = what_goes_on_instead_of_places(named, error);
   }
   if (!adequacy.unnamed) adequacy.unnamed = what_scatters_too_much(named.joint);
+  if (!adequacy.unnamed) adequacy.unnamed = what_no_noise_makes(named.joint, calibrated);
   if (!adequacy.unnamed) adequacy.unnamed = what_so_many_names_stand_for(named.joint.accepted, named.selected.evidence);
   return adequacy;
 }

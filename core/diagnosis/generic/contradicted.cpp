@@ -88,11 +88,40 @@ bool are_at_one_place(const Moment& a, const Moment& b, double wheelbase_m) {
          length(a.place - b.place) < std::max(kOnePlace_m, wheelbase_m);
 }
 
-// Twice what noise makes, and further than chance takes it once in 60 000. A window counts as one number: what the
-// wheels err by at its start moves its end to one side.
-bool is_off(double square, double of_noise, int windows) {
-  constexpr double kTwice = 4.0, kByChance = 1.0 / 60000.0;  // of squares
-  return square >= kTwice * of_noise && chi_square_tail(windows * square / of_noise, windows) < kByChance;
+// So many times what noise makes, of squares, and further than chance takes it once in 60 000. A window counts as one
+// number: what the wheels err by at its start moves its end to one side.
+bool is_off(double square, double of_noise, int windows, double times) {
+  constexpr double kByChance = 1.0 / 60000.0;
+  return square >= times * of_noise && chi_square_tail(windows * square / of_noise, windows) < kByChance;
+}
+
+// Of recordings from that one on what they err by over a metre, or radian, beyond so many times the noise; nothing
+// where names take half of the squares away: what they leave is their form.
+std::optional<JointModel::GatheredError> error_that_no_noise_makes(const JointModel& named,
+                                                                   const JointModel& calibrated, int first_run,
+                                                                   double times) {
+  constexpr double kHalf = 0.5;  // of squares
+  const JointModel::GatheredError error = named.gathered_error(first_run);
+  if (error.windows == 0 || is_nothing(error)) return std::nullopt;
+  const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows, times),
+             heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows, times);
+  if (!place_is_off && !heading_is_off) return std::nullopt;
+  const bool names_physics =
+      std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+  if (names_physics) {
+    const JointModel::GatheredError before = calibrated.gathered_error(first_run);
+    if ((!place_is_off || error.position_m2 < kHalf * before.position_m2) &&
+        (!heading_is_off || error.heading_rad2 < kHalf * before.heading_rad2))
+      return std::nullopt;
+  }
+  return error;
+}
+
+std::string error_in_words(const JointModel::GatheredError& error) {
+  return formatted(
+      "is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f mm and %.3f",
+      1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
+      1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
 }
 
 }  // namespace
@@ -121,27 +150,21 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 }
 
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run) {
-  constexpr double kHalf = 0.5;  // of squares
-  const JointModel::GatheredError error = named.gathered_error(first_run);
-  if (error.windows == 0 || is_nothing(error)) return std::nullopt;
-  const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows),
-             heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows);
-  if (!place_is_off && !heading_is_off) return std::nullopt;
-  const bool names_physics =
-      std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
-  if (names_physics) {
-    const JointModel::GatheredError before = calibrated.gathered_error(first_run);
-    if ((!place_is_off || error.position_m2 < kHalf * before.position_m2) &&
-        (!heading_is_off || error.heading_rad2 < kHalf * before.heading_rad2))
-      return std::nullopt;
-  }
+  constexpr double kTwice = 4.0;  // of squares
+  const auto error = error_that_no_noise_makes(named, calibrated, first_run, kTwice);
+  if (!error) return std::nullopt;
   Unnamed u;
   u.where.recording = named.runs()[static_cast<std::size_t>(first_run)].name;
-  u.where.regime = formatted(
-      "what was held out is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f "
-      "mm and %.3f",
-      1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
-      1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
+  u.where.regime = "what was held out " + error_in_words(*error);
+  return u;
+}
+
+std::optional<Unnamed> what_no_noise_makes(const JointModel& named, const JointModel& calibrated) {
+  constexpr double kHalfAsMuchAgain = 2.0;  // of squares
+  const auto error = error_that_no_noise_makes(named, calibrated, 0, kHalfAsMuchAgain);
+  if (!error) return std::nullopt;
+  Unnamed u;
+  u.where.regime = "all along dead reckoning " + error_in_words(*error);
   return u;
 }
 

@@ -18,12 +18,17 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 // is fitted to them too, and names mend less than half of that.
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
 
+// Where those that were fitted err by more than 1.4 times the noise, and names mend less than half of that: what has no
+// shape that is asked for, and yet takes the vehicle elsewhere.
+std::optional<Unnamed> what_no_noise_makes(const JointModel& named, const JointModel& calibrated);
+
 // Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier; or two
 // of them at one place of the floor.
 std::optional<Unnamed> what_happens_too_often(const JointModel& joint);
 
-// Three names and more, of which two are of what happens once or in one place, and one of these is not beyond doubt: one
-// cause that no list holds, and that acts there, is likelier than so many that have come together. `evidence`: of each.
+// Three names and more, of which two are of what happens once or in one place, and one of these is not beyond doubt:
+// one cause that no list holds, and that acts there, is likelier than so many that have come together. `evidence`: of
+// each.
 std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEffect>& names,
                                                     const std::vector<ScoredCandidate>& evidence);
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/diagnosis/effects/effect.h"
+#include "test/support/calibrated_model.h"
+#include "test/support/missing_physics.h"
 
 namespace odolab {
 namespace {
@@ -52,6 +54,24 @@ TEST(Contradicted, NamesThatAreBeyondDoubtOrOfOneKindStandHoweverManyTheyAre) {
   EXPECT_FALSE(are_too_many({{"bump", 90.0}, {"bump", 60.0}, {"bump", 50.0}}));
   EXPECT_FALSE(are_too_many({{"wheel_eccentricity", 90.0}, {"tyre_compression", 60.0}, {"bump", 50.0}}));
   EXPECT_FALSE(are_too_many({{"slip_zone", 54.0}, {"bump", 37.0}}));
+}
+
+// The noise that is believed, against the error of dead reckoning: by the noise that there is they agree.
+TEST(Contradicted, DeadReckoningThatErrsByMoreThanAllNoiseLacksSomething) {
+  test::CaseSettings settings;
+  settings.runs = 4;
+  settings.duration_s = 120.0;
+  const test::Case c = test::generated_case(settings, 9109);
+  for (const double believed : {1.0, 0.5}) {
+    JointModel joint = test::calibrated_model(c.recordings, c.nominal);
+    joint.fit_noise_and_all();
+    FittedNoise& noise = joint.model.noise;
+    for (double* size : {&noise.wheel_m_per_sqrt_m, &noise.along_m_per_sqrt_m, &noise.turning_m_per_sqrt_m,
+                         &noise.sideways_m_per_sqrt_m, &noise.truth_position_m, &noise.truth_heading_rad})
+      *size *= believed;
+    joint.linearise();
+    EXPECT_EQ(what_no_noise_makes(joint, joint).has_value(), believed < 1.0);
+  }
 }
 
 }  // namespace
