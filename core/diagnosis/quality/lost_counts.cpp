@@ -21,32 +21,38 @@ struct Hold {
   bool left, right;
 };
 
-// Of both wheels where they hold at once, to a reading.
+// Of both wheels where they hold at once, to a reading: that no two wheels do, however short it is.
 std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDrive& drive) {
-  TimeStretches left = abrupt_holds(run.wheels, Wheel::left, drive),
-                right = abrupt_holds(run.wheels, Wheel::right, drive);
+  constexpr std::size_t kFewestOfOne = 3, kFewestOfBoth = 1;  // intervals
+  TimeStretches left = abrupt_holds(run.wheels, Wheel::left, drive, kFewestOfBoth),
+                right = abrupt_holds(run.wheels, Wheel::right, drive, kFewestOfBoth);
   const double interval_s =
       (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1);
+  // A stretch reaches to the reading that holds no more.
+  const auto is_long = [&](const std::pair<double, double>& hold) {
+    return hold.second - hold.first > (static_cast<double>(kFewestOfOne) + 0.5) * interval_s;
+  };
   std::vector<Hold> holds;
   for (const auto& [from_s, to_s] : left) {
     const auto same = std::find_if(right.begin(), right.end(), [&, from = from_s, to = to_s](const auto& r) {
       return std::abs(r.first - from) < 1.5 * interval_s && std::abs(r.second - to) < 1.5 * interval_s;
     });
     if (same == right.end()) {
-      holds.push_back({from_s, to_s, true, false});
+      if (is_long({from_s, to_s})) holds.push_back({from_s, to_s, true, false});
       continue;
     }
     holds.push_back({std::max(from_s, same->first), std::min(to_s, same->second), true, true});
     right.erase(same);
   }
-  for (const auto& [from_s, to_s] : right) holds.push_back({from_s, to_s, false, true});
+  for (const auto& hold : right)
+    if (is_long(hold)) holds.push_back({hold.first, hold.second, false, true});
   return holds;
 }
 
 }  // namespace
 
 JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calibrated) {
-  constexpr double kShown = 30.0;            // of twice the log-likelihood
+  constexpr double kShown = 30.0;                  // of twice the log-likelihood
   constexpr double kLeastOf = 0.4, kMostOf = 2.0;  // what the truth shows, of what the paces before and behind do
   JumpsOfWheels lost;
   for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {

@@ -257,10 +257,11 @@ TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel whee
   });
 }
 
-TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive) {
-  constexpr std::size_t kFewest = 3, kNeverEven = static_cast<std::size_t>(-1);
+TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive,
+                           std::size_t fewest) {
+  constexpr std::size_t kNeverEven = static_cast<std::size_t>(-1);
   constexpr double kSteady = 0.5;  // of the pace
-  return sudden_holds(wheels, wheel, drive, kFewest, kNeverEven, [&](const HeldReadings&, const PaceAround& pace) {
+  return sudden_holds(wheels, wheel, drive, fewest, kNeverEven, [&](const HeldReadings&, const PaceAround& pace) {
     return pace.before.largest_deviation < kSteady * std::abs(pace.stops) &&
            pace.after.largest_deviation < kSteady * std::abs(pace.goes_on);
   });

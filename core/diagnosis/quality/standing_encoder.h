@@ -21,9 +21,10 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
 // one reading, while the other wheel goes on. The pace may change evenly, unless they hold for more than five.
 TimeStretches halting_encoder(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive);
 
-// Where they hold for three intervals and more between two paces, to neither of which any wheel comes within one
+// Where they hold for so many intervals and more between two paces, to neither of which any wheel comes within one
 // reading. Whether the vehicle stood, something else must say.
-TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive);
+TimeStretches abrupt_holds(const std::vector<WheelSample>& wheels, Wheel wheel, const DifferentialDrive& drive,
+                           std::size_t fewest);
 
 // Where a count moves in one short reading though both wheels rest in those before and behind it: whoever nudges a
 // wheel takes longer.

@@ -154,8 +154,9 @@ MendedCounts with_mended_counts(std::vector<UnitSample> as_read, const Vehicle& 
         guess(counts.at(from_s), to_s);
       }
       wheels = wheels_of(samples, u);
+      constexpr std::size_t kFewestHeld = 3;  // intervals: of one wheel, a shorter one may be its own
       TimeStretches lost = halting_encoder(wheels, wheel, drive);
-      for (const auto& [from_s, to_s] : abrupt_holds(wheels, wheel, drive))
+      for (const auto& [from_s, to_s] : abrupt_holds(wheels, wheel, drive, kFewestHeld))
         if (another_goes_on(samples, u, wheel, counts.at(from_s), counts.at(to_s))) lost.emplace_back(from_s, to_s);
       for (const auto& [from_s, to_s] : joined(std::move(lost))) {
         counts.carry_on(counts.at(from_s), counts.at(to_s));

@@ -21,8 +21,8 @@ InnovationModel believed() {
 
 // Straight on for twelve seconds, faster and faster, up to 0.6 m/s; the counters of some wheels hold for 0.7 s. A radio
 // that errs by 5 cm ten times a second says where the vehicle was; `stood`: it stood meanwhile.
-InnovationRun run_holding(bool left, bool right, bool stood) {
-  const InnovationModel model = believed();
+InnovationRun run_holding(bool left, bool right, bool stood, double to_s = kTo_s,
+                          const InnovationModel& model = believed()) {
   Random random(5);
   InnovationRun run;
   Track way;
@@ -30,7 +30,7 @@ InnovationRun run_holding(bool left, bool right, bool stood) {
   double left_rad = 0.0, right_rad = 0.0;
   for (int i = 0; i <= 300; ++i) {
     const double t = kLostReading_s * i, by_rad = kLostReading_s * 0.5 * t;
-    const bool holds = t > kFrom_s && t < kTo_s;
+    const bool holds = t > kFrom_s && t < to_s;
     if (!holds || !left) left_rad += by_rad;
     if (!holds || !right) right_rad += by_rad;
     run.wheels.push_back({t, left_rad, right_rad});
@@ -41,8 +41,9 @@ InnovationRun run_holding(bool left, bool right, bool stood) {
   for (int k = 0; k <= 120; ++k) {
     const Pose at = *pose_at(way, 0.1 * k);
     run.truth.push_back({0.1 * k,
-                         {at.x_m + 0.05 * random.normal(), at.y_m + 0.05 * random.normal()},
-                         at.heading_rad + 0.05 * random.normal()});
+                         {at.x_m + model.noise.truth_position_m * random.normal(),
+                          at.y_m + model.noise.truth_position_m * random.normal()},
+                         at.heading_rad + model.noise.truth_heading_rad * random.normal()});
   }
   run.truth_has_heading = true;
   run.set_aside.assign(run.truth.size(), 0);
@@ -56,6 +57,19 @@ TEST(LostCounts, AreThoseOfBothWheelsWhereTheTruthGoesOn) {
   EXPECT_NEAR(found.both[0].second, kTo_s, kLostReading_s);
   EXPECT_TRUE(found.left.empty());
   EXPECT_TRUE(found.right.empty());
+}
+
+// A station that errs by 1.5 mm knows it of a single reading, at which no two wheels stop from 0.3 m/s and go on: it
+// was a push, or what happens at one place. Of one wheel alone it is not said: that may catch on something.
+TEST(LostCounts, AreThoseOfBothWheelsForASingleReading) {
+  InnovationModel by_a_station = believed();
+  by_a_station.noise.truth_position_m = 0.0015;
+  constexpr double kOneReading_s = kFrom_s + 1.5 * kLostReading_s;
+  const JumpsOfWheels found = lost_counts(run_holding(true, true, false, kOneReading_s, by_a_station), by_a_station);
+  ASSERT_EQ(found.both.size(), 1u);
+  EXPECT_NEAR(found.both[0].first, kFrom_s, kLostReading_s);
+  EXPECT_TRUE(lost_counts(run_holding(true, false, false, kOneReading_s, by_a_station), by_a_station).left.empty());
+  EXPECT_TRUE(lost_counts(run_holding(true, true, true, kOneReading_s, by_a_station), by_a_station).both.empty());
 }
 
 TEST(LostCounts, AreThoseOfOneWheelWhereTheTruthKeepsItsDirection) {
