@@ -12,7 +12,9 @@ namespace odolab {
 
 bool comes_first(const Finding& a, const Finding& b) {
   const auto is_of_calibration = [](const Finding& f) {
-    return f.effect == "truth_mounting_offset" || f.effect == "truth_time_offset" || f.effect == "actuator_delay";
+    const auto is_mounting = [](const auto& of) { return of.effect == "truth_mounting_offset"; };
+    return is_mounting(f) || f.effect == "truth_time_offset" || f.effect == "actuator_delay" ||
+           std::any_of(f.alternatives.begin(), f.alternatives.end(), is_mounting);  // a toe that may be no more
   };
   if (is_of_calibration(a) != is_of_calibration(b)) return is_of_calibration(b);
   return a.log_likelihood_gain > b.log_likelihood_gain;

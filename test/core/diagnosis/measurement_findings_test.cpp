@@ -47,6 +47,19 @@ TEST(MeasurementFindings, SayOfAMarkerThatIsTurnedWhatElseMayBe) {
   }
 }
 
+// A toe that may be no more than how the marker sits is less sure than any other name, however plainly it shows.
+TEST(MeasurementFindings, ComeAfterNamesWhereTheyMayBeAMarkers) {
+  Finding toe, slip;
+  toe.effect = "wheel_toe";
+  toe.log_likelihood_gain = 7000.0;
+  slip.effect = "lateral_slip";
+  slip.log_likelihood_gain = 1000.0;
+  EXPECT_TRUE(comes_first(toe, slip));
+  toe.alternatives.push_back({"truth_mounting_offset", "truth", 7000.0, ""});
+  EXPECT_TRUE(comes_first(slip, toe));
+  EXPECT_FALSE(comes_first(toe, slip));
+}
+
 // A marker that is put on four millimetres away is turned by some hundredths of a radian, and no more. Of less an axle
 // is no rival, being a second cause, but it is said that it would look the same as far as axles go, 20 mrad.
 TEST(MeasurementFindings, SayThatAnAxleMayBeAtFaultWhereAMarkerIsTurnedByMoreThanItIsShifted) {
