@@ -130,6 +130,9 @@ struct Effect {
   std::function<double(const std::vector<double>& shape, const std::vector<DriveView>& views)> stated_at_mps;
   // How well a place can be known at best, by its form; empty: to a centimetre.
   std::function<double(const std::vector<double>& shape)> place_known_to_m;
+  // The share of what it does that lies so near a limit of its shape that a wheel's own noise decides whether it is
+  // there: better than that its amplitudes are not known. Empty: none.
+  std::function<double(const std::vector<double>& shape, const std::vector<DriveView>& views)> near_its_limit;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
   // So many independent ones a scanned shape of one form stands for, once it is refined: more where there is much

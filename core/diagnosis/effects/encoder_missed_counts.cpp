@@ -58,6 +58,22 @@ bool hovers_about(double limit_radps, const DriveView& view, double EffectStep::
   return near_m > kMost * all_m;
 }
 
+// Of the way above the limit, how much is so near to it that a motor's ripple carries the wheel across.
+double way_near(double limit_radps, Wheel wheel, const std::vector<DriveView>& views) {
+  constexpr double kNear = 0.03;  // of the limit
+  double near_m = 0.0, above_m = 0.0;
+  const auto add = [&](double speed_radps, double way_m) {
+    if (std::abs(speed_radps) > limit_radps) above_m += std::abs(way_m);
+    if (std::abs(std::abs(speed_radps) - limit_radps) < kNear * limit_radps) near_m += std::abs(way_m);
+  };
+  for (const DriveView& v : views)
+    for (const EffectStep& s : v.steps) {
+      if (wheel != Wheel::right) add(s.left_radps, s.left_m);
+      if (wheel != Wheel::left) add(s.right_radps, s.right_m);
+    }
+  return above_m > 0.0 ? std::min(1.0, near_m / above_m) : 0.0;
+}
+
 Effect missed_counts_of(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
@@ -100,6 +116,9 @@ Effect missed_counts_of(Wheel wheel) {
         m.push_back(by_wheel(wheel, wheel == Wheel::left ? l : r, view.drive.wheelbase_m));
     }
     return motions_by_number(std::move(m));
+  };
+  e.near_its_limit = [wheel](const std::vector<double>& shape, const std::vector<DriveView>& views) {
+    return way_near(shape[0], wheel, views);
   };
   e.scan = [wheel](const std::vector<DriveView>& views) { return limits(views, wheel); };
   return e;

@@ -209,7 +209,9 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     if (is_patch) known = at_these_shapes.block(first, first, n, n);
     const VectorXd value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(), n);
     out.from_nothing.push_back(value.dot(known.ldlt().solve(value)));
-    const VectorXd of_forms = between_forms(joint, a, inflation[a]);
+    VectorXd of_forms = between_forms(joint, a, inflation[a]);
+    if (effect.near_its_limit)
+      of_forms.array() += square * std::pow(effect.near_its_limit(joint.accepted[a].shape, joint.views()), 2);
     for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2) + of_forms(k);
     out.of_effect.push_back(block);
     add_to_calibration(at_these_shapes, first, of_form + of_forms, out.columns);
