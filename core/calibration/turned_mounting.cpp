@@ -40,9 +40,13 @@ double middle_angle_rad(const std::vector<TurnedBy>& turned) {
   return std::atan2(sum.y_m, sum.x_m);
 }
 
-// Those that know it about as well as the one that knows it best, or well enough.
+constexpr double kFar_rad = 1.0;  // from what the file says, so that no fit finds the way there
+
+// Those that know it about as well as the one that knows it best, or well enough; none that does not even know whether
+// it is so far off.
 void keep_those_that_know(std::vector<TurnedBy>& turned) {
-  constexpr double kWell_rad = 0.1, kAboutAsWell = 3.0;
+  constexpr double kWell_rad = 0.1, kAboutAsWell = 3.0, kHardly_rad = kFar_rad / 3.0;
+  std::erase_if(turned, [&](const TurnedBy& t) { return !(t.stderr_rad < kHardly_rad); });
   double best_rad = 1e300;
   for (const TurnedBy& t : turned) best_rad = std::min(best_rad, t.stderr_rad);
   std::erase_if(turned, [&](const TurnedBy& t) { return t.stderr_rad > std::max(kWell_rad, kAboutAsWell * best_rad); });
@@ -51,7 +55,7 @@ void keep_those_that_know(std::vector<TurnedBy>& turned) {
 }  // namespace
 
 Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle& nominal) {
-  constexpr double kFar_rad = 1.0, kAlike_rad = 0.2, kExplained = 0.9;
+  constexpr double kAlike_rad = 0.2, kExplained = 0.9;
   if (!std::holds_alternative<DifferentialDrive>(nominal.kind)) return nominal;
   std::vector<std::optional<RunFit>> fits(recordings.size());
   parallel_for(static_cast<int>(fits.size()), [&](int i) {

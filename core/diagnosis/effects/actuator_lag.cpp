@@ -22,12 +22,15 @@ Speeds speeds_at_start(const DriveView& view, std::size_t first, double tau_s) {
   const EffectStep& start = view.steps[first];
   const Speeds at_once = told(start);
   if (at_once.forward_mps == 0.0 && at_once.turn_radps == 0.0) return at_once;
-  // Between the middles of two steps: what a base comes that is as fast as it was told at first.
-  double forward_m = 0.0, turn_rad = 0.0, over_s = 0.0;
+  // Between the middles of two steps: what a base comes that is as fast as it was told at first; and what it came, step
+  // by step, since within two time constants it may go round in a circle.
+  double forward_m = 0.0, turn_rad = 0.0, over_s = 0.0, came_m = 0.0, turned_rad = 0.0;
   Speeds base = at_once;
-  std::size_t i = first;
-  for (; i + 1 < view.steps.size() && over_s < std::max(kSeenOver * tau_s, kSeenAtLeast_s); ++i) {
-    const EffectStep& s = view.steps[i + 1];
+  for (std::size_t i = first; i + 1 < view.steps.size() && over_s < std::max(kSeenOver * tau_s, kSeenAtLeast_s); ++i) {
+    const EffectStep &before = view.steps[i], &s = view.steps[i + 1];
+    const double by_rad = wrapped(s.heading_rad - before.heading_rad), middle = before.heading_rad + 0.5 * by_rad;
+    came_m += dot(s.position - before.position, {std::cos(middle), std::sin(middle)});
+    turned_rad += by_rad;
     if (!(s.duration_s > 0.0)) continue;
     const Speeds now = told(s);
     const double follows = 1.0 - std::exp(-s.duration_s / tau_s);
@@ -37,9 +40,6 @@ Speeds speeds_at_start(const DriveView& view, std::size_t first, double tau_s) {
     turn_rad += base.turn_radps * s.duration_s;
     over_s += s.duration_s;
   }
-  const EffectStep& end = view.steps[i];
-  const double turned_rad = wrapped(end.heading_rad - start.heading_rad), middle = start.heading_rad + 0.5 * turned_rad;
-  const double came_m = dot(end.position - start.position, {std::cos(middle), std::sin(middle)});
   const double less_s = tau_s * (1.0 - std::exp(-over_s / tau_s));  // of the first speed, of a base that stood
   const auto is_from_rest = [&](double seen, double at_once_comes, double speed) {
     return std::abs(seen - at_once_comes + speed * less_s) < std::abs(seen - at_once_comes);
@@ -94,6 +94,8 @@ std::vector<Effect> actuator_lag() {
   e.looks_like = {"actuator_delay", "traction_slip"};
   e.told_apart_by = "sharp steps of the command, each held for a second or more";
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
+    // Of recordings of one robot some may hold its encoders, which read what its wheels did.
+    if (!view.from_commands) return motions_by_number(Motions());
     return motions_by_number(lagging(view, std::max(shape[0], 1e-3)));
   };
   e.scan = [](const std::vector<DriveView>&) {

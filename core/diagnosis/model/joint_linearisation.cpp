@@ -1,4 +1,6 @@
 // What a small change of the joint model does to what it leaves: a column for each of its numbers.
+#include <utility>
+
 #include "core/base/parallel.h"
 #include "core/diagnosis/model/counts_at_rest.h"
 #include "core/diagnosis/model/joint_model.h"
@@ -10,13 +12,17 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// How the ways of a drive grow with a radius or the wheelbase.
-DriveView growing_with(int length, DriveView view) {
-  const DifferentialDrive& d = view.drive;
+constexpr double kGrowth = 1e-3;  // what lags is linear in what was told
+
+// The drive as it would be told with a radius, or the wheelbase, larger by that share. It goes where it went: whether
+// it stood at first does not hang on what its lengths are believed to be.
+DriveView grown_by(int length, DriveView view) {
   for (EffectStep& s : view.steps) {
-    s.left_m = length == column::wheel_radius_left ? s.told_left_m() / d.wheel_radius_left_m : 0.0;
-    s.right_m = length == column::wheel_radius_right ? s.told_right_m() / d.wheel_radius_right_m : 0.0;
-    s.turn_rad = (length == column::wheelbase ? -s.told_turn_rad() : s.right_m - s.left_m) / d.wheelbase_m;
+    const double left_m = s.told_left_m(), right_m = s.told_right_m(), turn_rad = s.told_turn_rad();
+    s.left_m = length == column::wheel_radius_left ? (1.0 + kGrowth) * left_m : left_m;
+    s.right_m = length == column::wheel_radius_right ? (1.0 + kGrowth) * right_m : right_m;
+    const double more_rad = (s.right_m - right_m - (s.left_m - left_m)) / view.drive.wheelbase_m;
+    s.turn_rad = turn_rad + (length == column::wheelbase ? -kGrowth * turn_rad : more_rad);
     s.late_left_m = s.late_right_m = s.late_turn_rad = 0.0;
   }
   return view;
@@ -25,12 +31,18 @@ DriveView growing_with(int length, DriveView view) {
 // What a base goes further with a radius or a wheelbase comes as late as all that it goes.
 void add_lagging(const AcceptedEffect& lag, const DriveView& view, const LinearisedRun& linear,
                  const std::array<double*, column::first_extra>& of_parameters) {
-  for (const int length : {column::wheel_radius_left, column::wheel_radius_right, column::wheelbase}) {
+  const DifferentialDrive& d = view.drive;
+  const Motions as_it_is = lag.effect->motions(view, lag.shape).front();
+  for (const auto& [length, size_m] : {std::pair<int, double>{column::wheel_radius_left, d.wheel_radius_left_m},
+                                       {column::wheel_radius_right, d.wheel_radius_right_m},
+                                       {column::wheelbase, d.wheelbase_m}}) {
     double* const out = of_parameters[static_cast<std::size_t>(length)];
     if (!out) continue;
     std::vector<double> behind(static_cast<std::size_t>(3 * linear.samples()), 0.0);
-    linear.of_motion(lag.effect->motions(growing_with(length, view), lag.shape).front(), behind.data());
-    for (std::size_t i = 0; i < behind.size(); ++i) out[i] += lag.value[0] * behind[i];
+    Motions more = lag.effect->motions(grown_by(length, view), lag.shape).front();
+    as_it_is.add_to(more, -1.0);
+    linear.of_motion(more, behind.data());
+    for (std::size_t i = 0; i < behind.size(); ++i) out[i] += lag.value[0] / (kGrowth * size_m) * behind[i];
   }
 }
 
@@ -158,7 +170,8 @@ void JointModel::linearise(bool with_columns) {
     if (clock_active[r]) of_parameters[column::truth_clock] = z.col(at++).data();
     linear.of_parameters(of_parameters);
     for (const AcceptedEffect& a : accepted)
-      if (a.effect->lags_behind_commands()) add_lagging(a, next->views[r], linear, of_parameters);
+      if (a.effect->lags_behind_commands() && from_commands_[r] != 0)
+        add_lagging(a, next->views[r], linear, of_parameters);
     if (runs_[r].counts_show)
       for (const Motions& of_wheel : counts_at_rest(runs_[r], model.drive))
         linear.of_motion(of_wheel, z.col(at++).data());

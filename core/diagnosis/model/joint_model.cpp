@@ -97,7 +97,7 @@ InnovationRun JointModel::prepared(int r) const { return prepared(r, runs_[r], n
 
 DriveView JointModel::as_it_goes(DriveView by_wheels) const {
   for (const AcceptedEffect& a : accepted)
-    if (a.effect->lags_behind_commands()) {
+    if (a.effect->lags_behind_commands() && by_wheels.from_commands) {
       const Motions lag = motion_of(*a.effect, by_wheels, a.shape, a.value);
       by_wheels = as_it_lags(std::move(by_wheels), lag);
     }

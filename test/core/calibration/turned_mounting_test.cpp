@@ -100,6 +100,27 @@ TEST(TurnedMounting, IsFoundByThoseThatKnowItBest) {
   EXPECT_NEAR(turned_as_driven(runs, file).truth.axle_T_tracked.heading_rad, kTurned_rad, 0.2);
 }
 
+// One circle and nothing else: whether a point is turned or sits elsewhere it knows to a radian and more, and a marker
+// that sat on the axle was turned by 3 rad, and then 0.68 m beside it, beyond doubt.
+TEST(TurnedMounting, StaysAsTheFileSaysWhereNoRunKnowsIt) {
+  Vehicle file;
+  file.kind = DifferentialDrive{0.035, 0.035, 0.26};
+  for (const double noise_m : {0.002, 0.008, 0.02})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Random random(seed);
+      GeneratorSettings g = under_motion_capture({0.035, 0.035, 0.26}, 0.0003, 0.04);
+      g.truth_position_noise_m = noise_m;
+      g.duration_s = 20.0;
+      const Recording circle = generated(
+          g,
+          [](double) {
+            return WheelSpeedsAt{2.5, 5.5};
+          },
+          random);
+      EXPECT_EQ(turned_as_driven({circle}, file).truth.axle_T_tracked.heading_rad, 0.0) << noise_m << " " << seed;
+    }
+}
+
 // Measured by tape before and after each run: where it came to, against how it stood, is enough.
 TEST(TurnedMounting, IsFoundByPosesAtBothEndsAlone) {
   CaseSettings settings;

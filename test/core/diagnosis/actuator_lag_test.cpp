@@ -7,6 +7,9 @@
 #include "core/diagnosis/diagnosis.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/model/joint_model.h"
+#include "core/diagnosis/model/ready_run.h"
+#include "core/diagnosis/quality/quality.h"
 #include "test/support/commanded_base.h"
 
 namespace odolab {
@@ -60,6 +63,7 @@ TEST(ActuatorLag, PutsTheBaseBehindByWhatItsEquationSaysInTheMeanOfEachStep) {
       std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "actuator_lag"; });
   ASSERT_NE(lag, catalogue().end());
   DriveView view;
+  view.from_commands = true;
   for (int i = 0; i < 400; ++i) {
     EffectStep s;
     s.duration_s = kStep_s;
@@ -194,6 +198,45 @@ TEST(ActuatorLag, MovesClocksThatTheirMomentsHadPutRight) {
     EXPECT_NEAR(d.truth_clock_s[static_cast<std::size_t>(n)].second, 0.01 * kLateRows[n], 0.01);
 }
 
+// Two recordings of its commands and two of its encoders: these read what the wheels did, behind which nothing lags. It
+// was put in there, too, and their clocks the other way: 0.2 s came out as 0.19, and a sample in thirty was set aside.
+TEST(ActuatorLag, IsOfCommandsAloneThoughOthersHoldEncoders) {
+  constexpr double kOwnLag_s = 0.2;
+  const DifferentialDrive drive;
+  std::vector<Recording> recordings;
+  for (int n = 1; n <= 4; ++n) {
+    recordings.push_back(from_goal_to_goal(7, n, kOwnLag_s));
+    if (n <= 2) continue;
+    Recording& r = recordings.back();
+    // What it was told, as late as it follows.
+    const std::vector<double> speed = r.channel("command_speed_mps")->values,
+                              yaw_rate = r.channel("command_yaw_rate_radps")->values;
+    test::CommandedBase base;
+    double left_rad = 0.0, right_rad = 0.0;
+    std::vector<double> left, right;
+    for (std::size_t row = 0; row < r.time_s.size(); ++row) {
+      left.push_back(left_rad);
+      right.push_back(right_rad);
+      if (!std::isnan(speed[row])) base.command_mps = speed[row], base.command_radps = yaw_rate[row];
+      for (int step = 0; step < 20; ++step) {
+        follow(base, kOwnLag_s);
+        const double by_turn_mps = 0.5 * drive.wheelbase_m * base.yaw_rate_radps;
+        left_rad += (base.speed_mps - by_turn_mps) * base.kStep_s / drive.wheel_radius_left_m;
+        right_rad += (base.speed_mps + by_turn_mps) * base.kStep_s / drive.wheel_radius_right_m;
+      }
+    }
+    std::erase_if(r.channels, [](const Channel& c) { return c.name.rfind("command", 0) == 0; });
+    r.add_channel("left_wheel_rad").values = left;
+    r.add_channel("right_wheel_rad").values = right;
+  }
+  Vehicle file;
+  file.kind = drive;
+  const Diagnosis d = diagnose(recordings, {}, file).value();
+  ASSERT_EQ(d.findings.size(), 1U);
+  EXPECT_EQ(d.findings.front().effect, "actuator_lag");
+  EXPECT_NEAR(d.findings.front().parameters.front().value, kOwnLag_s, 0.005 * kOwnLag_s);
+}
+
 // It is told to go at once, and its recording begins with that.
 TEST(ActuatorLag, BeginsAtRestWhereTheBaseStoodAndAtItsSpeedWhereItWasOnItsWay) {
   constexpr double kTold_mps = 0.5, kStep_s = 0.02;
@@ -201,6 +244,7 @@ TEST(ActuatorLag, BeginsAtRestWhereTheBaseStoodAndAtItsSpeedWhereItWasOnItsWay) 
   ASSERT_NE(lag, catalogue().end());
   for (const bool stood : {true, false}) {
     DriveView view;
+    view.from_commands = true;
     for (int i = 0; i < 200; ++i) {
       EffectStep s;
       s.duration_s = kStep_s;
@@ -216,6 +260,44 @@ TEST(ActuatorLag, BeginsAtRestWhereTheBaseStoodAndAtItsSpeedWhereItWasOnItsWay) 
     // within what the first step lacks in its mean, which none before it takes up
     EXPECT_NEAR(behind_m, stood ? -kTold_mps * kLag_s : 0.0, 0.005 * kTold_mps * kLag_s);
   }
+}
+
+// Within two time constants it goes round by more than half a turn: the straight way from there to here was a way that
+// it had lost, and so a base that was on its way was one that had stood.
+TEST(ActuatorLag, BeginsAtItsSpeedThoughItGoesRoundInACircle) {
+  constexpr double kTold_mps = 0.3, kStep_s = 0.01;
+  const auto lag = std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
+  ASSERT_NE(lag, catalogue().end());
+  for (const double told_radps : {-3.0, 1.0, 2.0, 3.0})
+    for (const double lag_s : {0.2, kLongLag_s, 1.2})
+      for (const bool stood : {true, false}) {
+        DriveView view;
+        view.from_commands = true;
+        Pose pose;
+        for (int i = 0; i < 500; ++i) {
+          EffectStep s;
+          s.duration_s = kStep_s;
+          s.time_s = (i + 0.5) * kStep_s;
+          s.left_m = s.right_m = kTold_mps * kStep_s;
+          s.turn_rad = told_radps * kStep_s;
+          const double share = stood ? 1.0 - std::exp(-s.time_s / lag_s) : 1.0;
+          const Pose half{0.5 * share * kTold_mps * kStep_s, 0.0, 0.5 * share * told_radps * kStep_s};
+          pose = pose * half;
+          s.position = pose.position();
+          s.heading_rad = wrapped(pose.heading_rad);
+          pose = pose * half;
+          view.steps.push_back(s);
+        }
+        const Motions moved = lag->motions(view, {lag_s}).front();
+        double behind_m = 0.0, behind_rad = 0.0;
+        for (std::size_t i = 0; i < view.steps.size(); ++i) {
+          behind_m += lag_s * moved.at(i).forward_m;
+          behind_rad += lag_s * moved.at(i).turn_rad;
+        }
+        EXPECT_NEAR(behind_m, stood ? -kTold_mps * lag_s : 0.0, 0.03 * kTold_mps * lag_s) << told_radps << " " << lag_s;
+        EXPECT_NEAR(behind_rad, stood ? -told_radps * lag_s : 0.0, 0.03 * std::abs(told_radps) * lag_s)
+            << told_radps << " " << lag_s;
+      }
 }
 
 // Told to go for a second and then to stand, it goes on and comes to rest behind: so do its wheels, and what was told
@@ -276,6 +358,45 @@ TEST(ActuatorLag, BendsNoRadiiHoweverLongItIs) {
         EXPECT_NEAR(p.value, p.nominal, 4.0 * p.stderr_value) << seed << " " << p.name;
       }
   }
+}
+
+// A base that was on its way when its recording begins. Whether it had stood was asked again of ways in metres per
+// metre of a radius, against where it really went, and was yes: lengths then went further than they had to, and back.
+TEST(ActuatorLag, MovesRadiiAndWheelbaseAtOnceWhereTheBaseWasOnItsWay) {
+  constexpr double kVeryLongLag_s = 1.2, kWrong = 1.03;
+  constexpr int kBefore = 20000, kLeg = 8000, kRows = kBefore / 20;  // steps of half a millisecond
+  Random random(5);
+  Recording r = test::commanded("run", kBefore + 60000, random, [&](int i, test::CommandedBase& b) {
+    b.command_mps = 0.4;
+    b.command_radps = i > kBefore && (i - kBefore) / kLeg % 2 ? -0.4 : 0.4;
+    follow(b, kVeryLongLag_s);
+  });
+  r.time_s.erase(r.time_s.begin(), r.time_s.begin() + kRows);
+  for (Channel& c : r.channels) c.values.erase(c.values.begin(), c.values.begin() + kRows);
+  LeastSquaresCalibration told;
+  std::vector<InnovationRun> runs{ready_run(checked(r, Vehicle{}), Vehicle{}).value()};
+  DifferentialDrive& wrong = std::get<DifferentialDrive>(told.vehicle.kind);
+  wrong.wheel_radius_left_m *= kWrong;
+  wrong.wheel_radius_right_m *= kWrong;
+  wrong.wheelbase_m *= kWrong;
+  told.noise = {5e-4, 1e-3, 2e-3};
+  JointModel joint(std::move(runs), {1}, told, told.vehicle);
+  for (const int of_mounting : {3, 4, 5}) joint.nuisance_active[static_cast<std::size_t>(of_mounting)] = 0;
+  joint.clock_active[0] = 0;
+  AcceptedEffect lag;
+  lag.effect = &*std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
+  lag.shape = lag.value = {kVeryLongLag_s};
+  lag.is_held = true;
+  joint.accepted.push_back(lag);
+  joint.linearise();
+  joint.linearise();  // where it was is known now
+  joint.fit(1);
+  const DifferentialDrive at_once = joint.model.drive;
+  joint.fit(4);
+  const DifferentialDrive& d = joint.model.drive;
+  EXPECT_NEAR(at_once.wheel_radius_left_m, d.wheel_radius_left_m, 1e-4 * d.wheel_radius_left_m);
+  EXPECT_NEAR(at_once.wheel_radius_right_m, d.wheel_radius_right_m, 1e-4 * d.wheel_radius_right_m);
+  EXPECT_NEAR(at_once.wheelbase_m, d.wheelbase_m, 1e-4 * d.wheelbase_m);
 }
 
 }  // namespace
