@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/diagnosis/effects/forms.h"
+#include "core/diagnosis/effects/yielding_tread.h"
 #include "physics/effects/effect.h"
 
 namespace odolab::planar {
@@ -60,15 +61,32 @@ class TractionSlipInForm final : public Effect {
     Tyre& tyre = tyres_[is_left ? 0 : 1];
     const double rim_mps = wheel.radius_m * wheel.speed_radps,
                  turning_mps = half_base_m_ * motion.rolled_yaw_rate_radps;
-    if (tyre.rolled) {  // a replay may begin in motion
+    const bool swings = form_.gives_way_s_per_mps && form_.yields_radii > 0.0;
+    if (swings) {
+      const double speeds_up_mps = tyre.rolled ? rim_mps - tyre.rim_mps : 0.0;
+      tyre.owed_m += per_mps2_ * tyre.tread.stays_behind_m(rim_mps * step_s_, speeds_up_mps / step_s_, step_s_,
+                                                           wheel.radius_m, form_);
+    } else if (tyre.rolled) {  // a replay may begin in motion
       const double quicker_mps = form_.of_turning * (turning_mps - tyre.turning_mps) +
                                  form_.of_bends * motion.speed_mps * motion.yaw_rate_radps * step_s_;
-      const double pushed_mps = motion.rolled_speed_mps - tyre.speed_mps + (is_left ? -quicker_mps : quicker_mps);
-      tyre.owed_m += per_mps2_ * 0.5 * (std::abs(rim_mps) + std::abs(tyre.rim_mps)) * pushed_mps;
+      const double pushed_mps = motion.rolled_speed_mps - tyre.speed_mps + (is_left ? -quicker_mps : quicker_mps),
+                   rolled_mps = 0.5 * (std::abs(rim_mps) + std::abs(tyre.rim_mps)),
+                   builds_up_m = form_.builds_up_radii * wheel.radius_m,
+                   built_up = builds_up_m > 0.0 ? 1.0 - std::exp(-rolled_mps * step_s_ / builds_up_m) : 1.0;
+      tyre.slips_mps += built_up * (pushed_mps - tyre.slips_mps);
+      tyre.owed_m += per_mps2_ * rolled_mps * tyre.slips_mps;
+      // A tread that was deflected within one step would let go of the floor.
+      const double more_mps = (1.0 - std::exp(-step_s_ / effects::kTyreRelaxes_s)) * (pushed_mps - tyre.pushed_mps);
+      tyre.owed_m += per_mps2_ * form_.yields_radii * wheel.radius_m * more_mps / step_s_;
+      tyre.pushed_mps += more_mps;
     }
-    tyre = {true, rim_mps, motion.rolled_speed_mps, turning_mps, tyre.owed_m};
-    double builds_up_s =
-        form_.gives_way_s_per_mps ? effects::kTyreRelaxes_s + *form_.gives_way_s_per_mps * std::abs(rim_mps) : 0.0;
+    tyre.rolled = true;
+    tyre.rim_mps = rim_mps;
+    tyre.speed_mps = motion.rolled_speed_mps;
+    tyre.turning_mps = turning_mps;
+    double builds_up_s = form_.gives_way_s_per_mps && !swings
+                             ? effects::kTyreRelaxes_s + *form_.gives_way_s_per_mps * std::abs(rim_mps)
+                             : 0.0;
     // A wheel whose motor feels the slip would let go of the floor by what it loses at once.
     if (wheel.yields) builds_up_s = std::max(builds_up_s, builds_up_in_s(per_mps2_, rim_mps));
     const double share = builds_up_s > 0.0 ? 1.0 - std::exp(-step_s_ / builds_up_s) : 1.0;
@@ -80,7 +98,9 @@ class TractionSlipInForm final : public Effect {
   struct Tyre {
     bool rolled = false;
     double rim_mps = 0.0, speed_mps = 0.0, turning_mps = 0.0;  // in the step before
+    double pushed_mps = 0.0, slips_mps = 0.0;                  // what its deflection and its slip have come to
     double owed_m = 0.0;                                       // way that is still to be lost
+    effects::YieldingTread tread;
   };
 
   std::string component_;

@@ -1,13 +1,12 @@
 // Traction slip: the share of a step that is lost is in proportion to the acceleration along the travel.
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/effect_motions.h"
 #include "core/diagnosis/effects/forms.h"
+#include "core/diagnosis/effects/yielding_tread.h"
 
 namespace odolab::effects {
 
@@ -15,15 +14,14 @@ namespace {
 
 struct Tyre {
   double radius_m = 0.0;
-  double owed = 0.0;                // way that is still to be lost, for one per m/s2
-  double slips_mps2 = 0.0;          // the acceleration that its slip has come to
-  double before_mps2 = 0.0;         // that of the step before
-  std::optional<double> speed_mps;  // of the vehicle above a tread that swings
-  double deflected_m = 0.0;
+  double owed = 0.0;         // way that is still to be lost, for one per m/s2
+  double slips_mps2 = 0.0;   // the acceleration that its slip has come to
+  double before_mps2 = 0.0;  // that of the step before
+  YieldingTread tread = {};
 
   double slip(double way_m, double acceleration_mps2, double duration_s, const TractionForm& form) {
     if (form.gives_way_s_per_mps && form.yields_radii > 0.0)
-      return duration_s > 0.0 ? stays_behind_m(way_m, duration_s, form) : 0.0;
+      return tread.stays_behind_m(way_m, acceleration_mps2, duration_s, radius_m, form);
     const double builds_up_m = form.builds_up_radii * radius_m;
     const double built_up = builds_up_m > 0.0 ? 1.0 - std::exp(-std::abs(way_m) / builds_up_m) : 1.0;
     slips_mps2 += built_up * (acceleration_mps2 - slips_mps2);
@@ -34,26 +32,6 @@ struct Tyre {
     const double lost = (1.0 - std::exp(-duration_s / behind_s)) * owed;
     owed -= lost;
     return lost;
-  }
-
-  // The same on a tread that swings.
-  double stays_behind_m(double way_m, double duration_s, const TractionForm& form) {
-    constexpr double kDamped = 0.3;  // of what is critical
-    constexpr double kPiece_s = 0.005;
-    const double k = *form.gives_way_s_per_mps, relaxes_m = form.yields_radii * radius_m, swings_s2 = k * relaxes_m,
-                 damps_s = 2.0 * kDamped * std::sqrt(swings_s2), wheel_mps = way_m / duration_s;
-    if (!speed_mps) speed_mps = wheel_mps;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(duration_s / kPiece_s)));
-    const double dt = duration_s / pieces;
-    double lost_m = way_m;
-    for (int piece = 0; piece < pieces; ++piece) {  // by the ends of the pieces: stable however long these are
-      const double keeps = 1.0 / (1.0 + dt * std::abs(*speed_mps) / relaxes_m),
-                   pulls = dt * (keeps * dt + damps_s) / swings_s2;
-      speed_mps = (*speed_mps + dt * keeps * deflected_m / swings_s2 + pulls * wheel_mps) / (1.0 + pulls);
-      deflected_m = keeps * (deflected_m + dt * (wheel_mps - *speed_mps));
-      lost_m -= dt * *speed_mps;
-    }
-    return lost_m / k;
   }
 };
 

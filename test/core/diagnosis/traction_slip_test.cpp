@@ -79,9 +79,9 @@ TEST(TractionSlip, StandsAloneOnTreadsThatYieldBeforeTheySlip) {
       const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
       ASSERT_EQ(d.findings.size(), 1U) << slip_per_mps2 << " " << relaxes_over_radii;
       EXPECT_EQ(d.findings.front().effect, "traction_slip");
-      // What shows is the slip times that length: of forms in steps of two the nearest is off by a seventh, and wheels
-      // are known as smoothed as they are read.
-      EXPECT_NEAR(d.findings.front().parameters.front().value, slip_per_mps2, 0.35 * slip_per_mps2);
+      // What shows is the slip times that length, for as long as it is pushed: of forms in steps of two the nearest is
+      // off by a seventh, and accelerations are known over 0.4 s, as long as these legs take to speed up.
+      EXPECT_NEAR(d.findings.front().parameters.front().value, slip_per_mps2, 0.5 * slip_per_mps2);
     }
 }
 
