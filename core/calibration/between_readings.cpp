@@ -42,11 +42,11 @@ double noise_at_most_m(const std::vector<TruthSample>& truth) {
 }  // namespace
 
 void trust_less_between_readings(InnovationRun& run, const InnovationModel& model) {
-  constexpr double kFarApart_s = 0.075, kHoles_s = 0.5, kOfMissed = 0.25;
+  constexpr double kHoles_s = 0.5, kOfMissed = 0.25;
   const std::vector<WheelSample>& wheels = run.wheels;
   if (run.speeds_are_held || wheels.size() < 8 || run.truth.size() < 8) return;
   const double readings_s = (wheels.back().time_s - wheels.front().time_s) / static_cast<double>(wheels.size() - 1);
-  if (readings_s < kFarApart_s) return;
+  if (readings_s < kReadingsFarApart_s) return;
   const double count = run.counts_show ? count_rad(run, model.drive) : 0.0;
   const std::vector<double> left = missed_rad(wheels, &WheelSample::left_rad, count),
                             right = missed_rad(wheels, &WheelSample::right_rad, count);
@@ -59,7 +59,7 @@ void trust_less_between_readings(InnovationRun& run, const InnovationModel& mode
     const double at_s = run.truth[k].time_s - model.truth.time_offset_s;
     while (i + 2 < wheels.size() && wheels[i + 1].time_s <= at_s) ++i;
     const double gap_s = wheels[i + 1].time_s - wheels[i].time_s, u = (at_s - wheels[i].time_s) / gap_s;
-    if (gap_s < kFarApart_s || gap_s > kHoles_s || u <= 0.0 || u >= 1.0) continue;
+    if (gap_s < kReadingsFarApart_s || gap_s > kHoles_s || u <= 0.0 || u >= 1.0) continue;
     const double share = kOfMissed * 16.0 * u * u * (1.0 - u) * (1.0 - u);
     const double left_m = share * model.drive.wheel_radius_left_m * std::max(left[i], left[i + 1]),
                  right_m = share * model.drive.wheel_radius_right_m * std::max(right[i], right[i + 1]);

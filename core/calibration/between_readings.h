@@ -5,7 +5,9 @@
 
 namespace odolab {
 
-// Lets samples of the truth that lie between two readings further apart than 0.075 s count for less where the wheels
+constexpr double kReadingsFarApart_s = 0.075;
+
+// Lets samples of the truth that lie between two readings further apart than that count for less where the wheels
 // speed up: by what a cubic through the readings beside it misses of each, a quarter of which is missed between
 // readings that are half as far apart (half as far, where acceleration jumps: a quarter; less where it is smooth).
 void trust_less_between_readings(InnovationRun& run, const InnovationModel& model);

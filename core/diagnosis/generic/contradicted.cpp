@@ -6,6 +6,7 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
+#include "core/calibration/between_readings.h"
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
@@ -95,6 +96,16 @@ bool is_off(double square, double of_noise, int windows, double times) {
   return square >= times * of_noise && chi_square_tail(windows * square / of_noise, windows) < kByChance;
 }
 
+bool names_physics(const JointModel& named) {
+  return std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
+}
+
+// What wheels did between readings so far apart is no noise, and nobody knows it.
+bool are_read_seldom(const InnovationRun& run) {
+  const double lasts_s = run.wheels.back().time_s - run.wheels.front().time_s;
+  return lasts_s > kReadingsFarApart_s * static_cast<double>(run.wheels.size() - 1);
+}
+
 // Of recordings from that one on what they err by over a metre, or radian, beyond so many times the noise; nothing
 // where names take half of the squares away: what they leave is their form.
 std::optional<JointModel::GatheredError> error_that_no_noise_makes(const JointModel& named,
@@ -106,9 +117,7 @@ std::optional<JointModel::GatheredError> error_that_no_noise_makes(const JointMo
   const bool place_is_off = is_off(error.position_m2, error.noise_position_m2, error.windows, times),
              heading_is_off = is_off(error.heading_rad2, error.noise_heading_rad2, error.windows, times);
   if (!place_is_off && !heading_is_off) return std::nullopt;
-  const bool names_physics =
-      std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
-  if (names_physics) {
+  if (names_physics(named)) {
     const JointModel::GatheredError before = calibrated.gathered_error(first_run);
     if ((!place_is_off || error.position_m2 < kHalf * before.position_m2) &&
         (!heading_is_off || error.heading_rad2 < kHalf * before.heading_rad2))
@@ -160,8 +169,9 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
 }
 
 std::optional<Unnamed> what_no_noise_makes(const JointModel& named, const JointModel& calibrated) {
-  constexpr double kHalfAsMuchAgain = 2.0;  // of squares
-  const auto error = error_that_no_noise_makes(named, calibrated, 0, kHalfAsMuchAgain);
+  constexpr double kHalfAsMuchAgain = 2.0, kTwice = 4.0;  // of squares
+  if (std::any_of(named.runs().begin(), named.runs().end(), are_read_seldom)) return std::nullopt;
+  const auto error = error_that_no_noise_makes(named, calibrated, 0, names_physics(named) ? kTwice : kHalfAsMuchAgain);
   if (!error) return std::nullopt;
   Unnamed u;
   u.where.regime = "all along dead reckoning " + error_in_words(*error);

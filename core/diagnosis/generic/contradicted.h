@@ -18,8 +18,8 @@ std::optional<Unnamed> what_contradicts(const JointModel& joint, const JointMode
 // is fitted to them too, and names mend less than half of that.
 std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const JointModel& calibrated, int first_run);
 
-// Where those that were fitted err by more than 1.4 times the noise, and names mend less than half of that: what has no
-// shape that is asked for, and yet takes the vehicle elsewhere.
+// Where those that were fitted err by more than 1.4 times the noise, or twice where there are names and these mend less
+// than half of that: what has no shape that is asked for, and yet takes the vehicle elsewhere.
 std::optional<Unnamed> what_no_noise_makes(const JointModel& named, const JointModel& calibrated);
 
 // Where so many pushes and bumps were found, each at a moment of its own, that one cause without a name is likelier; or two
