@@ -13,6 +13,6 @@ namespace odolab {
 // prism, a marker that was put on anew, by less than `moved_mounting` puts right, and one that is loose, show. p values
 // are over `looked_at` tests.
 std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double looked_at);
-constexpr int kTrackedPointTests = 5;
+constexpr int kTrackedPointTests = 6;
 
 }  // namespace odolab

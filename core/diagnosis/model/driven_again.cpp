@@ -143,7 +143,9 @@ InnovationRun rolled(const InnovationRun& run, const InnovationModel& model, Ran
 // The truth's headings, slowly off to one side and the other.
 InnovationRun under_turned_truth(const InnovationRun& run, const InnovationModel& model, Random& random) {
   InnovationRun again = as_smoothed(run);
-  follow(again, model);
+  std::vector<WheelSample> wheels = again.wheels;
+  again = with_readings(std::move(again), std::move(wheels));
+  follow(again, model);  // as the filter goes: what is left is the truth's turns and nothing else
   const double off_by_rad = truth_turned_rad(run, model.noise);
   double off_rad = off_by_rad * random.normal(), before_s = again.truth.front().time_s;
   for (TruthSample& t : again.truth) {
@@ -152,8 +154,7 @@ InnovationRun under_turned_truth(const InnovationRun& run, const InnovationModel
     before_s = t.time_s;
     if (t.heading_rad) *t.heading_rad += off_rad;
   }
-  std::vector<WheelSample> wheels = again.wheels;
-  return with_readings(std::move(again), std::move(wheels));
+  return again;
 }
 
 // So many times the recordings, each driven again by `drive(run, k, random)`.
@@ -243,7 +244,8 @@ Feigned DrivenAgain::feigned(const Effect& effect, const std::vector<double>& sh
         (of.mean - 1.0) * std::pow(noise.wheel_m_per_sqrt_m / calibrated_.model.noise.wheel_m_per_sqrt_m, 2);
     if (more > most.more) most.more = more;
   }
-  if (const Squares of = squares_of(drives_->turned, effect, shape, how); of.numbers > 0)
+  constexpr double kLittle = 0.5;  // of what chance makes of each number
+  if (const Squares of = squares_of(drives_->turned, effect, shape, how); of.numbers > 0 && of.mean > kLittle)
     most.more = std::max(most.more, of.mean);
   return most;
 }

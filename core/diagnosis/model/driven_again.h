@@ -19,7 +19,7 @@ namespace odolab {
 // - `rolled` anew: each wheel turns further, or less far, than it travels, by as much as the model's noise says, be it
 //   the floor or the reading. The model has this noise in the truth, where it meets no derivative. Not of a base that
 //   is driven by its commands, which do not err.
-// And once more under a truth that is `turned` slowly about where it is right, by a third of what the heading of one
+// And once more under a truth that is `turned` slowly about where it is right, by a quarter of what the heading of one
 // sample errs by: no tracker's errors are all white, and a slow turn by a milliradian that no likelihood shows is a
 // crawl to the side, or a mounting that is another one in each recording.
 class DrivenAgain {

@@ -8,10 +8,10 @@
 
 namespace odolab {
 
-// No tracker's errors are all white: beside what the heading of one sample errs by, its frame is turned by a third of
+// No tracker's errors are all white: beside what the heading of one sample errs by, its frame is turned by a quarter of
 // that, for so long to one side and then to the other. (Of a body with markers 0.15 m apart whose places in the room
 // are known to 0.3 mm it is 2 mrad.)
-constexpr double kTurnedOfOneSample = 1.0 / 3.0, kTurnedFor_s = 20.0;
+constexpr double kTurnedOfOneSample = 0.25, kTurnedFor_s = 20.0;
 
 // That much of a run's samples as they were recorded, of which each now counts for several.
 inline double truth_turned_rad(const InnovationRun& run, const FittedNoise& noise) {
