@@ -41,12 +41,16 @@ double noise_at_most_m(const std::vector<TruthSample>& truth) {
 
 }  // namespace
 
+bool is_read_seldom(const InnovationRun& run) {
+  const std::vector<WheelSample>& wheels = run.wheels;
+  return (wheels.back().time_s - wheels.front().time_s) / static_cast<double>(wheels.size() - 1) >= kReadingsFarApart_s;
+}
+
 void trust_less_between_readings(InnovationRun& run, const InnovationModel& model) {
   constexpr double kHoles_s = 0.5, kOfMissed = 0.25;
   const std::vector<WheelSample>& wheels = run.wheels;
   if (run.speeds_are_held || wheels.size() < 8 || run.truth.size() < 8) return;
-  const double readings_s = (wheels.back().time_s - wheels.front().time_s) / static_cast<double>(wheels.size() - 1);
-  if (readings_s < kReadingsFarApart_s) return;
+  if (!is_read_seldom(run)) return;
   const double count = run.counts_show ? count_rad(run, model.drive) : 0.0;
   const std::vector<double> left = missed_rad(wheels, &WheelSample::left_rad, count),
                             right = missed_rad(wheels, &WheelSample::right_rad, count);

@@ -65,15 +65,15 @@ inline SpeedProfile varied_driving(Random& random, double duration_s) {
   };
 }
 
-// Followed by motion capture of a millimetre and two milliradians.
-inline GeneratorSettings under_motion_capture(const DifferentialDrive& drive, double wheel_noise,
-                                              double truth_period_s) {
+// Followed by motion capture, of a millimetre and two milliradians where nothing else is said.
+inline GeneratorSettings under_motion_capture(const DifferentialDrive& drive, double wheel_noise, double truth_period_s,
+                                              double noise_m = 0.001, double noise_rad = 0.002) {
   GeneratorSettings g;
   g.drive = drive;
   g.wheel_noise = wheel_noise;
   g.truth_period_s = truth_period_s;
-  g.truth_position_noise_m = 0.001;
-  g.truth_heading_noise_rad = 0.002;
+  g.truth_position_noise_m = noise_m;
+  g.truth_heading_noise_rad = noise_rad;
   return g;
 }
 

@@ -110,9 +110,9 @@ DriveView as_it_lags(DriveView view, const Motions& lag) {
   const std::vector<WheelAcceleration> accelerations = wheel_accelerations(wheels);
   for (std::size_t i = 0; i < view.steps.size(); ++i) {
     EffectStep& s = view.steps[i];
-    const double told_rad = s.turn_rad;
+    const double told_turn_rad = s.turn_rad;
     put_way(s, drive, wheels.front(), wheels[i], wheels[i + 1]);
-    s.late_turn_rad = s.turn_rad - told_rad;
+    s.late_turn_rad = s.turn_rad - told_turn_rad;
     put_speeds(s, drive, wheels[i], wheels[i + 1], accelerations[i]);
     const auto read_rad = [&](double told_rad, double by_rad, double way_m) {
       return told_rad != 0.0 || std::abs(way_m) > kStands_mps * s.duration_s ? by_rad : 0.0;

@@ -10,6 +10,7 @@
 #include "core/diagnosis/naming/lag_and_delay.h"
 #include "core/diagnosis/naming/material.h"
 #include "core/diagnosis/naming/one_cause.h"
+#include "core/diagnosis/naming/select.h"
 #include "core/vehicle/key_words.h"
 
 namespace odolab {
@@ -100,12 +101,6 @@ bool names_physics(const JointModel& named) {
   return std::any_of(named.accepted.begin(), named.accepted.end(), std::mem_fn(&AcceptedEffect::acts_on_motion));
 }
 
-// What wheels did between readings so far apart is no noise, and nobody knows it.
-bool are_read_seldom(const InnovationRun& run) {
-  const double lasts_s = run.wheels.back().time_s - run.wheels.front().time_s;
-  return lasts_s > kReadingsFarApart_s * static_cast<double>(run.wheels.size() - 1);
-}
-
 // Of recordings from that one on what they err by over a metre, or radian, beyond so many times the noise; nothing
 // where names take half of the squares away: what they leave is their form.
 std::optional<JointModel::GatheredError> error_that_no_noise_makes(const JointModel& named,
@@ -127,10 +122,9 @@ std::optional<JointModel::GatheredError> error_that_no_noise_makes(const JointMo
 }
 
 std::string error_in_words(const JointModel::GatheredError& error) {
-  return formatted(
-      "is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f mm and %.3f",
-      1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
-      1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
+  return formatted("is off by %.2f mm and %.3f degrees over each metre or radian, where noise makes %.2f mm and %.3f",
+                   1e3 * std::sqrt(error.position_m2), std::sqrt(error.heading_rad2) * 180.0 / kPi,
+                   1e3 * std::sqrt(error.noise_position_m2), std::sqrt(error.noise_heading_rad2) * 180.0 / kPi);
 }
 
 }  // namespace
@@ -170,7 +164,7 @@ std::optional<Unnamed> what_was_not_foreseen(const JointModel& named, const Join
 
 std::optional<Unnamed> what_no_noise_makes(const JointModel& named, const JointModel& calibrated) {
   constexpr double kHalfAsMuchAgain = 2.0, kTwice = 4.0;  // of squares
-  if (std::any_of(named.runs().begin(), named.runs().end(), are_read_seldom)) return std::nullopt;
+  if (std::any_of(named.runs().begin(), named.runs().end(), is_read_seldom)) return std::nullopt;
   const auto error = error_that_no_noise_makes(named, calibrated, 0, names_physics(named) ? kTwice : kHalfAsMuchAgain);
   if (!error) return std::nullopt;
   Unnamed u;
@@ -216,11 +210,10 @@ std::optional<Unnamed> what_happens_too_often(const JointModel& joint) {
 std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEffect>& names,
                                                     const std::vector<ScoredCandidate>& evidence) {
   constexpr std::size_t kMany = 3, kApart = 2;
-  constexpr double kBeyondDoubt = 200.0;  // in twice the log-likelihood
   std::string words;
   std::vector<const Effect*> kinds;
   std::size_t count = 0, apart = 0;
-  double weakest = kBeyondDoubt, gain = 0.0;
+  double weakest = kDecisive, gain = 0.0;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const AcceptedEffect& a = names[k];
     if (!a.acts_on_motion()) continue;
@@ -233,7 +226,7 @@ std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEf
     ++apart;
     weakest = std::min(weakest, judged);
   }
-  if (count < kMany || apart < kApart || kinds.size() < 2 || weakest >= kBeyondDoubt) return std::nullopt;
+  if (count < kMany || apart < kApart || kinds.size() < 2 || weakest >= kDecisive) return std::nullopt;
   Unnamed u;
   u.gain = gain;
   u.where.regime = "what would take " + std::to_string(count) + " causes at once (" + words + "), " +

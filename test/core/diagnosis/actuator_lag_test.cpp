@@ -55,22 +55,28 @@ TEST(ActuatorLag, IsToldFromADelayThatTakesAlmostAllOfIt) {
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "actuator_delay");
 }
 
+// Commands that are held for so long each, of a base whose wheels roll so far in each as it is told.
+DriveView told(int steps, double held_s, const std::function<void(int step, EffectStep&)>& put) {
+  DriveView view;
+  view.from_commands = true;
+  for (int i = 0; i < steps; ++i) {
+    EffectStep s;
+    s.duration_s = held_s;
+    s.time_s = (i + 0.5) * held_s;
+    put(i, s);
+    view.steps.push_back(s);
+  }
+  return view;
+}
+
 // While commands grow evenly, tau dv/dt = c - v puts the base behind its commands by tau (v - v0); and v, in the mean
 // over a command that is held, is less than that by tau dv/dt. However short the lag is against the step.
 TEST(ActuatorLag, PutsTheBaseBehindByWhatItsEquationSaysInTheMeanOfEachStep) {
   constexpr double kStep_s = 0.02, kGrows_mps2 = 0.5;
-  const auto lag =
-      std::find_if(catalogue().begin(), catalogue().end(), [](const Effect& e) { return e.name == "actuator_lag"; });
+  const auto lag = std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
   ASSERT_NE(lag, catalogue().end());
-  DriveView view;
-  view.from_commands = true;
-  for (int i = 0; i < 400; ++i) {
-    EffectStep s;
-    s.duration_s = kStep_s;
-    s.time_s = (i + 0.5) * kStep_s;
-    s.left_m = s.right_m = kGrows_mps2 * i * kStep_s * kStep_s;
-    view.steps.push_back(s);
-  }
+  const DriveView view =
+      told(400, kStep_s, [](int i, EffectStep& s) { s.left_m = s.right_m = kGrows_mps2 * i * kStep_s * kStep_s; });
   for (const double tau_s : {0.002, 0.005, 0.015, 0.06, 0.2}) {
     const Motions moved = lag->motions(view, {tau_s}).front();
     double behind_m = 0.0;
@@ -243,17 +249,11 @@ TEST(ActuatorLag, BeginsAtRestWhereTheBaseStoodAndAtItsSpeedWhereItWasOnItsWay) 
   const auto lag = std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
   ASSERT_NE(lag, catalogue().end());
   for (const bool stood : {true, false}) {
-    DriveView view;
-    view.from_commands = true;
-    for (int i = 0; i < 200; ++i) {
-      EffectStep s;
-      s.duration_s = kStep_s;
-      s.time_s = (i + 0.5) * kStep_s;
+    const DriveView view = told(200, kStep_s, [&](int, EffectStep& s) {
       s.left_m = s.right_m = kTold_mps * kStep_s;
       const double late_s = stood ? kLag_s * (1.0 - std::exp(-s.time_s / kLag_s)) : 0.0;
       s.position = {kTold_mps * (s.time_s - late_s), 0.0};
-      view.steps.push_back(s);
-    }
+    });
     const Motions moved = lag->motions(view, {kLag_s}).front();
     double behind_m = 0.0;
     for (std::size_t i = 0; i < view.steps.size(); ++i) behind_m += kLag_s * moved.at(i).forward_m;
@@ -271,13 +271,8 @@ TEST(ActuatorLag, BeginsAtItsSpeedThoughItGoesRoundInACircle) {
   for (const double told_radps : {-3.0, 1.0, 2.0, 3.0})
     for (const double lag_s : {0.2, kLongLag_s, 1.2})
       for (const bool stood : {true, false}) {
-        DriveView view;
-        view.from_commands = true;
         Pose pose;
-        for (int i = 0; i < 500; ++i) {
-          EffectStep s;
-          s.duration_s = kStep_s;
-          s.time_s = (i + 0.5) * kStep_s;
+        const DriveView view = told(500, kStep_s, [&](int, EffectStep& s) {
           s.left_m = s.right_m = kTold_mps * kStep_s;
           s.turn_rad = told_radps * kStep_s;
           const double share = stood ? 1.0 - std::exp(-s.time_s / lag_s) : 1.0;
@@ -286,8 +281,7 @@ TEST(ActuatorLag, BeginsAtItsSpeedThoughItGoesRoundInACircle) {
           s.position = pose.position();
           s.heading_rad = wrapped(pose.heading_rad);
           pose = pose * half;
-          view.steps.push_back(s);
-        }
+        });
         const Motions moved = lag->motions(view, {lag_s}).front();
         double behind_m = 0.0, behind_rad = 0.0;
         for (std::size_t i = 0; i < view.steps.size(); ++i) {
@@ -306,17 +300,11 @@ TEST(ActuatorLag, HasTheVehicleAtItsPlacesAndSpeedsAsLateAsItIs) {
   constexpr double kTold_mps = 0.5, kStep_s = 0.02;
   const auto lag = std::find_if(catalogue().begin(), catalogue().end(), std::mem_fn(&Effect::lags_behind_commands));
   ASSERT_NE(lag, catalogue().end());
-  DriveView view;
-  view.drive = {0.05, 0.05, 0.3};
-  view.from_commands = true;
-  for (int i = 0; i < 200; ++i) {
-    EffectStep s;
-    s.duration_s = kStep_s;
-    s.time_s = (i + 0.5) * kStep_s;
+  DriveView view = told(200, kStep_s, [](int, EffectStep& s) {
     s.left_m = s.right_m = s.time_s > 0.5 && s.time_s < 1.5 ? kTold_mps * kStep_s : 0.0;
     s.left_read_rad = s.right_read_rad = s.left_m / 0.05;
-    view.steps.push_back(s);
-  }
+  });
+  view.drive = {0.05, 0.05, 0.3};
   const DriveView late = as_it_lags(view, motion_of(*lag, view, {kLag_s}, {kLag_s}));
   double gone_m = 0.0;
   for (std::size_t i = 0; i < view.steps.size(); ++i) {

@@ -111,10 +111,8 @@ TEST(Bursts, AreNotWhereATruthIsWorseFarAway) {
 TEST(Bursts, AreNotWhereATruthMovesAndMovesBack) {
   for (std::uint64_t seed = 41; seed < 44; ++seed) {
     Random random(seed);
-    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.02);
+    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.02, 0.0003, 0.001);
     g.duration_s = 90.0;
-    g.truth_position_noise_m = 0.0003;
-    g.truth_heading_noise_rad = 0.001;
     std::vector<Recording> runs = three_runs(
         g, random, [&](int) { return varied_driving(random, g.duration_s); },
         [](int) { return std::function<void(InjectedStep&)>(); });

@@ -60,13 +60,8 @@ TEST(DrivenAgain, ATruthThatTurnsSlowlyWithinItsErrorFeignsNothing) {
   constexpr double kOff_rad = 0.001, kLasts_s = 25.0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Random random(seed);
-    const GeneratorSettings g = [] {
-      GeneratorSettings of = under_motion_capture({0.03, 0.03, 0.15}, 0.0003, 0.01);
-      of.duration_s = 60.0;
-      of.truth_position_noise_m = 0.0003;
-      of.truth_heading_noise_rad = 0.003;
-      return of;
-    }();
+    GeneratorSettings g = under_motion_capture({0.03, 0.03, 0.15}, 0.0003, 0.01, 0.0003, 0.003);
+    g.duration_s = 60.0;
     std::vector<Recording> recordings = three_runs(
         g, random, [&](int) { return varied_driving(random, g.duration_s); },
         [](int) -> std::function<void(InjectedStep&)> { return {}; });

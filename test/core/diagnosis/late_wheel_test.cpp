@@ -29,10 +29,8 @@ using Driven = WheelSpeedsAt (*)(double t, int run);
 std::vector<Recording> runs_of_a_loop(double right_is_newer_s, Driven driven = hard_on_and_off,
                                       double wheel_period_s = 0.02) {
   Random random(87);
-  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02);
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02, 0.0003, 0.0005);
   g.wheel_period_s = wheel_period_s;
-  g.truth_position_noise_m = 0.0003;
-  g.truth_heading_noise_rad = 0.0005;
   g.duration_s = 60.0;
   return three_runs(
       g, random, [=](int run) { return [=](double t) { return driven(t, run); }; },
@@ -69,9 +67,7 @@ std::vector<Recording> runs_with_play() {
     return w;
   };
   Random random(87);
-  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02);
-  g.truth_position_noise_m = 0.0003;
-  g.truth_heading_noise_rad = 0.0005;
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 0.0003, 0.02, 0.0003, 0.0005);
   g.duration_s = 60.0;
   const double gap_rad = 0.95 * 2.0 * kPi / g.drive.encoder_counts_per_revolution;
   const auto crossed = [gap_rad](double by_rad, double& place_rad) {

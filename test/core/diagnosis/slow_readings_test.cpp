@@ -14,9 +14,7 @@ namespace {
 TEST(SlowReadings, MakeNothingUpWhereNothingIsMissing) {
   for (std::uint64_t seed = 43; seed < 49; ++seed) {
     Random random(seed);
-    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.01);
-    g.truth_position_noise_m = 0.0003;
-    g.truth_heading_noise_rad = 0.001;
+    GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.01, 0.0003, 0.001);
     g.duration_s = 40.0;
     g.wheel_period_s = 0.2;
     const Diagnosis d = diagnose(three_runs(

@@ -58,9 +58,7 @@ void hand_on_means(Recording& r, std::uint64_t seed) {
 // name.
 TEST(SmoothedTruth, IsKnownByItsRestsBesideAnErrorThatLasts) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    GeneratorSettings g = under_motion_capture({0.06, 0.0601, 0.3}, 0.0005, kFrame_s);
-    g.truth_position_noise_m = 0.0003;
-    g.truth_heading_noise_rad = 0.001;
+    GeneratorSettings g = under_motion_capture({0.06, 0.0601, 0.3}, 0.0005, kFrame_s, 0.0003, 0.001);
     g.duration_s = 120.0;
     Random random(seed);
     std::vector<Recording> recordings;

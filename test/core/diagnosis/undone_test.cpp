@@ -14,9 +14,7 @@ namespace {
 TEST(Undone, IsLeftOutWithTheStepsInWhichItGoesAndReturns) {
   constexpr double kBegins_s = 20.11, kLasts_s = 0.7, kMost_rad = 0.006;
   Random random(41);
-  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.01);
-  g.truth_position_noise_m = 0.0003;
-  g.truth_heading_noise_rad = 0.001;
+  GeneratorSettings g = under_motion_capture(DifferentialDrive{}, 3e-4, 0.01, 0.0003, 0.001);
   g.duration_s = 40.0;
   g.wheel_period_s = 0.1;
   std::vector<Recording> runs = three_runs(
