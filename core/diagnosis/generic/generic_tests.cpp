@@ -23,10 +23,12 @@
 #include "core/diagnosis/generic/swinging.h"
 #include "core/diagnosis/generic/told_speeds.h"
 #include "core/diagnosis/generic/tracked_point.h"
+#include "core/diagnosis/generic/truth_by_place.h"
 #include "core/diagnosis/generic/truth_errors.h"
 #include "core/diagnosis/generic/uneven_floor.h"
 #include "core/diagnosis/generic/uneven_wheels.h"
 #include "core/diagnosis/generic/waves.h"
+#include "core/diagnosis/generic/wobbling_wheels.h"
 #include "core/diagnosis/model/coarse_counts.h"
 #include "core/diagnosis/model/driven_again.h"
 
@@ -124,6 +126,7 @@ struct MoreTests {
 };
 constexpr MoreTests kMoreTests[] = {
     {uneven_wheel_tests, kUnevenWheelTests},
+    {wobbling_wheel_tests, kWobblingWheelTests},
     {lagging_tests, kLaggingTests},
     {bent_truth_tests, kBentTruthTests},
     {step_response_tests, kStepResponseTests},
@@ -131,6 +134,7 @@ constexpr MoreTests kMoreTests[] = {
     {after_change_tests, 0},                                           // of wheels that are read
     {late_truth_tests, kLateTruthTests},
     {tracked_point_tests, kTrackedPointTests},
+    {truth_by_place_tests, kTruthByPlaceTests},
     {moving_frame_tests, kMovingFrameTests},
     {uneven_floor_tests, kUnevenFloorTests},
     {on_the_spot_tests, kOnTheSpotTests},

@@ -40,15 +40,31 @@ std::vector<Motions> of_a_yielding_drive(const DriveView& view, const std::vecto
   return {left, right};
 }
 
+double longest_interval_s(const JointModel& joint) {
+  double longest_s = 0.0;
+  for (const InnovationRun& run : joint.runs())
+    longest_s = std::max(
+        longest_s, (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1));
+  return longest_s;
+}
+
+// What wheels do between two readings nobody knows: by the square of that time a marker may seem to be ahead, or
+// behind, of where it is for each of its acceleration, whichever way it is read.
+void leave_to_intervals(GenericTest& t, const JointModel& joint) {
+  const double longest_s = longest_interval_s(joint);
+  for (CandidateTest* of : {&t.test, &t.instead})
+    if (std::all_of(of->value.begin(), of->value.end(),
+                    [&](double value) { return std::abs(value) < longest_s * longest_s; }))
+      of->statistic = 0.0;
+  t.p_value = t.p_value_of(t.test);
+}
+
 // A drive yields to what it pushes, and never the other way; and wheels that are thought to go evenly from one reading
 // to the next are ahead of themselves by a twelfth of their acceleration times the square of that time, a quarter at
 // most.
 void leave_to_readings(GenericTest& t, const JointModel& joint) {
   constexpr double kAtMost = 0.25;
-  double longest_s = 0.0;
-  for (const InnovationRun& run : joint.runs())
-    longest_s = std::max(
-        longest_s, (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1));
+  const double longest_s = longest_interval_s(joint);
   for (CandidateTest* of : {&t.test, &t.instead})
     if (!of->value.empty() && *std::max_element(of->value.begin(), of->value.end()) < kAtMost * longest_s * longest_s)
       of->statistic = 0.0;
@@ -83,6 +99,7 @@ std::vector<GenericTest> lagging_tests(const AskedModel& asked, double looked_at
     const Lagging& of = kLagging[i];
     t = asked_of(asked, of.variable, of.channel, of.amplitudes, of.motions, looked_at);
     leave_displaced_to_counting(t, asked.joint);
+    if (of.motions == of_a_bending_mast) leave_to_intervals(t, asked.joint);
     if (of.motions == of_a_yielding_drive) leave_to_readings(t, asked.joint);
     if (of.motions == of_a_late_wheel) leave_to_the_loop(t);
   });

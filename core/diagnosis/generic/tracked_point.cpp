@@ -2,43 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/diagnosis/generic/truth_off.h"
 #include "core/geometry/heading_range.h"
 
 namespace odolab {
 
 namespace {
-
-// How far off the truth is along x and y of the floor, and in heading, for an amplitude of one.
-struct Off {
-  Vec2 by;
-  double turned_rad = 0.0;
-};
-using Offsets = std::function<void(int recording, double heading_rad, std::vector<Off>&)>;
-
-// What the truth says more than the body moves: from where it was off to where it is off now; and a body whose heading
-// is measured turned goes to the other side of that.
-std::vector<Motions> motions_of_point(const DriveView& view, const Offsets& offsets, std::size_t count) {
-  std::vector<Motions> out(count, Motions(view.steps.size()));
-  std::vector<Off> now(count), before(count);
-  for (std::size_t i = 0; i < view.steps.size(); ++i) {
-    const EffectStep& s = view.steps[i];
-    offsets(view.number, s.heading_rad, now);
-    for (std::size_t k = 0; k < count && i > 0; ++k) {
-      const Vec2 by = now[k].by - before[k].by;
-      out[k][i] = {s.cos_heading * by.x_m + s.sin_heading * by.y_m,
-                   s.cos_heading * by.y_m - s.sin_heading * by.x_m - now[k].turned_rad * s.forward_m(),
-                   now[k].turned_rad - before[k].turned_rad};
-    }
-    std::swap(now, before);
-  }
-  return out;
-}
 
 // Ahead, to the left and in heading, to one side or the other of a mount with play: which one, the body's turns say,
 // each beginning anew. A wheel's tremble on a straight turns no mount round.
@@ -64,17 +38,17 @@ std::vector<Motions> of_loose_mount(const DriveView& view, const std::vector<dou
 // Once and twice a turn. Once a turn the same way round is where the point is mounted.
 constexpr std::size_t kOfPosition = 6, kOfHeading = 4;
 
-void position_by_heading(int, double heading_rad, std::vector<Off>& out) {
-  const double c = std::cos(heading_rad), s = std::sin(heading_rad), cc = std::cos(2.0 * heading_rad),
-               ss = std::sin(2.0 * heading_rad);
+void position_by_heading(int, const EffectStep& step, std::vector<TruthOff>& out) {
+  const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad), cc = std::cos(2.0 * step.heading_rad),
+               ss = std::sin(2.0 * step.heading_rad);
   const Vec2 by[kOfPosition] = {{c, -s}, {s, c}, {cc, 0.0}, {ss, 0.0}, {0.0, cc}, {0.0, ss}};
   for (std::size_t k = 0; k < kOfPosition; ++k) out[k].by = by[k];
 }
 
-void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
+void heading_by_heading(int, const EffectStep& step, std::vector<TruthOff>& out) {
   for (std::size_t k = 0; k < kOfHeading; ++k) {
     const double turns = k < 2 ? 1.0 : 2.0;
-    out[k].turned_rad = k % 2 == 0 ? std::cos(turns * heading_rad) : std::sin(turns * heading_rad);
+    out[k].turned_rad = k % 2 == 0 ? std::cos(turns * step.heading_rad) : std::sin(turns * step.heading_rad);
   }
 }
 
@@ -82,10 +56,10 @@ void heading_by_heading(int, double heading_rad, std::vector<Off>& out) {
 constexpr double kFaces[] = {3.0, 4.0, 6.0};
 constexpr std::size_t kOfFaces = 4 * std::size(kFaces);
 
-void position_by_faces(int, double heading_rad, std::vector<Off>& out) {
+void position_by_faces(int, const EffectStep& step, std::vector<TruthOff>& out) {
   std::size_t k = 0;
   for (const double faces : kFaces) {
-    const double c = std::cos(faces * heading_rad), s = std::sin(faces * heading_rad);
+    const double c = std::cos(faces * step.heading_rad), s = std::sin(faces * step.heading_rad);
     for (const Vec2 by : {Vec2{c, 0.0}, Vec2{s, 0.0}, Vec2{0.0, c}, Vec2{0.0, s}}) out[k++].by = by;
   }
 }
@@ -110,11 +84,11 @@ class MountingByRecording {
     }
   }
   std::size_t count() const { return count_; }
-  void operator()(int recording, double heading_rad, std::vector<Off>& out) const {
-    std::fill(out.begin(), out.end(), Off{});
+  void operator()(int recording, const EffectStep& step, std::vector<TruthOff>& out) const {
+    std::fill(out.begin(), out.end(), TruthOff{});
     const auto at = first_.find(recording);
     if (at == first_.end()) return;
-    const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+    const double c = std::cos(step.heading_rad), s = std::sin(step.heading_rad);
     if (part_ == Part::heading)
       out[at->second].turned_rad = 1.0;
     else
@@ -127,18 +101,20 @@ class MountingByRecording {
   std::size_t count_ = 0;
 };
 
-GenericCurve curve_of(const char* channel, const Offsets& offsets, std::size_t count,
-                      const std::function<double(const Off&)>& part) {
+GenericCurve curve_of(const char* channel, const TruthOffsets& offsets, std::size_t count,
+                      const std::function<double(const TruthOff&)>& part) {
   constexpr int kPoints = 49;
   GenericCurve curve;
   curve.variable = "heading [rad]";
   curve.channel = channel;
-  std::vector<Off> off(count);
+  std::vector<TruthOff> off(count);
   for (int i = 0; i < kPoints; ++i) {
     curve.at.push_back(kPi * (2.0 * i / (kPoints - 1) - 1.0));
-    offsets(0, curve.at.back(), off);
+    EffectStep step;
+    step.heading_rad = curve.at.back();
+    offsets(0, step, off);
     std::vector<double>& by = curve.basis.emplace_back();
-    for (const Off& o : off) by.push_back(part(o));
+    for (const TruthOff& o : off) by.push_back(part(o));
   }
   return curve;
 }
@@ -152,8 +128,9 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
     MotionsOfTerm motions;
     std::vector<GenericCurve> curves;
   };
-  const auto by = [](const Offsets& offsets, std::size_t count) -> MotionsOfTerm {
-    return [=](const DriveView& view, const std::vector<double>&) { return motions_of_point(view, offsets, count); };
+  const auto by = [](const TruthOffsets& offsets, std::size_t count) -> MotionsOfTerm {
+    return
+        [=](const DriveView& view, const std::vector<double>&) { return motions_of_truth_off(view, offsets, count); };
   };
   // On a straight the heading is the noise of its own truth, to which a term by heading answers.
   const auto where_it_turns = [](MotionsOfTerm motions, std::size_t count) -> MotionsOfTerm {
@@ -161,13 +138,13 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
       return turns(view) ? motions(view, shape) : std::vector<Motions>(count);
     };
   };
-  const auto of_position = [&](const char* variable, const Offsets& offsets, std::size_t count) -> Asked {
+  const auto of_position = [&](const char* variable, const TruthOffsets& offsets, std::size_t count) -> Asked {
     return {variable,
             "truth's position",
             count,
             where_it_turns(by(offsets, count), count),
-            {curve_of("truth off along x [m]", offsets, count, [](const Off& o) { return o.by.x_m; }),
-             curve_of("truth off along y [m]", offsets, count, [](const Off& o) { return o.by.y_m; })}};
+            {curve_of("truth off along x [m]", offsets, count, [](const TruthOff& o) { return o.by.x_m; }),
+             curve_of("truth off along y [m]", offsets, count, [](const TruthOff& o) { return o.by.y_m; })}};
   };
   std::vector<Asked> all = {of_position("heading", position_by_heading, kOfPosition),
                             of_position("heading, three, four and six times a turn", position_by_faces, kOfFaces),
@@ -176,7 +153,7 @@ std::vector<GenericTest> tracked_point_tests(const AskedModel& asked, double loo
                              kOfHeading,
                              where_it_turns(by(heading_by_heading, kOfHeading), kOfHeading),
                              {curve_of("truth's heading, off to the left [rad]", heading_by_heading, kOfHeading,
-                                       [](const Off& o) { return o.turned_rad; })}},
+                                       [](const TruthOff& o) { return o.turned_rad; })}},
                             {"which way it turned last",
                              "truth's tracked point, as of a loose mount",
                              kOfLooseMount,
