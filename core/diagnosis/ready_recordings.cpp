@@ -175,11 +175,13 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
       static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
 }
 
-// Whether a clock is so far from what the vehicle's file says that the truth drives on where wheels stand.
-bool are_clocks_far_off(const LeastSquaresCalibration& calibration, const Vehicle& nominal) {
-  constexpr double kFar_s = 0.3;
+// Whether a clock is so far from what the vehicle's file says that the truth drives on where wheels stand; less, where an
+// encoder seemed to.
+bool are_clocks_far_off(const LeastSquaresCalibration& calibration, const Vehicle& nominal, bool encoders_seem_to_err) {
+  constexpr double kFar_s = 0.3, kNearer_s = 0.05;
+  const double far_s = encoders_seem_to_err ? kNearer_s : kFar_s;
   return std::any_of(calibration.time_offset_s.begin(), calibration.time_offset_s.end(),
-                     [&](double offset_s) { return std::abs(offset_s - nominal.truth.time_offset_s) > kFar_s; });
+                     [&](double offset_s) { return std::abs(offset_s - nominal.truth.time_offset_s) > far_s; });
 }
 
 // As the moments say, where that is worth a try.
@@ -321,7 +323,11 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
         known[i] = AlignedClock{run->clocks.offset_s, run->clocks.rate};
     return known;
   };
-  if (are_clocks_far_off(ready.calibration, nominal)) {
+  const bool encoders_seem_to_err = std::any_of(each.begin(), each.end(), [](const CheckedRecording* c) {
+    return std::any_of(c->faults.begin(), c->faults.end(),
+                       [](const DataFault& f) { return f.effect == "encoder_data_fault"; });
+  });
+  if (are_clocks_far_off(ready.calibration, nominal, encoders_seem_to_err)) {
     std::vector<CheckedRecording> as_told;
     for (const CheckedRecording* c : each) as_told.push_back(*c);
     check(known_clocks());

@@ -77,9 +77,18 @@ Moment moment_of(const JointModel& joint, const AcceptedEffect& a) {
 }
 
 // Something on the floor that a wheel climbs once in its middle and once at its edge.
+constexpr double kOneThing_m = 0.1;
 bool are_one_bump(const Moment& a, const Moment& b) {
-  constexpr double kOneThing_m = 0.1;
   return a.bumped && b.bumped && length(*a.bumped - *b.bumped) < kOneThing_m;
+}
+
+// The same of bumps that are met again and again, by where each lies.
+bool are_one_bump(const AcceptedEffect& a, const AcceptedEffect& b) {
+  const auto is_met_again = [](const AcceptedEffect& e) {
+    return e.effect->name == "bump" && !e.effect->of_one_recording;
+  };
+  return is_met_again(a) && is_met_again(b) && !a.shape.empty() && !b.shape.empty() &&
+         length(Vec2{a.shape[0], a.shape[1]} - Vec2{b.shape[0], b.shape[1]}) < kOneThing_m;
 }
 
 // What comes twice to one place, a wheel's breadth apart, is the floor's: nobody pushes there again.
@@ -219,6 +228,9 @@ std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEf
     if (!a.acts_on_motion()) continue;
     const double judged = evidence[k].test.judged();
     gain += judged;
+    if (std::any_of(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k),
+                    [&](const AcceptedEffect& before) { return are_one_bump(before, a); }))
+      continue;
     words += (count++ > 0 ? ", " : "") + effect_words(a.effect->name);
     if (std::none_of(kinds.begin(), kinds.end(), [&](const Effect* e) { return e->name == a.effect->name; }))
       kinds.push_back(a.effect);

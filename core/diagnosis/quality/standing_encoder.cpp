@@ -157,10 +157,13 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
   for (const auto& [i, j] : held_readings(wheels, wheel, kPace))
     if (j >= i + 3 && j + 1 < wheels.size()) {
       const std::size_t end = std::min(j + 1 + kPace, wheels.size() - 1);
+      double there_and_back = 0.0;
+      for (std::size_t k = j + 1; k < end; ++k) there_and_back += std::abs(rad(k + 1) - rad(k));
       const double before = (rad(i) - rad(i - kPace)) / static_cast<double>(kPace), next = rad(j + 1) - rad(j),
-                   after = (rad(end) - rad(j + 1)) / std::max(1.0, static_cast<double>(end - j - 1));
+                   intervals_after = std::max(1.0, static_cast<double>(end - j - 1)),
+                   after = (rad(end) - rad(j + 1)) / intervals_after;
       if (std::abs(next) > kCounts * count_rad &&
-          std::abs(next) > kTimesThePace * std::max(std::abs(before), std::abs(after)) &&
+          std::abs(next) > kTimesThePace * std::max(std::abs(before), there_and_back / intervals_after) &&
           (before / next * static_cast<double>(j + 1 - i) > kOfTheWayMissed ||
            is_of_speeding_up(i, j, next, after)) &&
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)

@@ -56,6 +56,19 @@ TEST(Contradicted, NamesThatAreBeyondDoubtOrOfOneKindStandHoweverManyTheyAre) {
   EXPECT_FALSE(are_too_many({{"slip_zone", 54.0}, {"bump", 37.0}}));
 }
 
+// A sill that one wheel climbs in its middle and both climb at its edge, beside a castor's kicks.
+TEST(Contradicted, TwoBumpsAtOnePlaceAreOneThing) {
+  for (const double apart_m : {0.05, 0.5}) {
+    NamesAndEvidence all = named_with({{"castor_reversal_kick", 900.0}, {"bump", 117.0}, {"bump", 98.0}});
+    for (std::size_t k : {1, 2}) {
+      all.names[k].effect =
+          catalogue_entry({"bump", k == 1 ? "left_wheel" : "both_wheels", {{"x_m", 0.0}, {"y_m", 0.0}}});
+      all.names[k].shape = {-3.0, k == 1 ? 10.0 : 10.0 + apart_m, 0.0};
+    }
+    EXPECT_EQ(what_so_many_names_stand_for(all.names, all.evidence).has_value(), apart_m > 0.1);
+  }
+}
+
 // The noise that is believed, against the error of dead reckoning: by the noise that there is they agree.
 TEST(Contradicted, DeadReckoningThatErrsByMoreThanAllNoiseLacksSomething) {
   test::CaseSettings settings;

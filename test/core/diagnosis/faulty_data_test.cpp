@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/diagnosis/diagnosis.h"
+#include "test/support/missing_physics.h"
 #include "test/support/short_cases.h"
 
 namespace odolab::test {
@@ -131,6 +132,33 @@ TEST(FaultyData, AreNotWhatAClockDoesThatIsLateByMoreThanASecond) {
   for (const Finding& f : d.findings) EXPECT_NE(f.effect, "encoder_data_fault") << f.sentence;
   EXPECT_TRUE(std::any_of(d.findings.begin(), d.findings.end(),
                           [](const Finding& f) { return f.effect == "truth_time_offset"; }));
+}
+
+// Stands for three quarters of a second now and again, and then turns about its right wheel: by a clock that is a
+// quarter of a second early the truth does so while both stand.
+TEST(FaultyData, AreNotWhatAClockDoesThatIsEarlyByLessThanAWheelRests) {
+  GeneratorSettings g = under_motion_capture({0.073, 0.073, 0.47}, 0.0005, 0.25, 0.004, 0.006);
+  g.truth.time_offset_s = -0.24;
+  g.duration_s = 60.0;
+  const auto goes = [](int run) -> SpeedProfile {
+    return [run](double t) {
+      const double in = std::fmod(t, 5.0), turning = 4.0 + run;
+      WheelSpeedsAt w;
+      if (in < 2.2)
+        w.left_radps = w.right_radps = 5.0;
+      else if (in < 2.75)
+        w.left_radps = w.right_radps = 1.0;
+      else if (in > 3.5) {
+        w.left_radps = turning;
+        w.right_radps = in > 3.7 ? 0.2 * turning : 0.0;
+      }
+      return w;
+    };
+  };
+  Random random(12);
+  const auto recordings = three_runs(g, random, goes, [](int) { return nullptr; });
+  const Diagnosis d = diagnose(recordings, {}, Vehicle{}).value();
+  for (const Finding& f : d.findings) EXPECT_NE(f.effect, "encoder_data_fault") << f.sentence;
 }
 
 TEST(FaultyData, RefusesAnUnusableRecordingByName) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/angles.h"
@@ -100,6 +101,18 @@ TEST(StandingEncoder, IsFoundHoweverTheRoomIsTurned) {
 
 // Both wheels stand after a few counts; the left count goes back by a tenth of a turn, once in one reading and once
 // over a fifth of a second, as where somebody nudges it.
+// A wheel that rolls out, rests, sets off by five counts at once and goes back: what was read at its last count is no
+// pace that it kept.
+TEST(CatchingUpEncoder, IsNoneWhereAWheelSetsOffAndTurnsBack) {
+  const auto sets_off = [](int i) {
+    constexpr double kOff[] = {5.0, 10.0, 13.0, 14.0, 11.0, 4.0, -8.0};
+    return i < 60 ? 4.0 * i : i < 64 ? 240.0 + i - 60 : i < 100 ? 244.0 : 244.0 + kOff[std::min(i - 100, 6)];
+  };
+  EXPECT_TRUE(catching_up_encoder(driven_by_left(sets_off), Wheel::left).empty());
+  const auto catches_up = [](int i) { return i < 60 || i > 100 ? 4.0 * i : 240.0; };
+  EXPECT_EQ(catching_up_encoder(driven_by_left(catches_up), Wheel::left).size(), 1u);
+}
+
 TEST(MovedAtRest, IsACounterThatNobodyNudges) {
   const auto resting = [](double takes_s) {
     std::vector<WheelSample> wheels;
