@@ -100,7 +100,11 @@ bool is_wanted(const EffectParameter& parameter, bool at_a_time) {
 const std::vector<EffectEntry>& effect_catalogue() {
   static const std::vector<EffectEntry> entries = {
       {"wheel_eccentricity", kWheels, {{"amplitude", 0.0, 0.5, kRequired}, {"phase_rad"}}},
-      {"encoder_missed_counts", kWheels, {{"fraction", 0.0, 0.99, kRequired}, {"above_radps", 0.0, 1e4}}},
+      {"encoder_missed_counts",
+       kWheels,
+       {{"fraction", 0.0, 0.99, kRequired},
+        {"above_radps", 0.0, 1e4},
+        number_of_form(std::size(effects::kMissedForms))}},
       {"drivetrain_backlash",
        kWheels,
        {{"gap_rad", 0.0, 3.0, kRequired}, {"drag_mps2", 0.0, 100.0}, number_of_form(std::size(effects::kPlayForms))}},
@@ -113,7 +117,9 @@ const std::vector<EffectEntry>& effect_catalogue() {
        {{"per_s", -0.1, 0.1, kRequired},
         {"time_constant_s", 1e-3, kFar},
         number_of_form(std::size(effects::kDriftForms))}},
-      {"tyre_compression", kVehicleOrAnyWheel, {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}, number_of_form(2)}},
+      {"tyre_compression",
+       kVehicleOrAnyWheel,
+       {{"radius_change_m_per_mps2", -0.1, 0.1, kRequired}, number_of_form(std::size(effects::kTyreForms))}},
       {"speed_dependent_radius", kWheels, {{"per_mps", -0.5, 0.5, kRequired}, number_of_form(2)}},
       {"payload_radius_change",
        kVehicleOrWheels,

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/effect_motions.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
@@ -74,6 +76,20 @@ double way_near(double limit_radps, Wheel wheel, const std::vector<DriveView>& v
   return above_m > 0.0 ? std::min(1.0, near_m / above_m) : 0.0;
 }
 
+Motions missed_by(Wheel wheel, const DriveView& view, double limit_radps, const MissedForm& form) {
+  if ((wheel != Wheel::right && hovers_about(limit_radps, view, &EffectStep::left_radps, &EffectStep::left_m)) ||
+      (wheel != Wheel::left && hovers_about(limit_radps, view, &EffectStep::right_radps, &EffectStep::right_m)))
+    return Motions(view.steps.size());
+  Motions m;
+  m.reserve(view.steps.size());
+  for (const EffectStep& s : view.steps) {
+    const double l = wheel == Wheel::right ? 0.0 : form.share(std::abs(s.left_radps), limit_radps) * s.left_m;
+    const double r = wheel == Wheel::left ? 0.0 : form.share(std::abs(s.right_radps), limit_radps) * s.right_m;
+    m.push_back({0.5 * (l + r), 0.0, (r - l) / view.drive.wheelbase_m});
+  }
+  return m;
+}
+
 Effect missed_counts_of(Wheel wheel) {
   Effect e;
   e.name = "encoder_missed_counts";
@@ -92,7 +108,7 @@ Effect missed_counts_of(Wheel wheel) {
   };
   e.shapes_read_as = [](const std::vector<double>& v) { return 1.0 + v[0]; };
   e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
-  e.tests_of_a_shape = 0.8;
+  e.tests_of_a_shape = 0.6;
   e.sentence = std::string("the encoder of ") +
                (wheel == Wheel::left    ? "the left wheel"
                 : wheel == Wheel::right ? "the right wheel"
@@ -101,21 +117,19 @@ Effect missed_counts_of(Wheel wheel) {
   e.regime = "above a wheel speed";
   e.looks_like = {"speed_dependent_radius", "turn_scrub"};
   e.told_apart_by = "straights and turns at three speeds, each held for a few metres";
+  for (const MissedForm& form : kMissedForms) e.forms.push_back(form.in_words);
+  e.form_goes_with = [wheel](const std::vector<double>& value, const std::vector<double>& shape, double count_rad,
+                             const std::vector<DriveView>& views) {
+    if (kMissedForms[std::lround(shape.back())].within == 0.0) return true;
+    return part_by_more_than_counts(
+        [&](const DriveView& view) {
+          return missed_by(wheel, view, shape[0], kMissedForms[std::lround(shape.back())]);
+        },
+        [&](const DriveView& view) { return missed_by(wheel, view, shape[0], kMissedForms[0]); }, value[0], count_rad,
+        views);
+  };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    if ((wheel != Wheel::right && hovers_about(shape[0], view, &EffectStep::left_radps, &EffectStep::left_m)) ||
-        (wheel != Wheel::left && hovers_about(shape[0], view, &EffectStep::right_radps, &EffectStep::right_m)))
-      return motions_by_number(Motions(view.steps.size()));
-    Motions m;
-    m.reserve(view.steps.size());
-    for (const EffectStep& s : view.steps) {
-      const double l = std::abs(s.left_radps) > shape[0] ? s.left_m : 0.0;
-      const double r = std::abs(s.right_radps) > shape[0] ? s.right_m : 0.0;
-      if (wheel == Wheel::both)
-        m.push_back({0.5 * (l + r), 0.0, (r - l) / view.drive.wheelbase_m});
-      else
-        m.push_back(by_wheel(wheel, wheel == Wheel::left ? l : r, view.drive.wheelbase_m));
-    }
-    return motions_by_number(std::move(m));
+    return motions_by_number(missed_by(wheel, view, shape[0], kMissedForms[std::lround(shape.back())]));
   };
   e.near_its_limit = [wheel](const std::vector<double>& shape, const std::vector<DriveView>& views) {
     return way_near(shape[0], wheel, views);

@@ -2,6 +2,7 @@
 // (physics/effects/README.md). The catalogue's own stands first.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -120,6 +121,42 @@ inline constexpr LateralSlipForm kLateralSlipForms[] = {
     {"at a speed in proportion to it, which it comes to within 0.1 s", false, 0.1},
     {"at a speed in proportion to it, which it comes to within 0.17 s", false, 0.17},
     {"at a speed in proportion to it, which it comes to within 0.28 s", false, 0.28},
+};
+
+// What of its load the inner tyre gives away, as a share of what the outer one takes: none where it hardly bears any,
+// all where tyres are springs that are squeezed already. And how long the body takes to roll over.
+struct TyreForm {
+  const char* in_words;
+  double inner_relieved;
+  double rolls_over_s = 0.0;
+};
+inline constexpr TyreForm kTyreForms[] = {
+    {"the outer tyre alone", 0.0},
+    {"the outer tyre is squeezed and the inner one relieved", 1.0},
+    {"the outer tyre is squeezed and the inner one relieved by half of that", 0.5},
+    {"the outer tyre alone, as the body rolls over within 0.12 s", 0.0, 0.12},
+    {"the outer tyre is squeezed and the inner one relieved, as the body rolls over within 0.12 s", 1.0, 0.12},
+    {"the inner tyre relieved by half, as the body rolls over within 0.12 s", 0.5, 0.12},
+    {"the outer tyre alone, as the body rolls over within 0.25 s", 0.0, 0.25},
+    {"the outer tyre is squeezed and the inner one relieved, as the body rolls over within 0.25 s", 1.0, 0.25},
+    {"the inner tyre relieved by half, as the body rolls over within 0.25 s", 0.5, 0.25},
+};
+
+// What reads an encoder does not fall behind at one speed of a wheel: between so much below it and above it, as a share
+// of it, the share that is lost rises from none to all.
+struct MissedForm {
+  const char* in_words;
+  double within = 0.0;
+  double share(double speed_radps, double limit_radps) const {
+    if (within <= 0.0) return speed_radps > limit_radps ? 1.0 : 0.0;
+    return std::min(1.0, std::max(0.0, 0.5 + 0.5 * (speed_radps / limit_radps - 1.0) / within));
+  }
+};
+inline constexpr MissedForm kMissedForms[] = {
+    {"at once above that speed"},
+    {"the more the faster, from 5 % below that speed to 5 % above it", 0.05},
+    {"the more the faster, from 12 % below that speed to 12 % above it", 0.12},
+    {"the more the faster, from 25 % below that speed to 25 % above it", 0.25},
 };
 
 struct DriftForm {
