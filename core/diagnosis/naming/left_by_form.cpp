@@ -6,7 +6,7 @@
 namespace odolab {
 
 bool may_be_left_by_form(const std::vector<ScoredCandidate>& evidence, std::size_t k, double family_wise_error) {
-  constexpr double kOfTheError = 0.005;
+  constexpr double kOfTheError = 1e-6;
   double others = 0.0;
   for (std::size_t j = 0; j < evidence.size(); ++j)
     if (j != k) others += counted(*evidence[j].effect, evidence[j].test.statistic);

@@ -19,7 +19,8 @@ ScoredCandidate tested_alone(const JointModel& joint, std::size_t accepted);
 // the model that has it.
 void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<ScoredCandidate>& left_out);
 
-// Not by chance, by what it says of runs that it was not fitted to, and by whole counts.
+// Not by chance, by what it says of runs that it was not fitted to, and by whole counts. What shows once, or in one
+// place, has nothing else to speak for it: a twentieth of the error.
 bool stands(const ScoredCandidate& c, double family_wise_error);
 
 // How little the likelihood is to be believed of a candidate: not at all less where it would stand though all scattered
