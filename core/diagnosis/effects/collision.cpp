@@ -4,18 +4,74 @@
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/forms.h"
+#include "core/geometry/angles.h"
 
 namespace odolab::effects {
+
+namespace {
+
+// While it is turned by an angle the vehicle goes on being pushed the way that its own sides face: what that comes to
+// in the floor's frame is the chord of the arc (the exponential map of planar motion), not the arc.
+struct Chord {
+  double along, across;  // of one metre
+  explicit Chord(double turn_rad) {
+    constexpr double kLittle_rad = 1e-6;
+    const bool is_little = std::abs(turn_rad) < kLittle_rad;
+    along = is_little ? 1.0 : std::sin(turn_rad) / turn_rad;
+    across = is_little ? 0.5 * turn_rad : (1.0 - std::cos(turn_rad)) / turn_rad;
+  }
+  Vec2 of_arc(Vec2 arc) const { return {along * arc.x_m - across * arc.y_m, across * arc.x_m + along * arc.y_m}; }
+  Vec2 to_arc(Vec2 chord) const {
+    const double square = std::max(1e-6, along * along + across * across);
+    return (1.0 / square) * Vec2{along * chord.x_m + across * chord.y_m, along * chord.y_m - across * chord.x_m};
+  }
+};
+
+// Its heading before it was pushed, as its wheels go on from there. Between two samples of the truth a view turns
+// evenly from one to the other, and begins to before the push does.
+double heading_before_rad(const DriveView& view, std::size_t pushed) {
+  constexpr double kEvenly_radps = 1e-7;
+  const auto rate_radps = [&](std::size_t step) {
+    const EffectStep &before = view.steps[step - 1], &now = view.steps[step];
+    return wrapped(now.heading_rad - before.heading_rad) / std::max(1e-9, now.time_s - before.time_s);
+  };
+  constexpr int kIntervals = 2;
+  std::size_t first = pushed;
+  double turned_rad = 0.0;
+  for (int k = 0; k < kIntervals && first > 0; ++k) {
+    const double evenly_radps = rate_radps(first);
+    while (first > 0 && std::abs(rate_radps(first) - evenly_radps) < kEvenly_radps) {
+      turned_rad += 0.5 * (view.steps[first - 1].turn_rad + view.steps[first].turn_rad);
+      --first;
+    }
+  }
+  return view.steps[first].heading_rad + turned_rad;
+}
+
+}  // namespace
 
 std::vector<Effect> collision() {
   Effect e;
   e.name = "collision";
   e.component = "vehicle";
+  // Amplitudes: along the arc.
   e.amplitudes = {
-      {"dx_m", "m", 0.02, -2.0, 2.0}, {"dy_m", "m", 0.02, -2.0, 2.0}, {"dheading_rad", "rad", 0.03, -4.0, 4.0}};
+      {"dx_m", "m", 0.02, -20.0, 20.0}, {"dy_m", "m", 0.02, -20.0, 20.0}, {"dheading_rad", "rad", 0.03, -4.0, 4.0}};
+  e.to_parameters = [](const std::vector<double>& v, const std::vector<double>& se) {
+    const Vec2 moved = Chord(v[2]).of_arc({v[0], v[1]});
+    return std::vector<FoundParameter>{
+        {"dx_m", moved.x_m, se[0], "m"}, {"dy_m", moved.y_m, se[1], "m"}, {"dheading_rad", v[2], se[2], "rad"}};
+  };
+  e.from_parameters = [](const ActiveEffect& a) {
+    const double turn_rad = a.parameter("dheading_rad");
+    const Vec2 arc = Chord(turn_rad).to_arc({a.parameter("dx_m"), a.parameter("dy_m")});
+    return std::vector<double>{arc.x_m, arc.y_m, turn_rad};
+  };
   e.shapes = {{"recording", "1"}, {"at_s", "s"}};
   e.forms = {"at once", "within 0.25 s", "within 0.5 s"};
-  e.sentence = "something pushed the vehicle: its pose jumps while the wheels know nothing of it";
+  e.forms_come_to_one = true;
+  e.sentence =
+      "something pushed the vehicle, or it was lifted and put down: its pose jumps while the wheels know nothing of it";
   e.regime = "at one moment";
   e.looks_like = {"bump", "truth_frozen"};
   e.told_apart_by = "the same way driven again: a push does not come back";
@@ -49,8 +105,10 @@ std::vector<Effect> collision() {
     }
     if (acts.empty()) return std::vector<Motions>(3);
     std::vector<Motions> m(3, Motions(acts.front().first, acts.back().first + 1));
+    double heading_rad = heading_before_rad(view, acts.front().first);  // as the wheels alone go on
     for (const auto& [i, share] : acts) {
-      const double c = view.steps[i].cos_heading, s = view.steps[i].sin_heading, part = share / total_s;
+      const double c = std::cos(heading_rad), s = std::sin(heading_rad), part = share / total_s;
+      heading_rad += view.steps[i].turn_rad;
       m[0][i] = {part * c, -part * s, 0.0};
       m[1][i] = {part * s, part * c, 0.0};
       m[2][i].turn_rad = part;

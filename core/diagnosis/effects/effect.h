@@ -106,6 +106,7 @@ struct Effect {
   // Ways in which the same physics shows on different machines, the catalogue's own first. Where there are two or more,
   // the number of one stands behind the shapes.
   std::vector<std::string> forms;
+  bool forms_come_to_one = false;  // they differ in when it happens alone, and not in how far it takes the vehicle
   std::vector<int>
       simpler_form;  // of each form the one to be said where that is not plainly less likely; empty: itself
   bool forms_have_sides = false;             // what one form calls left another may call right

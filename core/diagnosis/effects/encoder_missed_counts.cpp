@@ -132,7 +132,7 @@ Effect missed_counts_of(Wheel wheel) {
     return motions_by_number(missed_by(wheel, view, shape[0], kMissedForms[std::lround(shape.back())]));
   };
   e.near_its_limit = [wheel](const std::vector<double>& shape, const std::vector<DriveView>& views) {
-    return way_near(shape[0], wheel, views);
+    return kMissedForms[std::lround(shape.back())].within > 0.0 ? 0.0 : way_near(shape[0], wheel, views);
   };
   e.scan = [wheel](const std::vector<DriveView>& views) { return limits(views, wheel); };
   return e;

@@ -192,10 +192,12 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
     double square = 0.0;
     for (double v : joint.accepted[a].value) square += v * v / n;
     const Effect& effect = *joint.accepted[a].effect;
-    const double form = are_coarse && !effect.local ? kErrorOfCounts
-                        : effect.forms.size() > 1   ? kErrorOfForms
-                                                    : kFormErrorOfInterval;
+    const double form = are_coarse && !effect.local                            ? kErrorOfCounts
+                        : effect.forms.size() > 1 && !effect.forms_come_to_one ? kErrorOfForms
+                                                                               : kFormErrorOfInterval;
     VectorXd of_form = VectorXd::Constant(n, form * form * square);
+    if (effect.forms_come_to_one)
+      for (int k = 0; k < n; ++k) of_form(k) = std::pow(form * joint.accepted[a].value[static_cast<std::size_t>(k)], 2);
     block.topLeftCorner(n, n) += of_form.asDiagonal();
     if (m > 0) {
       block.bottomRightCorner(m, m) = of_shape[a];
@@ -204,14 +206,16 @@ Intervals refined(JointModel& joint, const std::vector<double>& inflation) {
         block.bottomLeftCorner(m, n) = block.topRightCorner(n, m).transpose();
       }
     }
-    // Whether there is a patch at all was asked of all places and sizes together.
+    // Whether there is a patch at all was asked of all places and sizes together; and whether counts are lost over a
+    // band of speeds, of all speeds: a little from one on says as much as more from a higher one on.
+    const double near = effect.near_its_limit ? effect.near_its_limit(joint.accepted[a].shape, joint.views()) : 0.0;
+    const bool is_band = effect.near_its_limit && near == 0.0;
     MatrixXd known = block.topLeftCorner(n, n);
-    if (is_patch) known = at_these_shapes.block(first, first, n, n);
+    if (is_patch || is_band) known = at_these_shapes.block(first, first, n, n);
     const VectorXd value = Eigen::Map<const VectorXd>(joint.accepted[a].value.data(), n);
     out.from_nothing.push_back(value.dot(known.ldlt().solve(value)));
     VectorXd of_forms = between_forms(joint, a, inflation[a]);
-    if (effect.near_its_limit)
-      of_forms.array() += square * std::pow(effect.near_its_limit(joint.accepted[a].shape, joint.views()), 2);
+    of_forms.array() += square * near * near;
     for (int k = 0; k < n; ++k) block(k, k) += std::pow(rounding_of(joint, joint.accepted[a], k), 2) + of_forms(k);
     out.of_effect.push_back(block);
     add_to_calibration(at_these_shapes, first, of_form + of_forms, out.columns);

@@ -115,6 +115,19 @@ bool rests_at(const JointModel& joint, const std::vector<double>& moment) {
   return any;
 }
 
+// From the truth's last sample before a moment to the first behind it, on the wheels' clock: what happened in between
+// happened at any moment of these.
+std::pair<double, double> between_samples(const JointModel& joint, const std::vector<double>& moment) {
+  const int run = static_cast<int>(moment[0]);
+  const std::vector<TruthSample>& truth = joint.runs()[static_cast<std::size_t>(run)].truth;
+  const TwoClocks clocks = joint.clocks(run);
+  const auto next = std::lower_bound(truth.begin(), truth.end(), moment[1], [&](const TruthSample& t, double at_s) {
+    return clocks.wheels_stamp_s(t.time_s) < at_s;
+  });
+  if (next == truth.begin() || next == truth.end()) return {moment[1], moment[1]};
+  return {clocks.wheels_stamp_s((next - 1)->time_s), clocks.wheels_stamp_s(next->time_s)};
+}
+
 // Whether a candidate that is another one and more says too little beside that.
 bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
   // Of both by one scale: the scatter elsewhere of one and of the other has nothing to do with which is right.
@@ -150,33 +163,40 @@ ScoredCandidate scored_candidate(const JointModel& joint, const CandidateScan& s
   if (best.test.statistic <= 0.0) return best;
   const double log_tests = std::log(static_cast<double>(sought.tests) * (is_one_sided(e) ? 0.5 : 1.0)) +
                            std::log(e.tests_of_a_shape * static_cast<double>(searched.tried));
-  std::vector<double>& statistics = searched.statistics;
   const std::vector<double> shape = best.test.shape;
   best.test = joint.test(joint.columns_of(e, shape), without, !e.local);
   best.test.shape = shape;
-  // A place shows in all others that it overlaps, in a small room in most of them: these are no measure of chance.
-  if (e.local && !e.of_one_recording) {
-    std::vector<double> elsewhere;
-    for (std::size_t n = 0; n < statistics.size(); ++n)
-      if (!overlap(e, searched.shapes[searched.of_shape[n]], shape, joint.model.drive.wheelbase_m))
-        elsewhere.push_back(statistics[n]);
-    statistics = std::move(elsewhere);
-    if (statistics.size() < kFewestElsewhere) {
-      best.test = joint.test(joint.columns_of(e, shape), without, true);
-      best.test.shape = shape;
-      best.test.cross_validated = best.test.statistic;
-    }
+  // A place shows in all others that it overlaps, in a small room in most of them, and a moment in all between the same
+  // two samples of the truth: these are no measure of chance.
+  const auto shape_of = [&](std::size_t n) -> const std::vector<double>& {
+    return searched.shapes[searched.of_shape[n]];
+  };
+  std::vector<std::size_t> elsewhere;
+  const auto [from_s, to_s] = e.of_one_recording ? between_samples(joint, shape) : std::pair{0.0, 0.0};
+  for (std::size_t n = 0; e.local && n < searched.statistics.size(); ++n) {
+    const std::vector<double>& other = shape_of(n);
+    if (e.of_one_recording ? other[0] != shape[0] || other[1] <= from_s || other[1] >= to_s
+                           : !overlap(e, other, shape, joint.model.drive.wheelbase_m))
+      elsewhere.push_back(n);
   }
-  if (e.local && statistics.size() >= kFewestElsewhere) {
-    best.test.inflation = std::max(1.0, scatter_of_statistics(statistics, best.test.freedom));
+  const auto scatter_of = [&](const std::vector<std::size_t>& others) {
+    std::vector<double> statistics;
+    for (const std::size_t n : others) statistics.push_back(searched.statistics[n]);
+    return scatter_of_statistics(statistics, best.test.freedom);
+  };
+  if (e.local && !e.of_one_recording && elsewhere.size() < kFewestElsewhere) {
+    best.test = joint.test(joint.columns_of(e, shape), without, true);
+    best.test.shape = shape;
+    best.test.cross_validated = best.test.statistic;
+  }
+  if (elsewhere.size() >= kFewestElsewhere) {
+    best.test.inflation = std::max(1.0, scatter_of(elsewhere));
     best.test.cross_validated = best.test.statistic;
     // While the wheels rest nothing hides the truth's own slow noise: there it is judged by other rests too.
     if (e.of_one_recording && rests_at(joint, shape)) {
-      std::vector<double> at_rest;
-      for (std::size_t n = 0; n < statistics.size(); ++n)
-        if (rests_at(joint, searched.shapes[searched.of_shape[n]])) at_rest.push_back(statistics[n]);
-      if (at_rest.size() >= kFewestElsewhere)
-        best.test.inflation = std::max(best.test.inflation, scatter_of_statistics(at_rest, best.test.freedom));
+      std::vector<std::size_t> at_rest = elsewhere;
+      std::erase_if(at_rest, [&](std::size_t n) { return !rests_at(joint, shape_of(n)); });
+      if (at_rest.size() >= kFewestElsewhere) best.test.inflation = std::max(best.test.inflation, scatter_of(at_rest));
     }
   }
   // A truth that is worse for a while, as of a tracker that loses a marker, tells as much less of what happens then.

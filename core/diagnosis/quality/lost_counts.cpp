@@ -21,6 +21,17 @@ struct Hold {
   bool left, right;
 };
 
+// Whether the truth was taken meanwhile: else the vehicle may have gone on, or been carried, at any time of a gap.
+bool is_seen(const Hold& hold, const InnovationRun& run, double truth_late_s) {
+  constexpr double kShort = 3.0;  // of the samples' period
+  const double period_s =
+      (run.truth.back().time_s - run.truth.front().time_s) / static_cast<double>(run.truth.size() - 1);
+  return hold.to_s - hold.from_s < kShort * period_s ||
+         std::any_of(run.truth.begin(), run.truth.end(), [&](const TruthSample& t) {
+           return t.time_s - truth_late_s > hold.from_s && t.time_s - truth_late_s < hold.to_s;
+         });
+}
+
 // Of both wheels where they hold at once, to a reading: that no two wheels do, however short it is.
 std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDrive& drive) {
   constexpr std::size_t kFewestOfOne = 3, kFewestOfBoth = 1;  // intervals
@@ -56,6 +67,7 @@ JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calib
   constexpr double kLeastOf = 0.4, kMostOf = 2.0;  // what the truth shows, of what the paces before and behind do
   JumpsOfWheels lost;
   for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {
+    if (!is_seen(hold, run, calibrated.truth.time_offset_s)) continue;
     const auto at = [&](double time_s) {
       return static_cast<std::size_t>(std::lower_bound(run.wheels.begin(), run.wheels.end(), time_s,
                                                        [](const WheelSample& w, double t) { return w.time_s < t; }) -

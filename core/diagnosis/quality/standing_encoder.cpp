@@ -76,7 +76,8 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
   constexpr double kMarkerOff = 0.25;
   constexpr double kFar_rad = 1.0;
   constexpr double kBraked = 0.5, kRunsOn_s = 1.0, kOnItsWay_s = 2.0;
-  constexpr double kOfThePaceBefore = 0.4, kInTheMiddle = 0.25;  // of the whole way, in the middle half of the time
+  constexpr double kOfThePaceBefore = 0.4;
+  constexpr double kInTheMiddle = 0.25, kAtOnce = 0.7;  // of the whole way, in half of the time; in an eighth of it
   TimeStretches stands;
   if (truth.size() < 4) return stands;
   const DifferentialDrive& drive = std::get<DifferentialDrive>(vehicle.kind);
@@ -129,9 +130,17 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
       const bool was_braked =
           pace_before_mps(i, kBefore_s / 3.0, 0.0) < kBraked * pace_before_mps(i, kBefore_s, kBefore_s * 2.0 / 3.0) &&
           all_m < kRunsOn_s * pace_before_mps(i, kOnItsWay_s, 0.0);
+      // It was put down elsewhere: all in one part of the time, and nothing in the others.
+      const auto jumps = [&] {
+        constexpr std::size_t kParts = 8;
+        double most_m = 0.0;
+        for (std::size_t k = 0; k < kParts; ++k)
+          most_m = std::max(most_m, way_m(i + k * (j - i) / kParts, i + (k + 1) * (j - i) / kParts));
+        return most_m > kAtOnce * all_m;
+      };
       const std::size_t quarter = (j - i) / 4;
       if (!was_braked && all_m > (by_turn ? by_turn_m : by_place_m) && pace_mps > kOfThePaceBefore * all_m / span_s &&
-          way_m(i + quarter, j - quarter) > kInTheMiddle * all_m)
+          way_m(i + quarter, j - quarter) > kInTheMiddle * all_m && !jumps())
         stands.push_back({from_s, j + 1 < wheels.size() ? wheels[j + 1].time_s : wheels[j].time_s});
     }
   }
@@ -164,8 +173,7 @@ TimeStretches catching_up_encoder(const std::vector<WheelSample>& wheels, Wheel 
                    after = (rad(end) - rad(j + 1)) / intervals_after;
       if (std::abs(next) > kCounts * count_rad &&
           std::abs(next) > kTimesThePace * std::max(std::abs(before), there_and_back / intervals_after) &&
-          (before / next * static_cast<double>(j + 1 - i) > kOfTheWayMissed ||
-           is_of_speeding_up(i, j, next, after)) &&
+          (before / next * static_cast<double>(j + 1 - i) > kOfTheWayMissed || is_of_speeding_up(i, j, next, after)) &&
           wheels[j + 1].time_s - wheels[j].time_s < kGap_s)
         found.push_back({wheels[i].time_s, wheels[j + 1].time_s});
     }

@@ -112,5 +112,50 @@ TEST(Collision, IsNotMadeOfATruthThatIsWorseForAWhile) {
   }
 }
 
+// Drives, rests from 30 to 38 s and drives on; in the middle of that rest it is put down elsewhere, by so much in the
+// room. The camera may not see it meanwhile.
+Recording lifted(Vec2 by, double turned_rad, bool is_seen) {
+  Random random(31);
+  GeneratorSettings g = under_motion_capture({0.1, 0.1, 0.45}, 0.0005, 0.1, 0.004, 0.006);
+  g.duration_s = 90.0;
+  const SpeedProfile drives = varied_driving(random, g.duration_s);
+  bool is_done = false;
+  g.inject = [&](InjectedStep& s) {
+    if (s.time_s < 34.0 || std::exchange(is_done, true)) return;
+    s.room_m = s.room_m + by;
+    s.turn_rad += turned_rad;
+  };
+  const auto rests = [&](double t) {
+    const double share = std::clamp(std::abs(t - 34.0) - 4.0, 0.0, 1.0);
+    const WheelSpeedsAt w = drives(t);
+    return WheelSpeedsAt{share * w.left_radps, share * w.right_radps};
+  };
+  Recording r = generated(g, rests, random);
+  r.name = "lifted";
+  for (Channel& c : r.channels)
+    for (std::size_t i = 0; i < r.time_s.size(); ++i)
+      if (!is_seen && c.name.rfind("truth", 0) == 0 && r.time_s[i] > 29.8 && r.time_s[i] < 38.2)
+        c.values[i] = std::nan("");
+  return r;
+}
+
+TEST(Collision, MovesTheVehicleAsFarInTheRoomHoweverFarItTurnsIt) {
+  for (const double turned_rad : {-0.2, 1.2, 2.0})
+    for (const bool is_seen : {true, false}) {
+      const Vec2 by{0.8, -1.1};
+      const Diagnosis d = diagnose({lifted(by, turned_rad, is_seen)}, {}, Vehicle{}).value();
+      ASSERT_EQ(d.findings.front().effect, "collision") << turned_rad << is_seen;
+      const auto found = [&](const char* name) {
+        return *std::find_if(d.findings.front().parameters.begin(), d.findings.front().parameters.end(),
+                             [&](const FoundParameter& p) { return p.name == name; });
+      };
+      // Samples are 4 mm and 6 mrad off.
+      EXPECT_NEAR(found("dx_m").value, by.x_m, 0.03) << turned_rad << is_seen;
+      EXPECT_NEAR(found("dy_m").value, by.y_m, 0.03) << turned_rad << is_seen;
+      EXPECT_NEAR(found("dheading_rad").value, turned_rad, 0.02) << turned_rad << is_seen;
+      EXPECT_LT(found("dx_m").stderr_value, 0.15);
+    }
+}
+
 }  // namespace
 }  // namespace odolab::test

@@ -72,6 +72,14 @@ TEST(LostCounts, AreThoseOfBothWheelsForASingleReading) {
   EXPECT_TRUE(lost_counts(run_holding(true, true, true, kOneReading_s, by_a_station), by_a_station).both.empty());
 }
 
+// A vehicle that is elsewhere when it is seen again may have been carried there.
+TEST(LostCounts, AreNoneWhereTheTruthWasNotTakenMeanwhile) {
+  InnovationRun run = run_holding(true, true, false);
+  std::erase_if(run.truth, [](const TruthSample& t) { return t.time_s > kFrom_s - 0.05 && t.time_s < kTo_s + 0.05; });
+  run.set_aside.assign(run.truth.size(), 0);
+  EXPECT_TRUE(lost_counts(run, believed()).both.empty());
+}
+
 TEST(LostCounts, AreThoseOfOneWheelWhereTheTruthKeepsItsDirection) {
   EXPECT_EQ(lost_counts(run_holding(true, false, false), believed()).left.size(), 1u);
   EXPECT_EQ(lost_counts(run_holding(false, true, false), believed()).right.size(), 1u);

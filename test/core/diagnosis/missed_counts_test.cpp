@@ -93,10 +93,11 @@ TEST(EncoderMissedCounts, AreKnownNoBetterThanByWhatLiesNearTheirLimit) {
     view.steps.push_back(s);
   }
   for (const Effect& e : effects::encoder_missed_counts()) {
-    EXPECT_DOUBLE_EQ(e.near_its_limit({2.5}, {view}), 0.0) << e.component;
-    EXPECT_NEAR(e.near_its_limit({2.95}, {view}), 3.0 / 7.0, 1e-12) << e.component;
-    EXPECT_DOUBLE_EQ(e.near_its_limit({3.5}, {view}), 0.0) << e.component;
-    EXPECT_DOUBLE_EQ(e.near_its_limit({5.0}, {view}), 0.0) << e.component;
+    EXPECT_DOUBLE_EQ(e.near_its_limit({2.5, 0.0}, {view}), 0.0) << e.component;
+    EXPECT_NEAR(e.near_its_limit({2.95, 0.0}, {view}), 3.0 / 7.0, 1e-12) << e.component;
+    EXPECT_DOUBLE_EQ(e.near_its_limit({3.5, 0.0}, {view}), 0.0) << e.component;
+    EXPECT_DOUBLE_EQ(e.near_its_limit({5.0, 0.0}, {view}), 0.0) << e.component;
+    EXPECT_DOUBLE_EQ(e.near_its_limit({2.95, 1.0}, {view}), 0.0) << e.component << ", over a band of speeds";
   }
 }
 
