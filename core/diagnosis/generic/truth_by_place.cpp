@@ -19,18 +19,28 @@ class FloorHats {
       : floor_(square_around(floor_of(views))), each_way_(nodes_each_way) {
     const std::size_t nodes = static_cast<std::size_t>(each_way_) * static_cast<std::size_t>(each_way_);
     std::vector<double> way_m(nodes, 0.0);
+    std::vector<Vec2> heads(nodes);  // its way's headings added up
     double all_m = 0.0;
     for (const DriveView& view : views)
       for (const EffectStep& s : view.steps) {
         all_m += std::abs(s.forward_m());
-        for (const auto& [node, share] : near(s.position)) way_m[node] += share * std::abs(s.forward_m());
+        for (const auto& [node, share] : near(s.position)) {
+          const double of_it_m = share * std::abs(s.forward_m());
+          way_m[node] += of_it_m;
+          heads[node] = heads[node] + of_it_m * Vec2{s.cos_heading, s.sin_heading};
+        }
       }
+    constexpr double kOneWay = 0.7;  // of as much as where all headings are one
+    for (std::size_t node = 0; node < nodes; ++node)
+      if (length(heads[node]) < kOneWay * way_m[node]) met_all_round_ += way_m[node] / all_m;
     constexpr double kLeast = 0.01;  // of the way
     term_.assign(nodes, -1);
     for (std::size_t node = 0; node < nodes; ++node)
       if (way_m[node] > kLeast * all_m) term_[node] = static_cast<int>(count_++);
   }
   std::size_t count() const { return count_; }
+  // The share of the way that lies where the vehicle came with other headings too.
+  double met_all_round() const { return met_all_round_; }
 
   // Calls `visit(term, share)` for each hat that stands over a place.
   template <typename Visit>
@@ -60,6 +70,7 @@ class FloorHats {
   int each_way_;
   std::vector<int> term_;  // of each node; negative where it is none
   std::size_t count_ = 0;
+  double met_all_round_ = 0.0;
 };
 
 }  // namespace
@@ -68,6 +79,9 @@ std::vector<GenericTest> truth_by_place_tests(const AskedModel& asked, double lo
   if (square_around(floor_of(asked.joint.views())).half_m < 1e-3) return {};
   constexpr int kFine = 5, kCoarse = 4;
   const FloorHats fine(asked.joint.views(), kFine), coarse(asked.joint.views(), kCoarse);
+  // On one track, driven the same way round, all that comes back on it is a matter of places.
+  constexpr double kMostOfTheWay = 0.5;
+  if (coarse.met_all_round() < kMostOfTheWay) return {};
   struct Asked {
     const char *variable, *channel;
     std::size_t amplitudes;
