@@ -9,6 +9,8 @@
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
 #include "core/calibration/left_out.h"
+#include "core/calibration/odd_recordings.h"
+#include "core/calibration/used_truth.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality/sound_recordings.h"
 #include "core/geometry/begins_anew.h"
@@ -28,20 +30,21 @@ struct CalibrateOptions {
 };
 
 // Root mean square over recordings of the pose error gathered over a metre, or to the truth's next pose, but for what
-// was left out of each.
+// was left out of each and what of its truth the calibration set aside.
 struct PerMetre {
   double position_sum = 0.0, heading_sum = 0.0;
   int recordings = 0;
   std::vector<WindowSize> windows;
 
-  void add(const Recording& recording, const Vehicle& vehicle, const TimeStretches& left_out) {
+  void add(const Recording& recording, const Vehicle& vehicle, const TimeStretches& left_out, const UsedTruth& truth) {
     const Result<Track> track = predicted_track(recording, vehicle);
     if (!track) return;
-    const Track truth = truth_track(recording);
     TimeStretches on_its_clock = left_out;
     for (auto& [from_s, to_s] : on_its_clock)
       from_s += vehicle.truth.time_offset_s, to_s += vehicle.truth.time_offset_s;
-    const auto error = track_error(*track, truth, begins_anew(truth, on_its_clock));
+    std::vector<char> anew = begins_anew(truth.track, on_its_clock);
+    for (std::size_t i = 0; i < anew.size(); ++i) anew[i] |= truth.anew[i];
+    const auto error = track_error(*track, truth.track, anew);
     if (!error) return;
     position_sum += error->position_rms_m * error->position_rms_m;
     heading_sum += error->heading_rms_rad * error->heading_rms_rad;
@@ -49,10 +52,10 @@ struct PerMetre {
     const std::vector<WindowSize> of_it = window_sizes(*track, *error);
     windows.insert(windows.end(), of_it.begin(), of_it.end());
   }
+  double position_rms_m() const { return recordings > 0 ? std::sqrt(position_sum / recordings) : 0.0; }
   std::string text() const {
     if (recordings == 0) return "not to be had: the truth has no heading";
-    return text_of("%.2f mm, %.3f degrees", 1e3 * std::sqrt(position_sum / recordings),
-                   degrees(std::sqrt(heading_sum / recordings)));
+    return text_of("%.2f mm, %.3f degrees", 1e3 * position_rms_m(), degrees(std::sqrt(heading_sum / recordings)));
   }
 };
 
@@ -64,8 +67,9 @@ Vehicle by_its_own_clock(Vehicle vehicle, const ExternalCalibration& fitted, std
 }
 
 // Calibrates without each recording in turn and predicts the one left out, by the clock that it has `of_all`.
-std::string held_out_text(const std::vector<Recording>& recordings, const Vehicle& nominal,
-                          const LeastSquaresOptions& how, const ExternalCalibration& of_all) {
+PerMetre held_out_in_turn(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                          const LeastSquaresOptions& how, const ExternalCalibration& of_all,
+                          const std::vector<UsedTruth>& truth) {
   PerMetre held_out;
   for (std::size_t left_out = 0; left_out < recordings.size() && !interrupted(); ++left_out) {
     const auto without = [left_out](auto all) {
@@ -78,9 +82,26 @@ std::string held_out_text(const std::vector<Recording>& recordings, const Vehicl
         calibrate_externally(without(recordings), nominal, until_interrupted(), of_others);
     if (fitted)
       held_out.add(recordings[left_out], by_its_own_clock(fitted->vehicle, of_all, left_out),
-                   how.left_out_of(left_out).value_or(TimeStretches{}));
+                   how.left_out_of(left_out).value_or(TimeStretches{}), truth[left_out]);
   }
-  return held_out.text();
+  return held_out;
+}
+
+// Of several recordings: those that do not go with the others, and whether what is learned from some serves the others.
+std::vector<std::string> warnings_of_several(const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                             const LeastSquaresOptions& how, const PerMetre& before,
+                                             const PerMetre& held_out) {
+  constexpr double kWorse = 1.05;  // what was right before errs by a little noise more
+  std::vector<std::string> warnings, names;
+  for (const Recording& recording : recordings) names.push_back(recording.name);
+  for (const OddRecording& odd : odd_recordings(recordings, nominal, how, until_interrupted()))
+    warnings.push_back(in_words(odd, names));
+  if (held_out.recordings > 0 && held_out.position_rms_m() > kWorse * before.position_rms_m())
+    warnings.push_back(
+        text_of("each recording predicted from the others errs by %.2f mm, without any calibration by "
+                "%.2f mm: no such parameters fit all of these recordings",
+                1e3 * held_out.position_rms_m(), 1e3 * before.position_rms_m()));
+  return warnings;
 }
 
 void print_calibration(const LeastSquaresCalibration& calibration) {
@@ -142,14 +163,19 @@ int execute_calibrate(const CalibrateOptions& options) {
   bool anything = false;
   for (const CalibratedPart& part : calibration->parts)
     for (const ParameterEstimate& p : part.calibration.parameters) anything = anything || p.determined;
-  PerMetre before, after;
+  PerMetre before, after, held_out;
+  std::vector<UsedTruth> truth;
   for (std::size_t i = 0; i < recordings.size() && anything; ++i) {
     const TimeStretches left_out = how.left_out_of(i).value_or(TimeStretches{});
-    before.add(recordings[i], *nominal, left_out);
-    after.add(recordings[i], by_its_own_clock(calibration->vehicle, *calibration, i), left_out);
+    truth.push_back(used_truth(recordings[i], calibration->parts.front().calibration, i, how));
+    before.add(recordings[i], *nominal, left_out, truth[i]);
+    after.add(recordings[i], by_its_own_clock(calibration->vehicle, *calibration, i), left_out, truth[i]);
   }
-  const std::string held_out =
-      anything && recordings.size() > 1 ? held_out_text(recordings, *nominal, how, *calibration) : "";
+  std::vector<std::string> of_several;
+  if (anything && recordings.size() > 1) {
+    held_out = held_out_in_turn(recordings, *nominal, how, *calibration, truth);
+    of_several = warnings_of_several(recordings, *nominal, how, before, held_out);
+  }
   if (interrupted()) return stopped_before_its_end();
   if (!options.out.empty() && anything)
     if (Result<Done> written = write_vehicle(options.out, calibration->vehicle); !written)
@@ -165,8 +191,9 @@ int execute_calibrate(const CalibrateOptions& options) {
   }
   std::printf("\nerror gathered %s (dead reckoning against truth)\n", over_which_way(median_of(after.windows)).c_str());
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
-  if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out});
+  if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out.text()});
   print_table(rows);
+  for (const std::string& warning : of_several) print_message("warning: " + warning);
   for (const CalibratedPart& part : calibration->parts)
     for (const auto* warnings : {&part.calibration.warnings, &part.calibration.of_misfit})
       for (const std::string& warning : *warnings)

@@ -135,6 +135,55 @@ TEST(CommandLine, CalibratesWhatItSimulated) {
   EXPECT_EQ(text_of_file(folder / "track.csv").substr(0, 27), "time_s,x_m,y_m,heading_rad\n");
 }
 
+// A drive in figures of eight by a robot whose wheels are that many times as large as drawn; where it is recorded.
+std::string recorded_eight(const fs::path& folder, const std::string& name, double wheels_times) {
+  write(folder / (name + ".toml"),
+        "name = \"eight\"\nvehicle = \"" ODOLAB_SOURCE_DIR
+        "/assets/vehicles/labmate.toml\"\n[actual]\nwheel_radius_left_m = " +
+            std::to_string(0.075 * wheels_times) + "\nwheel_radius_right_m = " + std::to_string(0.075 * wheels_times) +
+            "\n[path]\nkind = \"figure_eight\"\nradius_m = 0.8\nloops = 1\n[sensors]\ntruth_period_s = 0.02\n"
+            "truth_position_noise_m = 0.001\ntruth_heading_noise_rad = 0.002\n");
+  EXPECT_EQ(odolab("run " + (folder / (name + ".toml")).string() + " --out " + (folder / name).string()).exit_code, 0);
+  fs::rename(folder / name / "recording.csv", folder / (name + ".csv"));
+  return " " + (folder / (name + ".csv")).string();
+}
+
+TEST(CommandLine, CalibrateNamesTheRecordingOfAnotherRobot) {
+  const fs::path folder = fresh_folder("odd");
+  const std::string calibrate = "calibrate --vehicle " + kLabMate, one = recorded_eight(folder, "one", 1.0),
+                    two = recorded_eight(folder, "two", 1.001), other = recorded_eight(folder, "other", 0.9);
+  const Outcome mixed = odolab(calibrate + one + other + two);
+  EXPECT_EQ(mixed.exit_code, 0);
+  EXPECT_NE(mixed.errors.find("warning: other.csv does not go with one.csv and two.csv"), std::string::npos)
+      << mixed.errors;
+  EXPECT_NE(mixed.errors.find("each recording predicted from the others errs by"), std::string::npos) << mixed.errors;
+  const Outcome alike = odolab(calibrate + one + two);
+  EXPECT_EQ(alike.exit_code, 0);
+  EXPECT_EQ(alike.errors.find("does not go with"), std::string::npos) << alike.errors;
+  EXPECT_EQ(alike.errors.find("errs by"), std::string::npos) << alike.errors;
+}
+
+TEST(CommandLine, CalibrateCountsNoTruthThatItSetAside) {
+  const fs::path folder = fresh_folder("set_aside");
+  std::istringstream whole(text_of_file(ODOLAB_SOURCE_DIR "/assets/recordings/simulated_eight.csv"));
+  std::string text;
+  int row = 0;
+  for (std::string line; std::getline(whole, line); ++row) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    if (row > 0 && row % 50 == 0 && cells.size() == 6 && !cells[3].empty()) cells[3] = cells[4] = cells[5] = "9";
+    for (const std::string& cell : cells) text += (&cell == &cells.front() ? "" : ",") + cell;
+    text += "\n";
+  }
+  write(folder / "lost.csv", text);
+  const Outcome found = odolab("calibrate --vehicle " + kLabMate + " " + (folder / "lost.csv").string());
+  ASSERT_EQ(found.exit_code, 0) << found.errors;
+  const std::size_t after = found.output.find("after ", found.output.find("error gathered"));
+  ASSERT_NE(after, std::string::npos) << found.output;
+  EXPECT_LT(std::stod(found.output.substr(after + 6)), 20.0) << found.output;  // mm; the truth errs by metres at times
+}
+
 TEST(CommandLine, RefusesBadInputWithOneLine) {
   const fs::path folder = fresh_folder("bad_input");
   const auto path = [&](const char* name) { return (folder / name).string(); };

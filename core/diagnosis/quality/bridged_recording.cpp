@@ -8,6 +8,7 @@
 #include "core/calibration/evened_recording.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/repeated_stamps.h"
+#include "core/diagnosis/quality/no_fix.h"
 #include "core/diagnosis/quality/quality.h"
 #include "core/diagnosis/quality/unmeasured_heading.h"
 #include "core/recording/truth_left_out.h"
@@ -23,15 +24,19 @@ Recording without_truth(Recording recording) {
 
 }  // namespace
 
-BridgedRecording bridged_recording(const Recording& recording, const Vehicle& vehicle, Looks looks) {
+BridgedRecording bridged_recording(const Recording& recording, const Vehicle& vehicle, Looks looks,
+                                   const std::optional<AlignedClock>& clock) {
   BridgedRecording out{recording, {}, {}};
   Vehicle as_drive = vehicle;
   if (const auto* tracked = std::get_if<Tracked>(&vehicle.kind)) as_drive.kind = as_differential_drive(*tracked);
   const auto* drive = std::get_if<DifferentialDrive>(&as_drive.kind);
   if (!drive || wheel_samples(recording, *drive).size() < 2) return out;
-  CheckedRecording ready = checked(looks == Looks::at_truth_too ? recording : without_truth(recording), as_drive);
+  CheckedRecording ready =
+      checked(looks == Looks::at_truth_too ? recording : without_truth(recording), as_drive, clock);
   for (const DataFault& fault : ready.faults)
     if (fault.effect == "encoder_data_fault" || fault.effect == kEncoderGap) out.said.push_back(in_words(fault));
+  if (looks == Looks::at_truth_too)
+    if (const auto said = said_of_rows_without_fix(recording, rows_without_fix(recording))) out.said.push_back(*said);
   if (looks == Looks::at_truth_too)
     if (const auto said = unmeasured_heading(truth_samples(recording), wheel_samples(recording, *drive), *drive))
       out.said.push_back(recording.name + ": " + *said);

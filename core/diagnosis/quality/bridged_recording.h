@@ -1,10 +1,12 @@
 // Recordings for those who know nothing of faults: calibration and prediction.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/calibration/aligned_clock.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -20,7 +22,9 @@ struct BridgedRecording {
 
 enum class Looks { at_wheels_alone, at_truth_too };
 
-// Of a differential or tracked drive; of other kinds, and of commands, nothing is changed.
-BridgedRecording bridged_recording(const Recording& recording, const Vehicle& vehicle, Looks looks);
+// Of a differential or tracked drive; of other kinds, and of commands, nothing is changed. `clock`: the truth's, where
+// it is known to be another than the vehicle's file says.
+BridgedRecording bridged_recording(const Recording& recording, const Vehicle& vehicle, Looks looks,
+                                   const std::optional<AlignedClock>& clock = {});
 
 }  // namespace odolab

@@ -14,6 +14,7 @@
 #include "core/calibration/restamped.h"
 #include "core/diagnosis/quality/drawn_truth.h"
 #include "core/diagnosis/quality/encoder_jumps.h"
+#include "core/diagnosis/quality/no_fix.h"
 #include "core/diagnosis/quality/obeying_wheels.h"
 #include "core/diagnosis/quality/standing_encoder.h"
 #include "core/diagnosis/quality/unheard_commands.h"
@@ -112,7 +113,12 @@ CheckedRecording checked(const Recording& as_logged, const Vehicle& vehicle, con
     out.recording = with_obeying_wheels(recording, drive);
     wheels = without_repeated(obeying_wheels(command_samples(recording), drive));
   }
-  std::vector<TruthSample> truth = truth_samples(recording);
+  const std::vector<char> without_fix = rows_without_fix(out.recording);
+  if (const auto said = said_of_rows_without_fix(out.recording, without_fix)) {
+    leave_truth_out(out.recording, without_fix);
+    out.warnings.push_back(*said);
+  }
+  std::vector<TruthSample> truth = truth_samples(out.recording);
   constexpr std::size_t kFewest = 4;
   if (wheels.size() < kFewest) return out;
   if (const std::optional<std::string> said = unmeasured_heading(truth, wheels, drive)) {
