@@ -127,10 +127,12 @@ Command import_command() {
     arguments.option(
         "--truth", options->wishes.truth,
         "bags: the topic of the outside truth, for transforms TOPIC:PARENT:CHILD (frames may lie between), or none");
-    arguments.files("--map", options->columns,
-                    "text: what columns become, CHANNEL=COLUMN[,UNIT][,rate or increment][,FACTOR]; a minus before the "
-                    "column turns its sign",
-                    false);
+    arguments.files(
+        "--map", options->columns,
+        "text: what columns become, CHANNEL=COLUMN[,UNIT][,rate or increment][,FACTOR]; a minus before the "
+        "column turns its sign. Beside a recording's columns truth_qx, truth_qy, truth_qz, truth_qw make the "
+        "heading of a quaternion, and time_s=header.stamp adds ROS's seconds and nanoseconds",
+        false);
     arguments.option("--mapping", options->mapping, "text: the same in a file (TOML), with delimiter and comment");
     arguments.option("--delimiter", options->delimiter, "text: comma, semicolon, tab or blank, where it is not plain");
     arguments.option("--period", options->period_s, "text: seconds between rows, where no column has the time");

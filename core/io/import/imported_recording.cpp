@@ -137,9 +137,11 @@ Result<SampleStreams> streams_of(const std::vector<std::string>& sources,
   fs::path first = fs::path(sources.front()).lexically_normal();
   if (first.filename().empty()) first = first.parent_path();
   streams.name = first.filename().string();
-  for (std::size_t i = 0; i < sources.size(); ++i)
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    streams.source = fs::path(sources[i]).filename().string();
     if (Result<Done> done = formats[i]->stream(sources[i], wishes, streams); !done || stop)
       return stop ? stopped(sources[i]) : done.error();
+  }
   streams.progress = progress;
   std::vector<std::string> channels;
   for (const SampleSpool& stream : streams.streams)

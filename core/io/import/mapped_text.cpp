@@ -1,5 +1,6 @@
 // Any text of rows and columns, through a mapping that a person gives.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -42,10 +43,37 @@ std::string listed_in_quotes(const std::vector<std::string>& names) {
   return names.size() > 12 ? text + ", ..." : text;
 }
 
-bool all_numbers(TextRows& rows, const std::vector<std::string_view>& cells) {
+bool all_numbers_or_times(TextRows& rows, const std::vector<std::string_view>& cells) {
   for (std::string_view cell : cells)
-    if (!says_nothing(cell) && !rows.number(cell)) return false;
+    if (!says_nothing(cell) && !rows.number(cell) && !time_of_day_ns(cell) && !stamp_ns(cell, 1)) return false;
   return true;
+}
+
+// ROS writes a stamp as two columns of one name: its whole seconds, and the nanoseconds after them.
+struct StampColumns {
+  std::size_t seconds, nanoseconds;
+};
+
+// Those that a mapped column of the time is one of, or that it is the common name of.
+std::optional<StampColumns> stamp_columns(const MappedColumn& time, std::optional<std::size_t> at,
+                                          const std::vector<std::string>& header) {
+  if (time.factor != 1.0) return std::nullopt;
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t i = 0; i < header.size(); ++i)
+    for (const std::string seconds : {"sec", "secs"}) {
+      if (!header[i].ends_with(seconds)) continue;
+      const std::string before = header[i].substr(0, header[i].size() - seconds.size());
+      if (!before.empty() && is_letter(before.back())) continue;
+      for (const std::string nanoseconds : {"nanosec", "nanosecs", "nsec", "nsecs"}) {
+        const auto found = std::find(header.begin(), header.end(), before + nanoseconds);
+        if (found == header.end()) continue;
+        const StampColumns stamp{i, static_cast<std::size_t>(found - header.begin())};
+        const bool is_common_name = !at && !before.empty() && before.substr(0, before.size() - 1) == time.column;
+        if ((at == stamp.seconds || is_common_name) && (time.unit.empty() || time.unit == "s")) return stamp;
+        if (at == stamp.nanoseconds && (time.unit.empty() || time.unit == "ns")) return stamp;
+      }
+    }
+  return std::nullopt;
 }
 
 double added_up(Source& source, double value, std::int64_t time_ns) {
@@ -61,16 +89,20 @@ double added_up(Source& source, double value, std::int64_t time_ns) {
 struct Layout {
   std::vector<Source> sources;  // one for each channel of the stream, in its order
   Source time, quaternion[4];
+  std::size_t nanoseconds = kNowhere;  // of the stamp whose whole seconds are the time
   std::vector<std::string> channels;
 };
 
 std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::string>& header, std::size_t cells,
                              const std::string& path, std::uint64_t line, bool one_of_several, Layout& layout) {
   for (const MappedColumn& column : mapping.columns) {
-    const std::optional<std::size_t> at = column_index(column.column, header, cells);
+    std::optional<std::size_t> at = column_index(column.column, header, cells);
     if (std::count(header.begin(), header.end(), column.column) > 1)
       return Error{path + ":" + std::to_string(line), "several columns " + in_quotes(column.column),
                    "one, or the column's number in the mapping"};
+    std::optional<StampColumns> stamp;
+    if (column.becomes == "time_s") stamp = stamp_columns(column, at, header);
+    if (stamp) at = stamp->seconds;
     if (!at && one_of_several && !header.empty()) continue;
     if (!at)
       return Error{
@@ -81,6 +113,7 @@ std::optional<Error> lay_out(const TextMapping& mapping, const std::vector<std::
                         unit_factor(column.becomes, column.kind, column.unit).value_or(1.0) * column.factor};
     if (column.becomes == "time_s") {
       layout.time = source;
+      layout.nanoseconds = stamp ? stamp->nanoseconds : kNowhere;
     } else if (column.becomes.substr(0, 7) == "truth_q") {
       layout.quaternion[std::string("xyzw").find(column.becomes.back())] = source;
     } else {
@@ -116,6 +149,36 @@ std::optional<std::string> no_seconds(const MappedColumn& time, double lasted_s,
          "' is in seconds: time_s=" + time.column + ",ms (or us, ns) says otherwise";
 }
 
+// Whole seconds that a log of more rows than one a second bears.
+struct WholeSeconds {
+  bool all = true;
+  std::uint64_t repeated = 0, first_line = 0;  // rows with the stamp of the row before
+  std::int64_t last_ns = 0;
+
+  void add(std::int64_t time_ns, bool is_first, std::uint64_t line) {
+    all = all && time_ns % 1'000'000'000 == 0;
+    if (!is_first && time_ns == last_ns && repeated++ == 0) first_line = line;
+    last_ns = time_ns;
+  }
+  std::optional<std::string> doubt(const MappedColumn& time, std::uint64_t rows) const {
+    constexpr std::uint64_t kFewest = 10;
+    if (!all || rows < kFewest || 2 * repeated < rows) return std::nullopt;
+    return std::to_string(repeated) + " of " + std::to_string(rows) +
+           " rows bear the same stamp as the row before, the first in line " + std::to_string(first_line) + ": " +
+           in_quotes(time.column) +
+           " has whole seconds; map time_s to a column with parts of them, or leave it out and give the period between "
+           "rows";
+  }
+};
+
+// The second of a row and the nanoseconds after it; nothing where they are none.
+std::optional<std::int64_t> added_ns(std::optional<std::int64_t> second_ns, std::optional<std::int64_t> after_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  if (!second_ns || !after_ns || *second_ns % kSecond_ns != 0 || *after_ns < 0 || *after_ns >= kSecond_ns)
+    return std::nullopt;
+  return *second_ns + *after_ns;
+}
+
 bool recognises_none(const std::string&, std::string_view) { return false; }  // only where a mapping is given
 
 Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wishes, SampleStreams& streams) {
@@ -127,7 +190,7 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
 
   // names stand in a first row that is not all numbers, or in the comment above the first row
   std::vector<std::string> header;
-  const bool named = !all_numbers(*rows, cells);
+  const bool named = !all_numbers_or_times(*rows, cells);
   if (named) {
     header.assign(cells.begin(), cells.end());
   } else if (!rows->last_comment().empty()) {
@@ -151,18 +214,26 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
   std::vector<double> values(layout.channels.size());
   std::int64_t first_ns = 0, last_ns = std::numeric_limits<std::int64_t>::min(), row_number = 0;
   std::uint64_t kept = 0, out_of_order = 0;
+  WholeSeconds whole_seconds;
   bool more = !named || rows->next(cells);
   for (; more; more = rows->next(cells)) {
-    const auto cell_of = [&](const Source& source) {
-      return source.cell < cells.size() ? cells[source.cell] : std::string_view();
-    };
+    const auto cell_at = [&](std::size_t at) { return at < cells.size() ? cells[at] : std::string_view(); };
+    const auto cell_of = [&](const Source& source) { return cell_at(source.cell); };
     std::optional<std::int64_t> time_ns;
-    if (layout.time.cell != kNowhere) {
+    if (layout.nanoseconds != kNowhere) {
+      time_ns = added_ns(rows->stamp_ns(cell_of(layout.time), unit_ns("s")),
+                         rows->stamp_ns(cell_at(layout.nanoseconds), unit_ns("ns")));
+    } else if (layout.time.cell != kNowhere) {
       time_ns = rows->stamp_ns(cell_of(layout.time), unit_ns(layout.time.mapped->unit));
       if (time_ns && layout.time.mapped->factor != 1.0)
         time_ns = whole_ns(static_cast<double>(*time_ns) * layout.time.mapped->factor);
     } else {
       time_ns = whole_ns(static_cast<double>(row_number++) * mapping.period_s * 1e9);
+    }
+    if (!time_ns && layout.nanoseconds != kNowhere) {
+      left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " and " + in_quotes(cell_at(layout.nanoseconds)) +
+                                     " are no whole second and its nanoseconds");
+      continue;
     }
     if (!time_ns) {
       left_out.add(rows->line(), in_quotes(cell_of(layout.time)) + " is no time in " +
@@ -213,10 +284,10 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       continue;
     }
     if (watch.add(1e-9 * static_cast<double>(*time_ns)))
-      jump = {path + ":" + std::to_string(rows->line()) + ": time_s",
-              "a row " + number_text("%.10g", 1e-9 * static_cast<double>(*time_ns - last_ns)) +
-                  " s after the one before",
-              std::string(kRowsOfOneClock) + ", in the unit that the mapping gives (s, ms, us, ns)"};
+      jump = {
+          path + ":" + std::to_string(rows->line()) + ": time_s",
+          "a row " + number_text("%.10g", 1e-9 * static_cast<double>(*time_ns - last_ns)) + " s after the one before",
+          std::string(kRowsOfOneClock) + ", in the unit that the mapping gives (s, ms, us, ns)"};
     last_ns = *time_ns;
     for (std::size_t i = 0; i < layout.sources.size(); ++i)
       if (layout.sources[i].mapped->kind != ColumnKind::total && !std::isnan(values[i]))
@@ -226,6 +297,7 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
       any = any || !std::isnan(value);
     }
     if (!any) continue;  // a row of other columns
+    whole_seconds.add(*time_ns, kept == 0, rows->line());
     if (kept++ == 0) first_ns = *time_ns;
     spool.add(*time_ns, values.data());
   }
@@ -237,12 +309,21 @@ Result<Done> stream_mapped_text(const std::string& path, const ImportWishes& wis
   constexpr std::uint64_t kFew = 10;
   if (kept == 0 || (left_out.count() > kept && left_out.count() > kFew))
     return left_out.error(path, "rows of numbers in the mapped columns");
+  if (const std::string cell = rows->doubtful_comma(); !cell.empty())
+    return Error{path, in_quotes(cell) + ", whose comma may divide thousands",
+                 "decimal points, or cells that semicolons divide"};
   if (!watch.is_one_clock()) return jump;
   const std::string name = std::filesystem::path(path).filename().string();
   left_out.warn(name, streams.warnings);
-  if (layout.time.cell != kNowhere)
+  if (layout.nanoseconds != kNowhere)
+    streams.warnings.push_back(name + ": time_s is the sum of " + in_quotes(header[layout.time.cell]) + " and " +
+                               in_quotes(header[layout.nanoseconds]));
+  if (layout.time.cell != kNowhere) {
     if (const auto doubt = no_seconds(*layout.time.mapped, 1e-9 * static_cast<double>(last_ns - first_ns), kept))
       streams.warnings.push_back(name + ": " + *doubt);
+    if (const auto doubt = whole_seconds.doubt(*layout.time.mapped, kept))
+      streams.warnings.push_back(name + ": " + *doubt);
+  }
   if (rows->decimal_commas()) streams.warnings.push_back(name + ": commas in numbers are taken for decimal points");
   if (streams.provenance.empty()) streams.provenance = "text, by a mapping";
   return Done{};

@@ -30,6 +30,7 @@ class SampleSpool {
   std::uint64_t late() const { return late_; }
   std::uint64_t beyond() const { return beyond_; }
   std::int64_t first_ns() const { return first_ns_ + shift_ns_; }  // of no use where there are none
+  std::int64_t last_ns() const { return last_ns_ + shift_ns_; }    // after finish()
 
   // A channel that only ever stays within a turn and jumps by one is made continuous when it is read back: an angle
   // that was written wrapped.

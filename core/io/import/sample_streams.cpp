@@ -14,6 +14,52 @@ namespace odolab {
 
 namespace {
 
+// When a source's samples begin and end.
+struct Span {
+  std::string source;
+  std::int64_t first_ns, last_ns;
+
+  std::string text() const {
+    return "from " + number_text("%.3f", 1e-9 * static_cast<double>(first_ns)) + " to " +
+           number_text("%.3f", 1e-9 * static_cast<double>(last_ns)) + " s in " + source;
+  }
+};
+
+std::vector<Span> spans_of(const SampleStreams& from) {
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i < from.streams.size(); ++i) {
+    const SampleSpool& stream = from.streams[i];
+    if (stream.size() == 0) continue;
+    const auto known =
+        std::find_if(spans.begin(), spans.end(), [&](const Span& span) { return span.source == from.sources[i]; });
+    if (known == spans.end()) {
+      spans.push_back({from.sources[i], stream.first_ns(), stream.last_ns()});
+    } else {
+      known->first_ns = std::min(known->first_ns, stream.first_ns());
+      known->last_ns = std::max(known->last_ns, stream.last_ns());
+    }
+  }
+  return spans;
+}
+
+// Sources that never measured at the same time: of two clocks where a day and more lies between, to be doubted else.
+std::optional<Error> two_clocks(SampleStreams& from) {
+  std::vector<Span> spans = spans_of(from);
+  std::stable_sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.first_ns < b.first_ns; });
+  for (std::size_t i = 1, latest = 0; i < spans.size(); ++i) {
+    const Span &before = spans[latest], &span = spans[i];
+    if (span.last_ns > before.last_ns) latest = i;
+    if (span.first_ns <= before.last_ns) continue;
+    const std::string times = "times " + before.text() + " and " + span.text();
+    if (1e-9 * static_cast<double>(span.first_ns - before.last_ns) > kLongestPause_s)
+      return Error{from.name, times,
+                   "times of one clock that overlap: map each file's in its unit (s, ms, us, ns), and where clocks "
+                   "differ add to one file's times what it is behind"};
+    from.warnings.push_back(times + " do not overlap: the files may be by two clocks");
+  }
+  return std::nullopt;
+}
+
 // Rows out of several streams, each in order of time.
 class Rows {
  public:
@@ -40,6 +86,7 @@ class Rows {
       rows.heads_.push_back({&stream, 0, std::vector<double>(stream.channels().size()), true});
     }
     if (rows.heads_.empty()) return Error{from.name, "no sample", "wheels, commands or a truth"};
+    if (const std::optional<Error> error = two_clocks(from)) return *error;
     std::int64_t zero = std::numeric_limits<std::int64_t>::max();
     for (Head& head : rows.heads_) {
       zero = std::min(zero, head.stream->first_ns());
@@ -113,6 +160,7 @@ class Rows {
 Error stopped(const std::string& path) { return {path, "a wish to stop", "time to finish; nothing was written"}; }
 
 SampleSpool& SampleStreams::add_stream(std::vector<std::string> channels) {
+  sources.push_back(source);
   streams.emplace_back(std::move(channels), spill_folder);
   return streams.back();
 }

@@ -14,6 +14,8 @@ namespace odolab {
 
 struct SampleStreams {
   std::deque<SampleSpool> streams;
+  std::vector<std::string> sources;   // the name of the one that each stream comes from
+  std::string source;                 // that of streams that are added now
   std::vector<std::string> warnings;  // what a person should know, a sentence each
   std::string name, provenance;       // as in Recording
   bool several_sources = false;       // then each may bring some of what was asked for

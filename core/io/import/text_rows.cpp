@@ -52,19 +52,48 @@ bool TextRows::next_line(std::string_view& line) {
   return !bytes.empty();
 }
 
-std::string_view TextRows::with_point(std::string_view cell) {
-  return shape_.delimiter == ',' ? cell : with_decimal_point(cell, pointed_);
+// One to three digits without a leading zero, a comma, and three more.
+bool TextRows::looks_like_thousands(std::string_view cell) const {
+  if (shape_.delimiter != ',') return false;
+  if (!cell.empty() && (cell.front() == '-' || cell.front() == '+')) cell.remove_prefix(1);
+  const std::size_t comma = cell.find(',');
+  return comma >= 1 && comma <= 3 && cell.front() != '0' && cell.size() == comma + 4 &&
+         cell.find_first_of(".eE") == std::string_view::npos;
+}
+
+void TextRows::note_point(std::string_view cell) {
+  if (cell.find(',') == std::string_view::npos) {
+    points_ = points_ || cell.find('.') != std::string_view::npos;
+    return;
+  }
+  decimal_commas_ = true;
+  const bool thousands = looks_like_thousands(cell);
+  surely_decimal_ = surely_decimal_ || !thousands;
+  if (thousands && thousands_.empty()) thousands_ = cell;
 }
 
 std::optional<double> TextRows::number(std::string_view cell) {
-  const std::string_view pointed = with_point(cell);
-  const std::optional<double> value = number_from(pointed);
-  if (value && pointed.data() != cell.data()) decimal_commas_ = true;
+  if (points_ && looks_like_thousands(cell)) return std::nullopt;
+  const std::optional<double> value = number_from(with_decimal_point(cell, pointed_));
+  if (value) note_point(cell);
   return value;
 }
 
 std::optional<std::int64_t> TextRows::stamp_ns(std::string_view cell, std::int64_t unit_ns) {
-  return odolab::stamp_ns(with_point(cell), unit_ns);
+  if (const std::optional<std::int64_t> of_day_ns = time_of_day_ns(cell)) {
+    constexpr std::int64_t kHour_ns = 3'600'000'000'000, kDay_ns = 24 * kHour_ns;
+    // a row that comes late steps back by little, midnight by almost a day
+    const std::int64_t step_ns = *of_day_ns - last_of_day_ns_.value_or(*of_day_ns);
+    if (step_ns < -kHour_ns && midnight_ns_ < kLatest_ns) midnight_ns_ += kDay_ns;
+    if (step_ns > kDay_ns - kHour_ns && midnight_ns_ > -kLatest_ns) midnight_ns_ -= kDay_ns;
+    last_of_day_ns_ = of_day_ns;
+    return midnight_ns_ + *of_day_ns;
+  }
+  const bool is_date = cell.find(':') != std::string_view::npos;
+  if (!is_date && points_ && looks_like_thousands(cell)) return std::nullopt;
+  const std::optional<std::int64_t> ns = odolab::stamp_ns(with_decimal_point(cell, pointed_), unit_ns);
+  if (ns && !is_date) note_point(cell);
+  return ns;
 }
 
 bool TextRows::next(std::vector<std::string_view>& cells) {
@@ -134,40 +163,64 @@ std::int64_t days_from_1970(std::int64_t year, std::int64_t month, std::int64_t 
   return 146097 * era + 365 * of_era + of_era / 4 - of_era / 100 + of_year - 719468;
 }
 
-// "2024-01-31T12:00:00.25", a blank in place of the T, with Z or an offset behind or nothing.
-std::optional<std::int64_t> date_ns(std::string_view text) {
-  const auto digits = [&](std::size_t at, std::size_t n) -> std::int64_t {
-    std::int64_t value = 0;
-    for (std::size_t i = at; i < at + n; ++i) {
-      if (i >= text.size() || text[i] < '0' || text[i] > '9') return -1;
-      value = 10 * value + (text[i] - '0');
-    }
-    return value;
-  };
-  const auto is = [&](std::size_t at, char a, char b) { return at < text.size() && (text[at] == a || text[at] == b); };
-  const std::int64_t year = digits(0, 4), month = digits(5, 2), day = digits(8, 2), hour = digits(11, 2),
-                     minute = digits(14, 2), second = digits(17, 2);
-  if (!is(4, '-', '/') || !is(7, '-', '/') || !is(10, 'T', ' ') || !is(13, ':', ':') || !is(16, ':', ':') ||
-      year < 1970 || year > 2099 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 || hour > 23 ||
+// The number that n digits make from there on; -1 where they are none.
+std::int64_t digits(std::string_view text, std::size_t at, std::size_t n) {
+  std::int64_t value = 0;
+  for (std::size_t i = at; i < at + n; ++i) {
+    if (i >= text.size() || text[i] < '0' || text[i] > '9') return -1;
+    value = 10 * value + (text[i] - '0');
+  }
+  return value;
+}
+
+bool is_either(std::string_view text, std::size_t at, char a, char b) {
+  return at < text.size() && (text[at] == a || text[at] == b);
+}
+
+// "12:00:00.25" from there on, with so many digits for the hour; `at` is moved behind it.
+std::optional<std::int64_t> hours_to_seconds_ns(std::string_view text, std::size_t& at, std::size_t of_hour) {
+  const std::size_t colon = at + of_hour;
+  const std::int64_t hour = digits(text, at, of_hour), minute = digits(text, colon + 1, 2),
+                     second = digits(text, colon + 4, 2);
+  if (!is_either(text, colon, ':', ':') || !is_either(text, colon + 3, ':', ':') || hour < 0 || hour > 23 ||
       minute < 0 || minute > 59 || second < 0 || second > 60)
     return std::nullopt;
-  std::int64_t ns = ((days_from_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second;
-  ns *= 1'000'000'000;
-  std::size_t at = 19;
-  if (is(at, '.', ',')) {
+  std::int64_t ns = ((hour * 60 + minute) * 60 + second) * 1'000'000'000;
+  at = colon + 6;
+  if (is_either(text, at, '.', ',')) {
     std::int64_t place = 100'000'000;
     for (++at; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at, place /= 10)
       ns += place * (text[at] - '0');
   }
+  return ns;
+}
+
+// "2024-01-31T12:00:00.25", a blank in place of the T, with Z or an offset behind or nothing.
+std::optional<std::int64_t> date_ns(std::string_view text) {
+  const std::int64_t year = digits(text, 0, 4), month = digits(text, 5, 2), day = digits(text, 8, 2);
+  if (!is_either(text, 4, '-', '/') || !is_either(text, 7, '-', '/') || !is_either(text, 10, 'T', ' ') || year < 1970 ||
+      year > 2099 || month < 1 || month > 12 || day < 1 || day > 31)
+    return std::nullopt;
+  std::size_t at = 11;
+  const std::optional<std::int64_t> of_day_ns = hours_to_seconds_ns(text, at, 2);
+  if (!of_day_ns) return std::nullopt;
+  const std::int64_t ns = days_from_1970(year, month, day) * 86'400'000'000'000 + *of_day_ns;
   if (at == text.size() || (text[at] == 'Z' && at + 1 == text.size())) return ns;
-  const std::int64_t hours = digits(at + 1, 2), minutes = digits(at + (is(at + 3, ':', ':') ? 4 : 3), 2);
-  const std::size_t whole = at + (is(at + 3, ':', ':') ? 6 : 5);
-  if (!is(at, '+', '-') || hours < 0 || minutes < 0 || text.size() != whole) return std::nullopt;
+  const std::int64_t hours = digits(text, at + 1, 2),
+                     minutes = digits(text, at + (is_either(text, at + 3, ':', ':') ? 4 : 3), 2);
+  const std::size_t whole = at + (is_either(text, at + 3, ':', ':') ? 6 : 5);
+  if (!is_either(text, at, '+', '-') || hours < 0 || minutes < 0 || text.size() != whole) return std::nullopt;
   const std::int64_t offset_ns = (hours * 60 + minutes) * 60'000'000'000;
   return text[at] == '+' ? ns - offset_ns : ns + offset_ns;
 }
 
 }  // namespace
+
+std::optional<std::int64_t> time_of_day_ns(std::string_view text) {
+  std::size_t at = 0;
+  const std::optional<std::int64_t> ns = hours_to_seconds_ns(text, at, is_either(text, 1, ':', ':') ? 1 : 2);
+  return at == text.size() ? ns : std::nullopt;
+}
 
 std::optional<std::int64_t> stamp_ns(std::string_view text, std::int64_t unit_ns) {
   if (text.size() >= 19 && (text[4] == '-' || text[4] == '/')) return date_ns(text);

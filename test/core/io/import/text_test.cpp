@@ -73,6 +73,118 @@ TEST(MappedText, TakesDecimalCommasWhereTheyDivideNoCells) {
   EXPECT_EQ(imported->warnings, std::vector<std::string>{"log.csv: commas in numbers are taken for decimal points"});
 }
 
+// As pandas writes it where the comma is the decimal point.
+TEST(MappedText, TakesDecimalCommasInQuotesWhereCommasDivideCells) {
+  ScratchFolder folder;
+  const auto imported = [&](const std::string& text) {
+    const std::string path = folder.write("log.csv", text);
+    return import_recording({path}, mapped({"time_s=t", "left_wheel_rad=l", "right_wheel_rad=r"}));
+  };
+  const Result<ImportedRecording> read = imported("t,l,r\n\"0,000\",0,0\n\"0,020\",\"2,004\",\"-1,5\"\n");
+  ASSERT_TRUE(read.ok()) << read.error().message();
+  EXPECT_EQ(read->recording.time_s, (std::vector<double>{0.0, 0.02}));
+  EXPECT_EQ(read->recording.channel("left_wheel_rad")->values, (std::vector<double>{0.0, 2.004}));
+  EXPECT_EQ(read->recording.channel("right_wheel_rad")->values, (std::vector<double>{0.0, -1.5}));
+  EXPECT_EQ(read->warnings, std::vector<std::string>{"log.csv: commas in numbers are taken for decimal points"});
+}
+
+TEST(MappedText, TakesNoCommaForADecimalPointThatMayDivideThousands) {
+  ScratchFolder folder;
+  const auto said = [&](const std::string& text) {
+    const std::string path = folder.write("log.csv", text);
+    return message_of(import_recording({path}, mapped({"time_s=t", "left_ticks=l", "right_ticks=r"})), path);
+  };
+  const std::string doubt =
+      "log.csv: found '1,004', whose comma may divide thousands, expected decimal points, or cells that semicolons "
+      "divide";
+  EXPECT_EQ(said("t,l,r\n0,0,0\n1,\"1,004\",999\n"), doubt);
+  EXPECT_EQ(said("t,l,r\n0,\"1,004\",0\n0.5,0,\"0,5\"\n"), doubt);
+}
+
+TEST(TextStamp, ReadsTimesOfDay) {
+  EXPECT_EQ(time_of_day_ns("12:00:00"), 43'200'000'000'000);
+  EXPECT_EQ(time_of_day_ns("9:00:00,25"), 32'400'250'000'000);
+  for (const char* none : {"", "12:00", "24:00:00", "12:60:00", "12:00:00 PM", "1:2:3", "123:00:00"})
+    EXPECT_FALSE(time_of_day_ns(none)) << none;
+}
+
+// A row that comes late neither turns the day nor turns it back.
+TEST(MappedText, CountsTimesOfDayPastMidnight) {
+  ScratchFolder folder;
+  const std::string path = folder.write(
+      "log.csv", "t;l;r\n23:59:59.500;0;0\n23:59:59,900;1;1\n00:00:00.1;2;2\n23:59:59.950;9;9\n0:00:00.5;3;3\n");
+  const Result<ImportedRecording> imported =
+      import_recording({path}, mapped({"time_s=t", "left_ticks=l", "right_ticks=r"}));
+  ASSERT_TRUE(imported.ok()) << imported.error().message();
+  EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 0.4, 0.6, 1.0}));
+  EXPECT_EQ(imported->recording.channel("left_ticks")->values, (std::vector<double>{0.0, 1.0, 2.0, 3.0}));
+  EXPECT_EQ(imported->warnings,
+            std::vector<std::string>{"log.csv: 1 row left out, the first in line 5: time goes back"});
+}
+
+TEST(MappedText, KeepsTheFirstRowOfTimesWithoutNames) {
+  ScratchFolder folder;
+  for (const std::string day : {"", "2024-01-31 "}) {
+    const std::string path = folder.write("log.csv", day + "12:00:00.0,1,2\n" + day + "12:00:00.5,3,4\n");
+    const Result<ImportedRecording> imported =
+        import_recording({path}, mapped({"time_s=1", "left_ticks=2", "right_ticks=3"}));
+    ASSERT_TRUE(imported.ok()) << imported.error().message();
+    EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 0.5})) << day;
+  }
+}
+
+// Whichever of the two columns is mapped, or both, or the name that they share.
+TEST(MappedText, AddsNanosecondsToTheSecondsOfAStamp) {
+  ScratchFolder folder;
+  const std::vector<std::vector<std::string>> names = {
+      {"header.stamp", ".sec", ".nanosec"}, {"/odom/stamp", "/secs", "/nsecs"}, {"stamp", "_sec", "_nsec"}};
+  for (const std::vector<std::string>& name : names) {
+    const std::string seconds = name[0] + name[1], nanoseconds = name[0] + name[2];
+    const std::string path = folder.write("log.csv", seconds + "," + nanoseconds + ",l,r\n" +
+                                                         "1712345678,999999999,0,0\n1712345679,8,1,1\n"
+                                                         "1712345679,20000000,2,2\n");
+    const std::vector<std::vector<std::string>> mappings = {{"time_s=" + seconds},
+                                                            {"time_s=" + name[0]},
+                                                            {"time_s=1,s"},
+                                                            {"time_s=" + nanoseconds + ",ns"},
+                                                            {"time_s=" + seconds, "time_s=" + nanoseconds + ",ns"}};
+    for (std::vector<std::string> columns : mappings) {
+      const std::string& by = columns.back();
+      SCOPED_TRACE(by);
+      columns.insert(columns.end(), {"left_ticks=l", "right_ticks=r"});
+      const Result<ImportedRecording> imported = import_recording({path}, mapped(columns));
+      ASSERT_TRUE(imported.ok()) << imported.error().message();
+      EXPECT_EQ(imported->recording.time_s, (std::vector<double>{0.0, 9e-9, 0.020000001}));
+      EXPECT_EQ(imported->warnings,
+                std::vector<std::string>{"log.csv: time_s is the sum of '" + seconds + "' and '" + nanoseconds + "'"});
+    }
+  }
+}
+
+TEST(MappedText, RefusesNanosecondsBesideSecondsThatAreNotWhole) {
+  ScratchFolder folder;
+  const std::string path = folder.write("log.csv", "sec,nanosec,l,r\n1.5,500000000,0,0\n2.5,500000000,0,0\n");
+  EXPECT_EQ(message_of(import_recording({path}, mapped({"time_s=sec", "left_ticks=l", "right_ticks=r"})), path),
+            "log.csv:2: found '1.5' and '500000000' are no whole second and its nanoseconds, expected rows of numbers "
+            "in the mapped columns");
+}
+
+TEST(MappedText, DoubtsWholeSecondsThatManyRowsShare) {
+  ScratchFolder folder;
+  const auto warnings = [&](int rows_a_second) {
+    std::string text = "t,l,r\n";
+    for (int i = 0; i < 40; ++i)
+      text += std::to_string(1712345678 + i / rows_a_second) + "," + std::to_string(i) + ",0\n";
+    const std::string path = folder.write("log.csv", text);
+    return import_recording({path}, mapped({"time_s=t", "left_ticks=l", "right_ticks=r"}))->warnings;
+  };
+  EXPECT_EQ(warnings(20), std::vector<std::string>{
+                              "log.csv: 38 of 40 rows bear the same stamp as the row before, the first in line 3: 't' "
+                              "has whole seconds; map time_s to a column with parts of them, or leave it out and give "
+                              "the period between rows"});
+  EXPECT_TRUE(warnings(1).empty());
+}
+
 TEST(MappedText, TakesItsColumnsFromSeveralFiles) {
   ScratchFolder folder;
   const std::string wheels = folder.write("wheels.csv", "stamp,l,r\n10,0,0\n11,1,2\n");
@@ -86,6 +198,25 @@ TEST(MappedText, TakesItsColumnsFromSeveralFiles) {
   more.push_back("truth_heading_rad=yaw");
   EXPECT_EQ(import_recording({wheels, truth}, mapped(more)).error().message(),
             "--map: found no column 'yaw' in any source, expected one for truth_heading_rad");
+}
+
+TEST(MappedText, SaysWhichFilesAreByTwoClocks) {
+  ScratchFolder folder;
+  const std::string wheels = folder.write("wheels.csv", "stamp,l,r\n5.321,0,0\n155.301,1,2\n");
+  const auto imported = [&](const std::string& truth) {
+    return import_recording({wheels, folder.write("truth.csv", "stamp,x,y\n" + truth)},
+                            mapped({"time_s=stamp", "left_ticks=l", "right_ticks=r", "truth_x_m=x", "truth_y_m=y"}));
+  };
+  EXPECT_EQ(message_of(imported("1712345678.015,0,0\n1712345827.915,1,2\n"), wheels),
+            "wheels.csv: found times from 5.321 to 155.301 s in wheels.csv and from 1712345678.015 to 1712345827.915 s "
+            "in truth.csv, expected times of one clock that overlap: map each file's in its unit (s, ms, us, ns), and "
+            "where clocks differ add to one file's times what it is behind");
+  const Result<ImportedRecording> near = imported("200,0,0\n300,1,2\n");
+  ASSERT_TRUE(near.ok()) << near.error().message();
+  EXPECT_EQ(near->warnings,
+            std::vector<std::string>{"times from 5.321 to 155.301 s in wheels.csv and from 200.000 to 300.000 s in "
+                                     "truth.csv do not overlap: the files may be by two clocks"});
+  EXPECT_TRUE(imported("155.301,0,0\n300,1,2\n")->warnings.empty());
 }
 
 // What a person who gives odd files is told.
