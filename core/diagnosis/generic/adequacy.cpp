@@ -18,6 +18,20 @@ namespace odolab {
 
 namespace {
 
+// Whether dead reckoning is no better with a group that was let in.
+bool is_no_better(const JointModel& without, const JointModel& with, const GenericTest& g) {
+  return !is_material(1.0, without.truth_noise_lasts, without.gathered_error(), with.gathered_error(),
+                      g.test.value.size());
+}
+
+// Whether it goes with the turns of a wheel that is named out of round: gears come with it, and in its place say no
+// more of where the vehicle goes.
+bool is_ripple_of_a_named_wheel(const GenericTest& g, const std::vector<ScoredCandidate>& evidence) {
+  return g.times_a_turn > 0.0 && std::any_of(evidence.begin(), evidence.end(), [&](const ScoredCandidate& e) {
+           return e.effect->name == "wheel_eccentricity" && e.effect->component == g.component;
+         });
+}
+
 // Of the error of dead reckoning, what may stay without a name where innovations are correlated.
 constexpr double kMostLeftOfError = 0.3;
 // A group of which the name is one form bends to what the name only nearly says: by so much more it must say.
@@ -256,6 +270,7 @@ InPlaceOfNames in_place_of_names(const JointModel& joint, std::vector<ScoredCand
     JointModel with = bare;
     const double kept = let_in(with, *g);
     if (correlated && !is_material(joint, named.gathered_error(), with.gathered_error())) continue;
+    if (is_ripple_of_a_named_wheel(*g, evidence) && is_no_better(bare, with, *g)) continue;
     const bool says_more = is_more(*g, kept);
     if (!says_more && !is_as_much(*g, kept)) continue;
     // One number in the place of several names bends to nothing.
@@ -319,8 +334,7 @@ std::vector<Adequacy::Ripple> ripples_taken_out(const JointModel& joint, std::ve
     if (g.times_a_turn == 0.0 || g.p_value >= error) return false;
     JointModel with = joint;
     let_in(with, g);
-    if (is_material(1.0, joint.truth_noise_lasts, joint.gathered_error(), with.gathered_error(), g.test.value.size()))
-      return false;
+    if (!is_no_better(joint, with, g)) return false;
     if (is_shape_of_a_named_wheel(joint, g)) return false;
     // One of a group of lobes and one of a wave are the same.
     if (std::none_of(ripples.begin(), ripples.end(), [&](const Adequacy::Ripple& r) {

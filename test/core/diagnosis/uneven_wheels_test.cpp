@@ -74,6 +74,27 @@ TEST(UnevenWheels, AreUnknownByAFlatThatResemblesOneOutOfRound) {
   EXPECT_EQ(unknown.alternatives.front().component, "right_wheel");
 }
 
+// A wheel that is a little out of round behind a gear that errs by twice as much, and takes it nowhere: a real robot's
+// right wheel is so.
+TEST(UnevenWheels, AreOutOfRoundBesideTheirOwnGear) {
+  Random random(68);
+  test::GeneratorSettings g = test::under_motion_capture({0.042, 0.042, 0.2}, 0.0008, 0.02);
+  g.duration_s = 60.0;
+  const auto turns = [](int run) {
+    return [run](test::InjectedStep& s) {
+      s.right_m *= 1.0 + 0.006 * std::sin(s.right_rad) + 0.012 * std::sin(2.5 * s.right_rad + run);
+    };
+  };
+  const Result<Diagnosis> d =
+      diagnose(test::three_runs(
+                   g, random, [&](int) { return test::varied_driving(random, g.duration_s); }, turns),
+               {}, Vehicle{});
+  ASSERT_TRUE(d);
+  ASSERT_EQ(d->verdict, Verdict::found) << d->findings.front().where.regime;
+  EXPECT_EQ(d->findings.front().effect, "wheel_eccentricity");
+  EXPECT_EQ(d->findings.front().component, "right_wheel");
+}
+
 // A belt that is thick at one place, and goes round once in 2.7 turns of its wheel.
 TEST(UnevenWheels, AreUnknownByABeltThatGoesRoundMoreSlowlyThanItsWheel) {
   Random random(66);
