@@ -235,8 +235,18 @@ std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEf
     if (std::none_of(kinds.begin(), kinds.end(), [&](const Effect* e) { return e->name == a.effect->name; }))
       kinds.push_back(a.effect);
     if (!a.effect->local) continue;
-    ++apart;
     weakest = std::min(weakest, judged);
+    // Who is pushed once in a recording may be in the next.
+    const auto other_run = [&](const AcceptedEffect& before) {
+      return before.effect->name == a.effect->name && before.effect->of_one_recording && !before.shape.empty() &&
+             !a.shape.empty() && before.shape[0] != a.shape[0];
+    };
+    const auto same_name = std::count_if(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k),
+                                         [&](const AcceptedEffect& b) { return b.effect->name == a.effect->name; });
+    if (a.effect->of_one_recording && same_name > 0 &&
+        std::count_if(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), other_run) == same_name)
+      continue;
+    ++apart;
   }
   if (count < kMany || apart < kApart || kinds.size() < 2 || weakest >= kDecisive) return std::nullopt;
   Unnamed u;

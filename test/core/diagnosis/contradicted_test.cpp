@@ -69,6 +69,16 @@ TEST(Contradicted, TwoBumpsAtOnePlaceAreOneThing) {
   }
 }
 
+// Two pushes beside a drag: in one recording they may be what makes the drag, each in its own they are two pushes.
+TEST(Contradicted, APushInEachOfTwoRecordingsIsAPush) {
+  for (const double second : {0.0, 1.0}) {
+    NamesAndEvidence all = named_with({{"one_sided_drag", 215.0}, {"collision", 690.0}, {"collision", 70.0}});
+    all.names[1].shape = {0.0, 30.0, 0.0};
+    all.names[2].shape = {second, 40.0, 0.0};
+    EXPECT_EQ(what_so_many_names_stand_for(all.names, all.evidence).has_value(), second == 0.0);
+  }
+}
+
 // The noise that is believed, against the error of dead reckoning: by the noise that there is they agree.
 TEST(Contradicted, DeadReckoningThatErrsByMoreThanAllNoiseLacksSomething) {
   test::CaseSettings settings;
