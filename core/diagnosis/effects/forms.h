@@ -156,7 +156,6 @@ inline constexpr MissedForm kMissedForms[] = {
     {"at once above that speed"},
     {"the more the faster, from 5 % below that speed to 5 % above it", 0.05},
     {"the more the faster, from 12 % below that speed to 12 % above it", 0.12},
-    {"the more the faster, from 25 % below that speed to 25 % above it", 0.25},
 };
 
 struct DriftForm {

@@ -46,9 +46,12 @@ void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<S
 }
 
 bool stands(const ScoredCandidate& c, double family_wise_error) {
-  constexpr double kOfALocal = 0.05;
-  const double error = (c.effect->local ? kOfALocal : 1.0) * family_wise_error;
-  return c.p_value < error && c.test.cross_validated > 0.0 && c.beyond_counts;
+  return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
+}
+
+bool is_left_over(const ScoredCandidate& name, double family_wise_error) {
+  constexpr double kByChance = 0.5, kOfALocal = 0.05;
+  return name.p_value > (name.effect->local ? kOfALocal * family_wise_error : kByChance);
 }
 
 double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error) {
