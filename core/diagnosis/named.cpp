@@ -9,7 +9,6 @@
 #include "core/diagnosis/chosen_by_unseen.h"
 #include "core/diagnosis/naming/in_each_run.h"
 #include "core/diagnosis/naming/left_by_form.h"
-#include "core/diagnosis/naming/standing.h"
 #include "core/diagnosis/refuted.h"
 #include "core/diagnosis/simpler_forms.h"
 
@@ -171,8 +170,9 @@ class Naming {
 
   // Of the recordings that it was fitted to.
   std::optional<std::size_t> untenable_by_itself() {
+    constexpr double kByChance = 0.5;  // what was left of a name when another was taken out
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
-      if (is_left_over(selected_.evidence[k], family_wise_error_) && !joint_.accepted[k].is_held) return k;
+      if (selected_.evidence[k].p_value > kByChance && !joint_.accepted[k].is_held) return k;
     for (std::size_t k = joint_.accepted.size(); k-- > 0;)
       if (const auto older_s = older_instead(joint_, k, selected_.evidence[k])) {
         now_.older_counts.right_older_s = *older_s;

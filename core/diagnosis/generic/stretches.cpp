@@ -13,7 +13,6 @@
 #include "core/diagnosis/generic/trembling_truth.h"
 #include "core/diagnosis/model/candidate_scan.h"
 #include "core/diagnosis/model/coarse_counts.h"
-#include "core/diagnosis/model/driven_again.h"
 #include "core/diagnosis/naming/material.h"
 
 namespace odolab {
@@ -162,20 +161,6 @@ std::vector<Displaced> displaced_by_more(const JointModel& joint, const Candidat
   return standing_apart(std::move(all));
 }
 
-// With what readings feign of the largest, as of any of its length (`driven_again.h`): a truth whose headings are off
-// by a little for as long goes to one side.
-std::vector<Displaced> held_against_readings(std::vector<Displaced> of, const JointModel& joint) {
-  if (!joint.driven_again || of.empty()) return of;
-  const double more = joint.driven_again->feigned(displacement(), of.front().shape(), joint.model.noise).more;
-  for (Displaced& d : of) {
-    const double statistic = d.inflation * (d.burst.excess + kNinetySevenOfAPush);
-    d.inflation += more;
-    d.burst.excess = statistic / d.inflation - kNinetySevenOfAPush;
-  }
-  std::erase_if(of, [](const Displaced& d) { return d.burst.excess <= 0.0; });
-  return of;
-}
-
 // From when to when it goes on: either end moves as long as that says more.
 void find_ends(Displaced& d, const CandidateScan& scan) {
   constexpr double kKnownTo_s = 0.2;
@@ -248,17 +233,14 @@ std::optional<Unnamed> what_goes_on_for_a_while(const JointModel& joint, double 
   const TremblingTruth truth(joint);
   std::vector<Displaced> found;
   double p_value = error, gain = 0.0;
-  const auto chance_of_any = [](const std::vector<Displaced>& of) { return kWaysToLook * chance_of(bursts_in(of)); };
-  const auto is_worth = [&](const std::vector<Displaced>& of) {
-    return !of.empty() && chance_of_any(of) < p_value && beyond_noise(bursts_in(of)) >= kMostLeft * explained;
-  };
   for (const double lasts_s : kLasts_s)
     for (const Goes goes : kBoth) {
       std::vector<Displaced> of = displaced_by_more(joint, scan, truth, lasts_s, goes);
-      if (!is_worth(of)) continue;
-      of = held_against_readings(std::move(of), joint);
-      if (!is_worth(of)) continue;
-      found = std::move(of), p_value = chance_of_any(found), gain = beyond_noise(bursts_in(found));
+      const std::vector<Burst> bursts = bursts_in(of);
+      if (bursts.empty()) continue;
+      const double by_chance = kWaysToLook * chance_of(bursts), more = beyond_noise(bursts);
+      if (by_chance >= p_value || more < kMostLeft * explained) continue;
+      found = std::move(of), p_value = by_chance, gain = more;
     }
   if (found.empty()) return std::nullopt;
   // Of the others noise may be the cause, beside the largest.

@@ -49,11 +49,6 @@ bool stands(const ScoredCandidate& c, double family_wise_error) {
   return c.p_value < family_wise_error && c.test.cross_validated > 0.0 && c.beyond_counts;
 }
 
-bool is_left_over(const ScoredCandidate& name, double family_wise_error) {
-  constexpr double kByChance = 0.5, kOfALocal = 0.05;
-  return name.p_value > (name.effect->local ? kOfALocal * family_wise_error : kByChance);
-}
-
 double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error) {
   constexpr double kPerOdds = 2.0;  // at most: a factor without bounds as the correlation nears what is not believed
   const double distrust = joint.distrust(c.effect->local);

@@ -22,10 +22,6 @@ void judge_locals_by(const std::vector<ScoredCandidate>& with_all, std::vector<S
 // Not by chance, by what it says of runs that it was not fitted to, and by whole counts.
 bool stands(const ScoredCandidate& c, double family_wise_error);
 
-// Of a name beside all others: whether it says no more than chance, as where another was taken out that had said it
-// too. What shows once, or in one place, has nothing else to speak for it: a twentieth of the error.
-bool is_left_over(const ScoredCandidate& name, double family_wise_error);
-
 // How little the likelihood is to be believed of a candidate: not at all less where it would stand though all scattered
 // as much more as correlated innovations let it.
 double distrust_of(const JointModel& joint, const ScoredCandidate& c, double family_wise_error);
