@@ -28,7 +28,8 @@ struct Chord {
 };
 
 // Its heading before it was pushed, as its wheels go on from there. Between two samples of the truth a view turns
-// evenly from one to the other, and begins to before the push does.
+// evenly from one to the other, and begins to before the push does; which may have come an interval sooner than is
+// thought, so that the one before that is gone back, too.
 double heading_before_rad(const DriveView& view, std::size_t pushed) {
   constexpr double kEvenly_radps = 1e-7;
   const auto rate_radps = [&](std::size_t step) {

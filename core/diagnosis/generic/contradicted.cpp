@@ -91,6 +91,20 @@ bool are_one_bump(const AcceptedEffect& a, const AcceptedEffect& b) {
          length(Vec2{a.shape[0], a.shape[1]} - Vec2{b.shape[0], b.shape[1]}) < kOneThing_m;
 }
 
+// Whether it is what was named before, once in each of other recordings: who is pushed in one may be in the next.
+template <typename Names>
+bool is_of_another_run(const AcceptedEffect& a, Names first, Names last) {
+  bool any = false;
+  for (; first != last; ++first) {
+    if (first->effect->name != a.effect->name) continue;
+    if (!a.effect->of_one_recording || !first->effect->of_one_recording || a.shape.empty() || first->shape.empty() ||
+        a.shape[0] == first->shape[0])
+      return false;
+    any = true;
+  }
+  return any;
+}
+
 // What comes twice to one place, a wheel's breadth apart, is the floor's: nobody pushes there again.
 constexpr double kOnePlace_m = 0.2;
 bool are_at_one_place(const Moment& a, const Moment& b, double wheelbase_m) {
@@ -236,16 +250,7 @@ std::optional<Unnamed> what_so_many_names_stand_for(const std::vector<AcceptedEf
       kinds.push_back(a.effect);
     if (!a.effect->local) continue;
     weakest = std::min(weakest, judged);
-    // Who is pushed once in a recording may be in the next.
-    const auto other_run = [&](const AcceptedEffect& before) {
-      return before.effect->name == a.effect->name && before.effect->of_one_recording && !before.shape.empty() &&
-             !a.shape.empty() && before.shape[0] != a.shape[0];
-    };
-    const auto same_name = std::count_if(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k),
-                                         [&](const AcceptedEffect& b) { return b.effect->name == a.effect->name; });
-    if (a.effect->of_one_recording && same_name > 0 &&
-        std::count_if(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), other_run) == same_name)
-      continue;
+    if (is_of_another_run(a, names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k))) continue;
     ++apart;
   }
   if (count < kMany || apart < kApart || kinds.size() < 2 || weakest >= kDecisive) return std::nullopt;
