@@ -131,7 +131,7 @@ TimeStretches standing_encoder(const std::vector<WheelSample>& wheels, Wheel whe
           pace_before_mps(i, kBefore_s / 3.0, 0.0) < kBraked * pace_before_mps(i, kBefore_s, kBefore_s * 2.0 / 3.0) &&
           all_m < kRunsOn_s * pace_before_mps(i, kOnItsWay_s, 0.0);
       // It was put down elsewhere: all in one part of the time, and nothing in the others.
-      const auto jumps = [&] {
+      const auto jumps = [&, i = i, j = j] {
         constexpr std::size_t kParts = 8;
         double most_m = 0.0;
         for (std::size_t k = 0; k < kParts; ++k)
