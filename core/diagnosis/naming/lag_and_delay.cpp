@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/diagnosis/effects/effect.h"
@@ -62,13 +63,17 @@ void put_where_likeliest(JointModel& joint, std::initializer_list<double> stride
   constexpr double kLeast_s = 1e-3;
   constexpr int kMostSteps = 24;
   JointModel best = with_lag_at(joint, std::max(accepted_lag(joint).value[0], kLeast_s));
-  for (const double stride : strides_of_size)
+  for (const double stride : strides_of_size) {
+    std::optional<JointModel> more, less;  // one stride on and one back: one of them is where it came from
     for (int step = 0; step < kMostSteps; ++step) {
       const double here_s = accepted_lag(best).value[0];
-      JointModel more = with_lag_at(best, here_s * (1.0 + stride)), less = with_lag_at(best, here_s / (1.0 + stride));
-      const double by_more = likelier_by(more, best), by_less = likelier_by(less, best);
+      if (!more) more = with_lag_at(best, here_s * (1.0 + stride));
+      if (!less) less = with_lag_at(best, here_s / (1.0 + stride));
+      const double by_more = likelier_by(*more, best), by_less = likelier_by(*less, best);
       if (std::max(by_more, by_less) > 0.0) {
-        best = std::move(by_more > by_less ? more : less);
+        std::optional<JointModel>&next = by_more > by_less ? more : less, &behind = by_more > by_less ? less : more;
+        behind = std::exchange(best, std::move(*next));
+        next.reset();
         continue;
       }
       if (by_more + by_less < 0.0) {
@@ -78,6 +83,7 @@ void put_where_likeliest(JointModel& joint, std::initializer_list<double> stride
       }
       break;
     }
+  }
   joint = std::move(best);
 }
 
