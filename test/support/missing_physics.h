@@ -333,4 +333,14 @@ inline Case generated_case(const CaseSettings& c, std::uint64_t seed) {
   return out;
 }
 
+// The same over 50 s each.
+inline Case case_of(const std::string& effect, double size, int runs, std::uint64_t seed) {
+  CaseSettings settings;
+  settings.effect = effect;
+  settings.size = size;
+  settings.runs = runs;
+  settings.duration_s = 50.0;
+  return generated_case(settings, seed);
+}
+
 }  // namespace odolab::test
