@@ -154,7 +154,7 @@ std::vector<Finding> findings_beside_unnamed(const std::vector<Finding>& named, 
                                              JointModel without, const ReadyRecordings& ready, const Vehicle& nominal,
                                              double family_wise_error) {
   std::vector<Finding> findings;
-  std::copy_if(named.begin(), named.end(), std::back_inserter(findings), is_known_clock);
+  if (!more.is_of_the_clock) std::copy_if(named.begin(), named.end(), std::back_inserter(findings), is_known_clock);
   const Intervals of_it = refined(without, std::vector<double>(without.accepted.size(), 1.0));
   if (calibration_moved_the_mounting(ready.calibration, nominal))
     add_mounting(findings, without, of_it, ready.told(), nominal);

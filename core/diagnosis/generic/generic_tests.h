@@ -51,6 +51,7 @@ struct GenericTest {
   double most_left = kMostLeft;   // more where a name is but its simplest form
   bool of_when_or_where = false;  // of the recording, the time or the place: no form of how a base follows its commands
   bool is_no_rival_of_names = false;  // but of pushes: what a name says at a place, it says as well
+  bool is_of_the_clock = false;       // by when the truth is late: no rate of a clock stands beside it
   bool carries_nowhere = false;       // comes and goes so soon: no name is doubted for it
   double times_a_turn = 0.0;  // of a wheel, where it goes with its angle: a cosine and a sine for each recording
 };

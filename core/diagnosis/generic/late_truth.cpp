@@ -78,8 +78,10 @@ GenericTest late_in_each(const AskedModel& asked, double looked_at) {
     std::move(of_run.begin(), of_run.end(), out.begin() + static_cast<std::ptrdiff_t>(run * kHatsOfEach));
     return out;
   };
-  return asked_of(asked, "time, in each recording", "truth late by [s]", views.size() * kHatsOfEach, motions,
-                  looked_at);
+  GenericTest t =
+      asked_of(asked, "time, in each recording", "truth late by [s]", views.size() * kHatsOfEach, motions, looked_at);
+  t.is_of_the_clock = true;
+  return t;
 }
 
 }  // namespace
@@ -114,6 +116,7 @@ std::vector<GenericTest> late_truth_tests(const AskedModel& asked, double looked
         },
         looked_at);
     t.at = at;
+    t.is_of_the_clock = !at.empty();
   });
   if (views.size() > 1) tests.push_back(late_in_each(asked, looked_at));
   return tests;

@@ -19,6 +19,7 @@ struct Unnamed {
   std::vector<Response> shape;  // as fitted, where it has one beside the responses to its variable
   GatheredEvidence gathered;    // of what stands for it; empty where nothing does
   std::optional<MovedTrack> moves;
+  bool is_of_the_clock = false;  // of which then no rate is known
   std::vector<TimeStretches> incidents;  // in each run that was fitted, where it acts there and nowhere else
 };
 

@@ -70,6 +70,7 @@ Unnamed unnamed_by(const GenericTest& group, const JointModel& with, const Joint
   u.gathered = gathered_evidence(with, with.accepted.size() - 1, 0.5 * gain);
   if (with.accepted.back().acts_on_motion()) u.moves = moved_between(without, with);
   u.component = group.component;
+  u.is_of_the_clock = group.is_of_the_clock;
   u.where.regime =
       group.channel + " that depends on " + variable_in_words(group, without) + of_which_recordings(group, with);
   u.where.zone = group.zone;

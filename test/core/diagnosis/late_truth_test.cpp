@@ -76,5 +76,20 @@ TEST(TruthLateByMore, ShowsClocksThatAreSetAnewAtOtherTimesInEachRecording) {
       << d->findings.front().where.regime;
 }
 
+// All of them forward: the mean of a step is a rate, and what is left of it is not.
+TEST(TruthLateByMore, HasNoRateBesideItWhereClocksAreSetAnew) {
+  test::Case c = calm_case(23);
+  double at_s = 18.0;
+  for (Recording& r : c.recordings) {
+    delay(r, [=](double t) { return t > at_s ? 0.1 : 0.0; });
+    at_s += 12.0;
+  }
+  const Result<Diagnosis> d = diagnose(c.recordings, {}, c.nominal);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->verdict, Verdict::unknown_effect);
+  EXPECT_EQ(d->findings.front().component, "truth");
+  for (const Finding& f : d->findings) EXPECT_NE(f.effect, "clock_rate");
+}
+
 }  // namespace
 }  // namespace odolab
