@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/diagnosis/effects/effect.h"
+#include "core/diagnosis/effects/forms.h"
 #include "core/diagnosis/obeyed_commands.h"
 #include "core/diagnosis/units/unit_models.h"
 #include "core/geometry/begins_anew.h"
@@ -55,8 +56,8 @@ Vehicle as_it_sets_off(Vehicle vehicle, const std::vector<ActiveEffect>& effects
   for (const ActiveEffect& a : effects) {
     if (a.effect != "radius_drift" || !has(a, kSessionStart)) continue;
     const double grown =
-        1.0 + a.parameter("per_s") * effects::drifted_s(recording.time_s.front() - a.parameter(kSessionStart),
-                                                        effects::drift_time_constant_s(form_of(a)));
+        1.0 + a.parameter("per_s") * effects::drifted(recording.time_s.front() - a.parameter(kSessionStart),
+                                                      effects::drift_time_constant_s(form_of(a)));
     if (a.component != "right_wheel") drive->wheel_radius_left_m *= grown;
     if (a.component != "left_wheel") drive->wheel_radius_right_m *= grown;
   }

@@ -5,6 +5,7 @@
 #include "core/diagnosis/generic/bursts.h"
 #include "core/diagnosis/generic/contradicted.h"
 #include "core/diagnosis/generic/generic_tests.h"
+#include "core/diagnosis/generic/radii_by_way.h"
 #include "core/diagnosis/generic/stretches.h"
 #include "core/diagnosis/generic/truth_otherwise_since.h"
 
@@ -71,6 +72,11 @@ Adequacy judged_adequacy(const Named& named, const JointModel& calibrated, const
   if (!adequacy.unnamed || adequacy.unnamed->component != "truth")
     if (std::optional<Unnamed> since = what_is_otherwise_since(named.joint, named.selected.evidence))
       adequacy.unnamed = std::move(since);
+  if (!adequacy.unnamed || adequacy.unnamed->component != "truth") {
+    constexpr double kFarMore = 2.0;  // gains are under noise of their own
+    std::optional<Unnamed> law = what_radii_go_by_instead(named.joint);
+    if (law && (!adequacy.unnamed || law->gain > kFarMore * adequacy.unnamed->gain)) adequacy.unnamed = std::move(law);
+  }
   if (!adequacy.unnamed) adequacy.unnamed = what_happens_too_often(named.joint);
   double explained = 0.0;
   for (const ScoredCandidate& e : named.selected.evidence)

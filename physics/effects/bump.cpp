@@ -114,6 +114,7 @@ class BumpInForm final : public Effect {
     const double beside2_m2 = lying_.reach_m * lying_.reach_m - to.y_m * to.y_m;
     const double half_m = beside2_m2 > 0.0 ? std::sqrt(beside2_m2) : 0.0;  // of the way within its reach
     double length_m = lying_.climb.length_m(wheel.radius_m), from_m = half_m;
+    if (lying_.is_mound) way.extra_m *= half_m / lying_.reach_m;
     if (length_m == 0.0)
       length_m = 2.0 * half_m + way.extra_m;
     else if (!lying_.at_its_edge)

@@ -1,4 +1,5 @@
 // A wheel that turns faster, or of a vehicle that goes faster, rolls on another radius.
+#include "core/diagnosis/effects/forms.h"
 #include "physics/effects/effect.h"
 
 namespace odolab::planar {
@@ -8,20 +9,20 @@ namespace {
 class SpeedDependentRadius final : public Effect {
  public:
   explicit SpeedDependentRadius(const ActiveEffect& a)
-      : component_(a.component), per_mps_(a.parameter("per_mps")), of_the_vehicle_(form_of(a) == 1) {}
+      : component_(a.component),
+        form_(effects::kSpeedForms[form_of(a).value_or(0)]),
+        amount_(a.parameter("per_mps") / (form_.squared ? a.parameter("at_mps", 1.0) : 1.0)) {}
 
   void roll(const VehicleMotion& motion, RollingWheel& wheel) override {
     if (!acts_on(component_, wheel.side)) return;
-    if (of_the_vehicle_)
-      wheel.radius_m *= 1.0 + per_mps_ * std::abs(motion.speed_mps);
-    else
-      wheel.radius_m *= 1.0 + per_mps_ * std::abs(wheel.speed_radps) * wheel.radius_m;
+    wheel.radius_m *=
+        1.0 + amount_ * form_.share(form_.of_the_vehicle ? motion.speed_mps : wheel.speed_radps * wheel.radius_m);
   }
 
  private:
   std::string component_;
-  double per_mps_;
-  bool of_the_vehicle_;  // its speed, and not the wheel's own
+  effects::SpeedForm form_;
+  double amount_;  // for each metre per second, or for each square of that
 };
 
 }  // namespace

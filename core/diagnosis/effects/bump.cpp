@@ -31,18 +31,21 @@ double radius_m(Wheel wheel, const DriveView& view) {
   return wheel == Wheel::left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
 }
 
-// An extra distance, one metre of it, spread over the steps [from, to] as they are travelled.
-void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to, const Climb& climb) {
+// An extra distance, one metre of it, spread over the steps [from, to] as they are travelled; of a mound that is so far
+// across, one metre for as much way.
+void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to, const Climb& climb,
+            double across_m = 0.0) {
   double total = 0.0;
   for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
   if (total <= 0.01) return;
+  const double extra_m = across_m > 0.0 ? total / across_m : 1.0;
   double gone = 0.0, before = 0.0;
   BodyMotion* at = m.from(from);
   for (std::size_t i = from; i <= to; ++i, ++at) {
     const double goes = way(wheel, view.steps[i]);
     gone = std::min(gone + std::abs(goes) / total, 1.0);
     const double now = climb.share_before(gone);
-    const BodyMotion by = by_wheel(wheel, std::copysign(now - before, -goes), view.drive.wheelbase_m);
+    const BodyMotion by = by_wheel(wheel, std::copysign(extra_m * (now - before), -goes), view.drive.wheelbase_m);
     at->forward_m += by.forward_m;
     at->turn_rad += by.turn_rad;
     before = now;
@@ -167,7 +170,8 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
     stretches.push_back({v.met.first, v.met.last + 1});
   }
   Motions m(merged(std::move(stretches)));
-  for (const Visit& v : visits) spread(m, view, v.wheel, v.met.first, v.met.last, lying.climb);
+  for (const Visit& v : visits)
+    spread(m, view, v.wheel, v.met.first, v.met.last, lying.climb, lying.is_mound ? 2.0 * lying.reach_m : 0.0);
   return m;
 }
 
@@ -275,13 +279,22 @@ Effect each_time(Wheel wheel) {
              "20 cm wide, climbed in 10 cm",
              "20 cm wide, climbed as what takes 4 mm",
              "20 cm wide, climbed as what takes 15 mm",
-             "20 cm wide, climbed in 6 cm at its edge"};
+             "20 cm wide, climbed in 6 cm at its edge",
+             "20 cm wide and long",
+             "a mound 8 cm across, the less of it the further from its middle",
+             "a mound 16 cm across, the less of it the further from its middle",
+             "a mound 28 cm across, the less of it the further from its middle"};
+  e.tests_of_a_shape = 0.5;      // neighbours are met alike, in whichever form
   e.forms_of_the_scan = {0, 6};  // what begins at an edge is felt elsewhere, by where one comes from
-  // As long as it is wide, and under either wheel, it would be a patch of floor.
-  if (wheel != Wheel::both) e.forms.push_back("20 cm wide and long");
-  e.form_goes_with = [](const std::vector<double>& value, const std::vector<double>& shape, double,
-                        const std::vector<DriveView>&) {
-    return is_climbed(value[0], kBumpsLying[static_cast<int>(shape.back())].climb);
+  e.form_goes_with = [wheel](const std::vector<double>& value, const std::vector<double>& shape, double,
+                             const std::vector<DriveView>& views) {
+    const auto form = static_cast<std::size_t>(shape.back());
+    // As long as it is wide, and under either wheel, it would be a patch of floor.
+    if (wheel == Wheel::both && form == kLyingAsLongAsWide) return false;
+    const Lying& lying = kBumpsLying[form];
+    if (!lying.is_mound) return is_climbed(value[0], lying.climb);
+    return lying.reach_m <= kClimbedWithin * radius_m(wheel, views.front()) &&
+           is_climbed(value[0], Climb{2.0 * lying.reach_m});
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
     return motions_by_number(at_place(view, wheel, {shape[0], shape[1]}, kBumpsLying[static_cast<int>(shape.back())]));

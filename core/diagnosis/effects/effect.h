@@ -90,7 +90,8 @@ std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, do
 
 // A shape that is given and not estimated: when the session of all recordings began.
 inline constexpr const char* kSessionStart = "session_start_s";
-inline constexpr const char* kStatedAt = "at_mps";  // of what grows with the speed, the one at which it is so much
+// Of what grows with the speed, or by the way instead of by the time: the speed at which it is so much.
+inline constexpr const char* kStatedAt = "at_mps";
 
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -179,8 +180,6 @@ namespace effects {
 // Of a drift in that form: whether it goes on from one recording to the next, and how soon it nears its end; 0: never.
 bool drifts_through_the_session(int form);
 double drift_time_constant_s(int form);
-// What a drift that begins at one per second comes to after a time: less than that time where it nears an end.
-double drifted_s(double since_s, double time_constant_s);
 // When a load was put on: at that time, or, of recordings whose stamps go on from another's, so long after each began.
 double put_on_s(double at_s, double recording_starts_s);
 std::vector<Effect> wheel_eccentricity();

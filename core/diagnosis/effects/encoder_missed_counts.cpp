@@ -108,7 +108,7 @@ Effect missed_counts_of(Wheel wheel) {
   };
   e.shapes_read_as = [](const std::vector<double>& v) { return 1.0 + v[0]; };
   e.shapes = {{"above_radps", "rad/s", 0.0, 0.0, 1e3}};
-  e.tests_of_a_shape = 0.6;
+  e.tests_of_a_shape = 0.3;
   e.sentence = std::string("the encoder of ") +
                (wheel == Wheel::left    ? "the left wheel"
                 : wheel == Wheel::right ? "the right wheel"

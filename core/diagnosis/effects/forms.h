@@ -158,10 +158,19 @@ inline constexpr MissedForm kMissedForms[] = {
     {"the more the faster, from 12 % below that speed to 12 % above it", 0.12},
 };
 
+// What a drift that begins at one for each second, or metre, comes to after so many: less than these where it nears an
+// end, with that constant; 0: for ever.
+inline double drifted(double so_far, double constant) {
+  return constant > 0.0 ? constant * -std::expm1(-so_far / constant) : so_far;
+}
+
+// By the time, or by the way that the wheel has rolled since the recording began.
 struct DriftForm {
   const char* in_words;
   bool through_the_session;
   double time_constant_s;  // 0: for ever
+  bool by_way = false;
+  double way_constant_m = 0.0;  // 0: for ever
 };
 inline constexpr DriftForm kDriftForms[] = {
     {"anew in each recording", false, 0.0},
@@ -170,6 +179,28 @@ inline constexpr DriftForm kDriftForms[] = {
     {"on through all recordings, by their stamps, towards an end that is half reached after 40 s", true, 60.0},
     {"on through all recordings, by their stamps, towards an end that is half reached after three minutes", true,
      240.0},
+    {"with the way that a wheel rolls, anew in each recording", false, 0.0, true},
+    {"with the way that a wheel rolls, anew in each recording, towards an end that is half reached after 2 m", false,
+     0.0, true, 2.9},
+    {"with the way that a wheel rolls, anew in each recording, towards an end that is half reached after 4 m", false,
+     0.0, true, 5.8},
+    {"with the way that a wheel rolls, anew in each recording, towards an end that is half reached after 8 m", false,
+     0.0, true, 11.5},
+    {"with the way that a wheel rolls, anew in each recording, towards an end that is half reached after 16 m", false,
+     0.0, true, 23.0},
+};
+
+// The share by which a rolling radius grows, at a speed of so many metres a second.
+struct SpeedForm {
+  const char* in_words;
+  bool of_the_vehicle;  // and not of each wheel
+  bool squared = false;
+  double share(double speed_mps) const { return squared ? speed_mps * speed_mps : std::abs(speed_mps); }
+};
+inline constexpr SpeedForm kSpeedForms[] = {
+    {"with each wheel's own speed", false},
+    {"with the vehicle's speed", true},
+    {"with the square of each wheel's own speed", false, true},
 };
 
 // How the extra distance over a bump is rolled: evenly over so much of the way, or as a wheel of radius r climbs
@@ -205,14 +236,19 @@ inline constexpr ClimbOfBoth kBumpsOfBoth[] = {
 };
 
 // What lies at a place: met within so far of it, and climbed so, in its middle or at its edge; no length: as long as it
-// is met.
+// is met. Of a mound a wheel that crosses it beside its middle climbs less, as its way over it is shorter.
 struct Lying {
   double reach_m;
   Climb climb;
-  bool at_its_edge = false;
+  bool at_its_edge = false, is_mound = false;
 };
-inline constexpr Lying kBumpsLying[] = {{0.1, {0.06}},       {0.05, {0.06}},      {0.2, {0.06}},       {0.1, {0.1}},
-                                        {0.1, {0.0, 0.004}}, {0.1, {0.0, 0.015}}, {0.1, {0.06}, true}, {0.1, {}}};
+inline constexpr Lying kBumpsLying[] = {
+    {0.1, {0.06}},           {0.05, {0.06}},          {0.2, {0.06}},          {0.1, {0.1}},
+    {0.1, {0.0, 0.004}},     {0.1, {0.0, 0.015}},     {0.1, {0.06}, true},    {0.1, {}},
+    {0.04, {}, false, true}, {0.08, {}, false, true}, {0.14, {}, false, true}};
+inline constexpr std::size_t kLyingAsLongAsWide = 7;
+// What reaches no further to either side, in radii of a wheel, is something that it climbs; and what does is a patch.
+inline constexpr double kClimbedWithin = 1.5;
 
 inline constexpr double kCollisionLasts_s[] = {0.0, 0.25, 0.5};
 inline constexpr double kTurningWithin_s = 0.1;  // slow wheels do not count at each reading

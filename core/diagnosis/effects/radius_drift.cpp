@@ -1,8 +1,10 @@
 // Wheels that grow or shrink with time: warming, wear, pressure. The share of the radius is per_s times the time: since
 // each recording's start, or on through the session where recordings are stamped by one clock and wheels did not cool
-// between. What warms does so towards an end, Newton's law of cooling: then per_s is the rate at which it begins.
+// between. What warms does so towards an end, Newton's law of cooling: then per_s is the rate at which it begins. Work
+// warms tyres, and rolling wears and dries them: that goes by the way, and per_s is the rate at the mean pace.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/forms.h"
@@ -11,9 +13,39 @@ namespace odolab::effects {
 
 namespace {
 constexpr std::size_t kFrom = 0, kForm = 1;  // of a shape
+constexpr int kByWay = 5;                    // of the forms
+static_assert(kDriftForms[kByWay].by_way && kDriftForms[kByWay].way_constant_m == 0.0);
 
-const DriftForm& form_of(const std::vector<double>& shape) {
+const DriftForm& drift_form(const std::vector<double>& shape) {
   return kDriftForms[shape.size() > kForm ? std::lround(shape[kForm]) : 0];
+}
+
+// For a value of one: of the left wheel's radius and of the right one's, in each step.
+class Drifted {
+ public:
+  Drifted(const DriftForm& form, double from_s) : form_(form), from_s_(from_s) {}
+
+  std::pair<double, double> at(const EffectStep& s) {
+    if (!form_.by_way) {
+      const double t = drifted(form_.through_the_session ? s.time_s - from_s_ : s.since_start_s, form_.time_constant_s);
+      return {t, t};
+    }
+    left_m_ += std::abs(s.left_m), right_m_ += std::abs(s.right_m);
+    return {drifted(left_m_, form_.way_constant_m), drifted(right_m_, form_.way_constant_m)};
+  }
+
+ private:
+  const DriftForm& form_;
+  double from_s_, left_m_ = 0.0, right_m_ = 0.0;
+};
+
+// Of either wheel, rests and all.
+double mean_pace_mps(const std::vector<DriveView>& views) {
+  double way_m = 0.0, time_s = 0.0;
+  for (const DriveView& view : views)
+    for (const EffectStep& s : view.steps)
+      way_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m)), time_s += s.duration_s;
+  return time_s > 0.0 ? way_m / time_s : 0.0;
 }
 
 Effect drift_of(Wheel wheel) {
@@ -24,9 +56,9 @@ Effect drift_of(Wheel wheel) {
   e.shapes = {{kSessionStart, "s"}};  // from when on time counts in a session
   for (const DriftForm& form : kDriftForms) {
     e.forms.push_back(form.in_words);
-    e.simpler_form.push_back(form.through_the_session ? 1 : 0);  // for ever
+    e.simpler_form.push_back(form.through_the_session ? 1 : form.way_constant_m > 0.0 ? kByWay : 0);  // for ever
   }
-  e.tests_of_a_shape = 0.3;  // what grows with time does so in all forms
+  e.tests_of_a_shape = 0.2;  // what grows with time does so in all forms
   e.sentence = std::string("the radius of the ") +
                (wheel == Wheel::left    ? "left wheel"
                 : wheel == Wheel::right ? "right wheel"
@@ -43,25 +75,25 @@ Effect drift_of(Wheel wheel) {
     return std::vector<std::vector<double>>{{first_s}};
   };
   e.motions = [wheel](const DriveView& view, const std::vector<double>& shape) {
-    const DriftForm& form = form_of(shape);
+    Drifted drifted(drift_form(shape), shape[kFrom]);
     Motions m;
     for (const EffectStep& s : view.steps) {
-      const double t =
-          drifted_s(form.through_the_session ? s.time_s - shape[kFrom] : s.since_start_s, form.time_constant_s);
-      if (wheel == Wheel::both)
-        m.push_back({t * s.forward_m(), 0.0, t * s.turn_rad});
-      else
-        m.push_back(by_wheel(wheel, t * (wheel == Wheel::left ? s.left_m : s.right_m), view.drive.wheelbase_m));
+      const auto [left, right] = drifted.at(s);
+      const double left_m = wheel == Wheel::right ? 0.0 : left * s.left_m,
+                   right_m = wheel == Wheel::left ? 0.0 : right * s.right_m;
+      m.push_back({0.5 * (left_m + right_m), 0.0, (right_m - left_m) / view.drive.wheelbase_m});
     }
     return motions_by_number(std::move(m));
+  };
+  e.stated_at_mps = [](const std::vector<double>& shape, const std::vector<DriveView>& views) {
+    return drift_form(shape).by_way ? mean_pace_mps(views) : 0.0;
+  };
+  e.from_parameters = [](const ActiveEffect& a) {
+    return std::vector<double>{a.parameter("per_s") / a.parameter(kStatedAt, 1.0)};
   };
   return e;
 }
 }  // namespace
-
-double drifted_s(double since_s, double time_constant_s) {
-  return time_constant_s > 0.0 ? time_constant_s * -std::expm1(-since_s / time_constant_s) : since_s;
-}
 
 bool drifts_through_the_session(int form) { return kDriftForms[form].through_the_session; }
 

@@ -6,11 +6,13 @@
 
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/floor.h"
+#include "core/diagnosis/effects/forms.h"
 
 namespace odolab::effects {
 
 namespace {
-// A patch that a wheel does no more than graze is told from a bump by nothing.
+// A patch that a wheel does no more than graze is told from a bump by nothing, nor is one that is smaller than the
+// wheel.
 constexpr double kLeastWay_m = 0.15;
 
 // The points of a grid over the floor about which a patch of that radius would be met.
@@ -74,6 +76,8 @@ std::vector<Effect> slip_zone() {
   e.motions = [](const DriveView& view, const std::vector<double>& shape) {
     const Vec2 centre{shape[0], shape[1]};
     const double b = view.drive.wheelbase_m, r2 = shape[2] * shape[2];
+    if (shape[2] < kClimbedWithin * std::min(view.drive.wheel_radius_left_m, view.drive.wheel_radius_right_m))
+      return motions_by_number(Motions());
     std::vector<std::size_t> near;
     view.steps_near(centre, shape[2] + 0.5 * b, [&](std::size_t i) { near.push_back(i); });
     if (near.empty()) return motions_by_number(Motions());
