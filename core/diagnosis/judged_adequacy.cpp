@@ -8,6 +8,7 @@
 #include "core/diagnosis/generic/radii_by_way.h"
 #include "core/diagnosis/generic/stretches.h"
 #include "core/diagnosis/generic/truth_otherwise_since.h"
+#include "core/diagnosis/naming/lag_and_delay.h"
 
 namespace odolab {
 
@@ -43,7 +44,21 @@ Adequacy judged_by_both(const Named& named, const JointModel& calibrated, const 
   return adequacy;
 }
 
-// What goes on for a while may have been named a patch or a bump, which the vehicle is on as long.
+// Whether it is no longer than a push, and where one was named.
+bool is_a_named_push(const Unnamed& lasting, const JointModel& named) {
+  constexpr double kLongest_s = 1.0, kNear_s = 0.25;
+  if (lasting.where.time_s.size() != 1) return false;
+  const auto [from_s, to_s] = lasting.where.time_s.front();
+  return to_s - from_s < kLongest_s &&
+         std::any_of(named.accepted.begin(), named.accepted.end(), [&, from_s = from_s, to_s = to_s](const auto& a) {
+           return a.effect->local && a.effect->of_one_recording &&
+                  named.runs()[static_cast<std::size_t>(a.shape[0])].name == lasting.where.recording &&
+                  a.shape[1] > from_s - kNear_s && a.shape[1] < to_s + kNear_s;
+         });
+}
+
+// What goes on for a while may have been named a patch or a bump, which the vehicle is on as long. What these say they
+// say beside what else takes it up, and of the noise, too.
 std::optional<Unnamed> what_goes_on_instead_of_places(const Named& named, double error) {
   double said = 0.0;
   for (const ScoredCandidate& e : named.selected.evidence)
@@ -54,7 +69,10 @@ std::optional<Unnamed> what_goes_on_instead_of_places(const Named& named, double
   without.fit(3);
   without.fit_noise_and_all();
   std::optional<Unnamed> lasting = what_goes_on_for_a_while(without, 0.0, error);
-  return lasting && lasting->gain > (1.0 + kMostLeft) * said ? lasting : std::nullopt;
+  if (!lasting || lasting->gain < (1.0 + kMostLeft) * said || lasting->gain < likelier_by(named.joint, without) ||
+      is_a_named_push(*lasting, named.joint))
+    return std::nullopt;
+  return lasting;
 }
 
 }  // namespace
