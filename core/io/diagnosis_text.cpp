@@ -87,7 +87,11 @@ std::string finding_line(const Finding& f) {
   std::string parameters;
   std::vector<const FoundParameter*> of_recordings;  // one of each: rate_1, rate_2, ...
   for (const FoundParameter& p : f.parameters) {
-    if (p.name == kSessionStart || p.name == kStatedAt) continue;  // given, not found
+    if (p.name == kSessionStart) continue;  // given, not found
+    if (p.name == kStatedAt) {
+      parameters += " at " + size_text(p.value, p.unit);
+      continue;
+    }
     if (is_numbered(p.name)) {
       of_recordings.push_back(&p);
       continue;

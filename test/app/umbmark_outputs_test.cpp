@@ -16,7 +16,9 @@ TEST(UmbmarkOutputs, OfARobotWithoutErrorsFindNothingBetterNorWorse) {
   const Result<RunOutputs> out = umbmark_outputs(scenario, 1, {});
   ASSERT_TRUE(out) << out.error().message();
   for (const auto& [name, value] : out->figures)
-    if (name == "improvement") EXPECT_EQ(value, 1.0);
+    if (name == "improvement") {
+      EXPECT_EQ(value, 1.0);
+    }
   for (const std::string& sentence : out->sentences) EXPECT_EQ(sentence.find("That is"), std::string::npos) << sentence;
 }
 

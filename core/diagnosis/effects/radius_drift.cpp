@@ -64,7 +64,7 @@ Effect drift_of(Wheel wheel) {
                 : wheel == Wheel::right ? "right wheel"
                                         : "wheels") +
                " drifts with time";
-  e.regime = "grows with the time since the start";
+  e.regime = "grows with the time, or the way, since the start";
   e.looks_like = {"one_sided_drag", "payload_radius_change", "clock_rate"};
   e.told_apart_by = "the same straight early and late in a long run";
   e.scan = [](const std::vector<DriveView>& views) {

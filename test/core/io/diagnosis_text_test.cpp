@@ -153,6 +153,14 @@ TEST(SummaryLines, HoldEachFindingWholeAndSayHowManyMoreThereAre) {
   EXPECT_NE(all.find("-0.09"), std::string::npos) << all;
 }
 
+TEST(Findings, SayTheSpeedAtWhichTheyAreSoLarge) {
+  Diagnosis d = test::diagnosis_by_hand();
+  d.findings[0].parameters = {{"per_s", 1e-4, 1e-5, "1/s"}, {"at_mps", 0.25, 0.0, "m/s"}};
+  std::string summary;
+  for (const std::string& line : summary_lines(d)) summary += line.substr(line.find_first_not_of(' ')) + " ";
+  EXPECT_EQ(count(summary, "% per s at 250 mm/s;"), 1u) << summary;
+}
+
 TEST(Findings, SayInWhichOfSeveralFormsTheyFitBest) {
   Diagnosis d = test::diagnosis_by_hand();
   d.findings[1].form_in_words = "each wheel that is on the patch";
