@@ -124,14 +124,14 @@ std::optional<Unnamed> what_radii_go_by_instead(const JointModel& joint) {
   if (!may_be_another_law(joint.accepted)) return std::nullopt;
   const RadiusLaw laws[] = {by_hats("way since the start [m]", way_since_start_m, joint.views()),
                             by_hats("time since the start [s]", time_since_start_s, joint.views()), by_what_fades()};
+  JointModel unnamed = joint;
+  std::erase_if(unnamed.accepted, is_of_radii_in_time);
   std::optional<Unnamed> found;
   double most = 0.0;
   for (const RadiusLaw& law : laws) {
     if (law.functions.empty()) continue;
     const GenericTest group = as_group(law);
-    JointModel without = joint;
-    std::erase_if(without.accepted, is_of_radii_in_time);
-    JointModel with = without;
+    JointModel with = unnamed;
     with.accepted.push_back(
         {.effect = group.as_effect.get(), .shape = {}, .value = group.test.value, .is_damped = true});
     with.fit(3);
@@ -143,7 +143,7 @@ std::optional<Unnamed> what_radii_go_by_instead(const JointModel& joint) {
     const double beyond_chance = more - kByChance * law.terms();
     if (!(beyond_chance > most)) continue;
     most = beyond_chance;
-    without = without.under(with.model.noise);
+    JointModel without = unnamed.under(with.model.noise);
     without.fit(3);
     found = unnamed_by(group, with, without, shape_of(group, with), likelier_by(with, without));
     found->p_value = std::size(laws) * chi_square_tail(more, law.terms());
