@@ -26,7 +26,7 @@ std::vector<std::vector<double>> moments(const std::vector<DriveView>& views, do
   for (const DriveView& v : views) {
     double next_s = -1e300, rolled_m = 0.0;
     for (const EffectStep& s : v.steps) {
-      rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+      rolled_m += s.rolled_m();
       if (rolled_m <= 0.05 || s.time_s < next_s || !may_happen(s)) continue;
       found.push_back({static_cast<double>(v.number), s.time_s});
       next_s = s.time_s + std::max(apart_s, span_s / kMost);

@@ -33,6 +33,7 @@ struct EffectStep {
   Vec2 position;
 
   double forward_m() const { return 0.5 * (left_m + right_m); }
+  double rolled_m() const { return 0.5 * (std::abs(left_m) + std::abs(right_m)); }  // of a wheel, on the mean
   // As the commands say; of encoders no other than the way.
   double told_left_m() const { return left_m - late_left_m; }
   double told_right_m() const { return right_m - late_right_m; }

@@ -44,7 +44,7 @@ double mean_pace_mps(const std::vector<DriveView>& views) {
   double way_m = 0.0, time_s = 0.0;
   for (const DriveView& view : views)
     for (const EffectStep& s : view.steps)
-      way_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m)), time_s += s.duration_s;
+      way_m += s.rolled_m(), time_s += s.duration_s;
   return time_s > 0.0 ? way_m / time_s : 0.0;
 }
 

@@ -269,7 +269,7 @@ std::optional<Unnamed> what_scatters_too_much(const JointModel& joint) {
   if (scatter < kMost_m_per_sqrt_m) return std::nullopt;
   double rolled_m = 0.0, samples = 0.0;
   for (const DriveView& view : joint.views())
-    for (const EffectStep& s : view.steps) rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+    for (const EffectStep& s : view.steps) rolled_m += s.rolled_m();
   for (const InnovationRun& run : joint.runs()) samples += static_cast<double>(run.truth.size() - 1);
   if (rolled_m < kFewest_m) return std::nullopt;
   // Where headings are that uncertain from one sample to the next they may be off by whole turns, and their scatter is

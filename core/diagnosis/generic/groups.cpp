@@ -157,7 +157,6 @@ Group forgotten_over_seconds(const char* name, double (*work)(const EffectStep&)
 }
 
 double turned_rad(const EffectStep& s) { return std::abs(s.turn_rad); }
-double rolled_in_step_m(const EffectStep& s) { return 0.5 * (std::abs(s.left_m) + std::abs(s.right_m)); }
 
 Group by_way_since_rest() {
   Group g;
@@ -171,7 +170,7 @@ Group by_way_since_rest() {
     for (std::size_t i = 0; i < view.steps.size(); ++i) {
       const EffectStep& s = view.steps[i];
       stood_s = wheels_stand(s) ? stood_s + s.duration_s : 0.0;
-      way_m = stood_s > kStands_s ? 0.0 : way_m + rolled_in_step_m(s);
+      way_m = stood_s > kStands_s ? 0.0 : way_m + s.rolled_m();
       for (std::size_t k = 0; k < std::size(kForgotten_m); ++k) out[k][i] = std::exp(-way_m / kForgotten_m[k]);
     }
   };
@@ -271,7 +270,8 @@ std::vector<Group> groups_of(const std::vector<DriveView>& views, const Shaken& 
   groups.push_back(by_turn_before());
   groups.push_back(by_time_since_start_forgotten());
   groups.push_back(forgotten_over_seconds("turning before, forgotten over seconds", turned_rad));
-  groups.push_back(forgotten_over_seconds("way before, forgotten over seconds", rolled_in_step_m));
+  groups.push_back(
+      forgotten_over_seconds("way before, forgotten over seconds", [](const EffectStep& s) { return s.rolled_m(); }));
   groups.push_back(by_way_since_rest());
   groups.push_back(by_way_since_reversal());
   groups.push_back(by_wheel_angles());

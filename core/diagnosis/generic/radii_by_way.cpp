@@ -41,7 +41,7 @@ std::vector<double> way_since_start_m(const DriveView& view) {
   std::vector<double> way_m;
   double so_far_m = 0.0;
   for (const EffectStep& s : view.steps) {
-    so_far_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+    so_far_m += s.rolled_m();
     way_m.push_back(so_far_m);
   }
   return way_m;

@@ -17,7 +17,7 @@ double set_off_s(const DriveView& view) {
   constexpr double kFirst_m = 0.05;
   double rolled_m = 0.0;
   for (const EffectStep& s : view.steps) {
-    rolled_m += 0.5 * (std::abs(s.left_m) + std::abs(s.right_m));
+    rolled_m += s.rolled_m();
     if (rolled_m > kFirst_m) return s.time_s;
   }
   return 1e300;
