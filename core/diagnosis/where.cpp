@@ -41,6 +41,17 @@ Vec2 place_of(const std::string& component, const EffectStep& s, double wheelbas
   return s.position + rotated({0.0, side}, s.heading_rad);
 }
 
+// Of what lies across the way.
+struct CrossedLine {
+  Vec2 along;
+  double half_m;
+};
+std::optional<CrossedLine> line_of(const AcceptedEffect& a) {
+  if (!has_shape(a, "length_m")) return std::nullopt;
+  const double direction_rad = shape_named(a, "direction_rad");
+  return CrossedLine{{std::cos(direction_rad), std::sin(direction_rad)}, 0.5 * shape_named(a, "length_m")};
+}
+
 // What comes at one time in each recording, where only one lasts until then: that one, and its own time.
 struct OfOne {
   std::size_t run;
@@ -85,18 +96,19 @@ WhereFound where_of(const JointModel& joint, const AcceptedEffect& a, const Eige
     }
   } else if (a.effect->local && has_shape(a, "x_m")) {
     const bool patch = has_shape(a, "radius_m");
-    const double radius_m = patch ? shape_named(a, "radius_m") : kEventRadius_m;
+    const std::optional<CrossedLine> line = line_of(a);
+    const double radius_m = patch ? shape_named(a, "radius_m") : line ? line->half_m : kEventRadius_m;
     w.zone = WhereFound::Zone{shape_named(a, "x_m"), shape_named(a, "y_m"), radius_m};
     double longest_s = 0.0;
     std::vector<std::string> came;
     for (std::size_t r = 0; r < joint.runs().size(); ++r) {
       const DriveView& view = joint.views()[r];
-      const double reach_m = radius_m + (patch ? 0.5 * view.drive.wheelbase_m : 0.0);  // either wheel
+      const double reach_m = radius_m + (patch || line ? 0.5 * view.drive.wheelbase_m : 0.0);  // either wheel
       std::vector<std::pair<double, double>> times;
       double in_all_s = 0.0;
       for (const EffectStep& s : view.steps) {
-        if (length(place_of(a.effect->component, s, view.drive.wheelbase_m) - Vec2{w.zone->x_m, w.zone->y_m}) > reach_m)
-          continue;
+        const Vec2 away = place_of(a.effect->component, s, view.drive.wheelbase_m) - Vec2{w.zone->x_m, w.zone->y_m};
+        if (length(away) > reach_m || (line && std::abs(cross(line->along, away)) > kEventRadius_m)) continue;
         const double from = s.time_s - 0.5 * s.duration_s, to = s.time_s + 0.5 * s.duration_s;
         if (!times.empty() && from - times.back().second < 0.2)
           times.back().second = to;

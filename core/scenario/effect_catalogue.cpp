@@ -55,7 +55,9 @@ bool is_part(const std::string& word) {
 
 // The largest number of a form, which of a bump goes by where and when it is.
 double largest_form(const ActiveEffect& active, const EffectParameter& form) {
-  if (active.effect != "bump" || !gives(active, "at_s")) return form.at_most;
+  if (active.effect != "bump") return form.at_most;
+  if (gives(active, "length_m")) return static_cast<double>(std::size(effects::kCablesClimbed)) - 1.0;
+  if (!gives(active, "at_s")) return form.at_most;
   const std::size_t forms =
       active.component == "both_wheels" ? std::size(effects::kBumpsOfBoth) : std::size(effects::kBumpsOnce);
   return static_cast<double>(forms) - 1.0;
@@ -144,6 +146,8 @@ const std::vector<EffectEntry>& effect_catalogue() {
         {"x_m", -kFar, kFar, kRequired},
         {"y_m", -kFar, kFar, kRequired},
         {"radius_m", 1e-3, kFar},
+        {"direction_rad"},
+        {"length_m", 1e-2, kFar},
         {"at_s", -kEver_s, kEver_s},
         number_of_form(std::size(effects::kBumpsLying))}},
       {"slip_zone",

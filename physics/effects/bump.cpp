@@ -1,4 +1,5 @@
-// Something round on the floor, as high as it takes to make the wheel turn so much further than it travels.
+// Something round on the floor, or something straight as a cable, as high as it takes to make the wheel turn so much
+// further than it travels.
 #include <algorithm>
 
 #include "core/diagnosis/effects/forms.h"
@@ -18,6 +19,8 @@ double height_for(double radius_m, double extra_m) {
   return high_m;
 }
 
+bool lies_across(const ActiveEffect& a) { return a.parameter("length_m") > 0.0; }
+
 class BumpOnTheFloor final : public Effect {
  public:
   BumpOnTheFloor(const ActiveEffect& a, const ActualDrive& actual) {
@@ -26,10 +29,11 @@ class BumpOnTheFloor final : public Effect {
                                                        : Under::any_wheel;
     const double radius_m = under == Under::right_wheel ? actual.wheel_radius_right_m : actual.wheel_radius_left_m;
     bump_.centre = {a.parameter("x_m"), a.parameter("y_m")};
-    bump_.length_m = 2.0 * a.parameter("radius_m", 0.1);
+    bump_.round = !lies_across(a);
+    bump_.length_m = bump_.round ? 2.0 * a.parameter("radius_m", 0.1) : a.parameter("length_m");
+    bump_.direction_rad = a.parameter("direction_rad");
     bump_.height_m = height_for(radius_m, a.parameter("extra_distance_m"));
     bump_.under = under;
-    bump_.round = true;
   }
 
   void lay_on(Floor& floor) const override { floor.bumps.push_back(bump_); }
@@ -58,6 +62,10 @@ class BumpInForm final : public Effect {
       const bool of_both = a.component == "both_wheels";
       lying_.climb = of_both ? effects::kBumpsOfBoth[form].climb : effects::kBumpsOnce[form];
       right_later_m_ = of_both ? effects::kBumpsOfBoth[form].right_later_m : 0.0;
+    } else if (lies_across(a)) {
+      lying_ = {0.5 * a.parameter("length_m"), effects::kCablesClimbed[form]};
+      const double direction_rad = a.parameter("direction_rad");
+      along_ = Vec2{std::cos(direction_rad), std::sin(direction_rad)};
     } else {
       lying_ = effects::kBumpsLying[form];
       lying_.reach_m = a.parameter("radius_m", lying_.reach_m);
@@ -72,6 +80,8 @@ class BumpInForm final : public Effect {
     const double rim_mps = wheel.radius_m * wheel.speed_radps;
     if (at_s_)
       come_to_its_moment(way, motion, rim_mps, wheel.radius_m, (is_left ? -0.5 : 0.5) * right_later_m_);
+    else if (along_)
+      come_to_its_line(way, motion, wheel, rim_mps < 0.0);
     else
       come_to_its_place(way, motion, wheel, rim_mps < 0.0);
     if (!way.is_on || rim_mps == 0.0) return;
@@ -124,10 +134,23 @@ class BumpInForm final : public Effect {
     if (!is_there && !way.is_on && std::abs(to.x_m) > half_m) way.is_done = false;
   }
 
+  void come_to_its_line(Way& way, const VehicleMotion& motion, const RollingWheel& wheel, bool in_reverse) const {
+    const double heading_rad = motion.heading_rad + (in_reverse ? kPi : 0.0);
+    const Vec2 ahead{std::cos(heading_rad), std::sin(heading_rad)}, to = place_ - wheel.contact;
+    const double across = cross(ahead, *along_);
+    if (std::abs(across) < 0.05) return;  // it goes along it, not over it
+    const double ahead_m = cross(to, *along_) / across, length_m = lying_.climb.length_m(wheel.radius_m);
+    const double from_m = std::max(0.0, 0.5 * (length_m - way.extra_m));
+    const bool is_there = std::abs(ahead_m) <= from_m && std::abs(dot(ahead_m * ahead - to, *along_)) <= lying_.reach_m;
+    if (is_there && !way.is_done) begin(way, length_m);
+    if (!is_there && !way.is_on && std::abs(ahead_m) > 0.5 * length_m) way.is_done = false;
+  }
+
   std::string component_;
   double extra_m_[2];  // of the left wheel and of the right one
   double right_later_m_ = 0.0;
   Vec2 place_;
+  std::optional<Vec2> along_;  // of what lies across the way
   double step_s_;
   std::optional<double> at_s_;
   effects::Lying lying_{};

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/diagnosis/effects/climbing.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/effects/floor.h"
 #include "core/diagnosis/effects/forms.h"
@@ -13,68 +14,13 @@ namespace odolab::effects {
 
 namespace {
 
-// Of the way over something it takes two thirds at most: a wheel that climbs as high as its axle takes one.
-bool is_climbed(double extra_m, const Climb& climb) {
-  constexpr double kSteepest = 2.0 / 3.0;
-  return climb.evenly_over_m == 0.0 || extra_m <= kSteepest * climb.evenly_over_m;
-}
-
-double way(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
-
-// Where the wheel stands.
-Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
-  const double half = wheel == Wheel::left ? 0.5 * wheelbase_m : -0.5 * wheelbase_m;
-  return {s.position.x_m - half * s.sin_heading, s.position.y_m + half * s.cos_heading};
-}
-
-double radius_m(Wheel wheel, const DriveView& view) {
-  return wheel == Wheel::left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
-}
-
-// An extra distance, one metre of it, spread over the steps [from, to] as they are travelled; of a mound that is so far
-// across, one metre for as much way.
-void spread(Motions& m, const DriveView& view, Wheel wheel, std::size_t from, std::size_t to, const Climb& climb,
-            double across_m = 0.0) {
-  double total = 0.0;
-  for (std::size_t i = from; i <= to; ++i) total += std::abs(way(wheel, view.steps[i]));
-  if (total <= 0.01) return;
-  const double extra_m = across_m > 0.0 ? total / across_m : 1.0;
-  double gone = 0.0, before = 0.0;
-  BodyMotion* at = m.from(from);
-  for (std::size_t i = from; i <= to; ++i, ++at) {
-    const double goes = way(wheel, view.steps[i]);
-    gone = std::min(gone + std::abs(goes) / total, 1.0);
-    const double now = climb.share_before(gone);
-    const BodyMotion by = by_wheel(wheel, std::copysign(extra_m * (now - before), -goes), view.drive.wheelbase_m);
-    at->forward_m += by.forward_m;
-    at->turn_rad += by.turn_rad;
-    before = now;
-  }
-}
-
-struct Steps {
-  std::size_t first, last;
-};
-
-// So much of a wheel's way about the middle of a step.
-Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
-  const double at_s = view.steps[middle].time_s;
-  Steps s{middle, middle};
-  double before = 0.5 * std::abs(way(wheel, view.steps[middle])), behind = before;
-  while (s.first > 0 && before < 0.5 * length_m && at_s - view.steps[s.first].time_s < kLongestBump_s)
-    before += std::abs(way(wheel, view.steps[--s.first]));
-  while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongestBump_s)
-    behind += std::abs(way(wheel, view.steps[++s.last]));
-  return s;
-}
-
 // So much of a wheel's way from a step on.
 Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double length_m) {
   Steps s{first, first};
-  double gone = std::abs(way(wheel, view.steps[first]));
+  double gone = std::abs(way_m(wheel, view.steps[first]));
   while (s.last + 1 < view.steps.size() && gone < length_m &&
          view.steps[s.last].time_s - view.steps[first].time_s < kLongestBump_s)
-    gone += std::abs(way(wheel, view.steps[++s.last]));
+    gone += std::abs(way_m(wheel, view.steps[++s.last]));
   return s;
 }
 
@@ -104,8 +50,8 @@ std::vector<Motions> of_both_at_moment(const DriveView& view, double at_s, const
               right = climbed(Wheel::right, 0.5 * over.right_later_m);
   const std::size_t first = std::min(left.first, right.first), end = std::max(left.last, right.last) + 1;
   Motions by_left(first, end), by_right(first, end);
-  spread(by_left, view, Wheel::left, left.first, left.last, over.climb);
-  spread(by_right, view, Wheel::right, right.first, right.last, over.climb);
+  spread(by_left, view, {Wheel::left, left}, over.climb);
+  spread(by_right, view, {Wheel::right, right}, over.climb);
   std::vector<Motions> m(2, Motions(first, end));
   for (std::size_t i = first; i < end; ++i) {
     const BodyMotion l = by_left.at(i), r = by_right.at(i);
@@ -120,20 +66,8 @@ Motions at_moment(const DriveView& view, Wheel wheel, double at_s, const Climb& 
   if (at >= view.steps.size()) return Motions();  // the drive was over by then
   const Steps s = steps_about(view, wheel, at, climb.length_m(radius_m(wheel, view)));
   Motions m(s.first, s.last + 1);
-  spread(m, view, wheel, s.first, s.last, climb);
+  spread(m, view, {wheel, s}, climb);
   return m;
-}
-
-// In order and apart: what overlaps or touches is one.
-std::vector<Motions::Stretch> merged(std::vector<Motions::Stretch> stretches) {
-  std::sort(stretches.begin(), stretches.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Motions::Stretch> out;
-  for (const Motions::Stretch& s : stretches)
-    if (out.empty() || s.first > out.back().end)
-      out.push_back(s);
-    else
-      out.back().end = std::max(out.back().end, s.end);
-  return out;
 }
 
 // While one wheel is within reach of the place.
@@ -161,34 +95,15 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
       if (away_m2 < now.away_m2) now.nearest = i, now.away_m2 = away_m2;
     });
   }
-  if (visits.empty()) return {};
-  std::vector<Motions::Stretch> stretches;
-  for (Visit& v : visits) {
+  std::vector<Climbing> climbs;
+  for (const Visit& v : visits) {
+    Steps over = v.met;
     if (const double length_m = lying.climb.length_m(radius_m(v.wheel, view)); length_m > 0.0)
-      v.met = lying.at_its_edge ? steps_from(view, v.wheel, v.met.first, length_m)
-                                : steps_about(view, v.wheel, v.nearest, length_m);
-    stretches.push_back({v.met.first, v.met.last + 1});
+      over = lying.at_its_edge ? steps_from(view, v.wheel, v.met.first, length_m)
+                               : steps_about(view, v.wheel, v.nearest, length_m);
+    climbs.push_back({v.wheel, over});
   }
-  Motions m(merged(std::move(stretches)));
-  for (const Visit& v : visits)
-    spread(m, view, v.wheel, v.met.first, v.met.last, lying.climb, lying.is_mound ? 2.0 * lying.reach_m : 0.0);
-  return m;
-}
-
-Effect bump_of(Wheel wheel) {
-  Effect e;
-  e.name = "bump";
-  e.component = component_of(wheel);
-  e.amplitudes = {{"extra_distance_m", "m", 0.005, 0.0, 0.3}};
-  e.sentence = std::string(wheel == Wheel::left    ? "the left wheel"
-                           : wheel == Wheel::right ? "the right wheel"
-                                                   : "whichever wheel comes there") +
-               " climbs over something: it turns more than it travels";
-  e.regime = "at one place";
-  e.looks_like = {"collision", "slip_zone"};
-  e.told_apart_by = "the same way driven again: a bump comes back at its place";
-  e.local = true;
-  return e;
+  return motions_of(view, climbs, lying.climb, lying.is_mound ? 2.0 * lying.reach_m : 0.0);
 }
 
 std::vector<std::vector<double>> moments_of_driving(const std::vector<DriveView>& views) {

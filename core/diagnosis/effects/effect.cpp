@@ -195,6 +195,7 @@ const std::vector<Effect>& catalogue() {
                        effects::traction_slip,
                        effects::turn_scrub,
                        effects::one_sided_drag,
+                       effects::bump_across,
                        effects::bump,
                        effects::slip_zone,
                        effects::floor_slope_creep,

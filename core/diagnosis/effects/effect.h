@@ -138,6 +138,8 @@ struct Effect {
   std::function<double(const std::vector<double>& shape, const std::vector<DriveView>& views)> near_its_limit;
   // Shapes to try; empty function: there is no shape.
   std::function<std::vector<std::vector<double>>(const std::vector<DriveView>&)> scan;
+  // Shapes from which it is looked for about a place where something else was found; empty: that place itself.
+  std::function<std::vector<std::vector<double>>(Vec2 place)> shapes_about;
   // So many independent ones a scanned shape of one form stands for, once it is refined: more where there is much
   // between them, fewer where they are alike (test/tools/chance_of_names.cpp).
   double tests_of_a_shape = 1.0;
@@ -171,6 +173,12 @@ inline bool is_estimated(const Effect::Amplitude& shape) {
   return shape.name != "recording" && shape.name != kSessionStart;
 }
 
+// Of how long a line is only the ways that cross it and those that pass it tell: no more than bounds.
+inline bool is_only_bounded(const Effect::Amplitude& shape) { return shape.name == "length_m"; }
+
+// How far it reaches, and not where it is.
+inline bool is_extent(const Effect::Amplitude& shape) { return shape.name == "radius_m" || shape.name == "length_m"; }
+
 // Every entry, once for each component that it can act on.
 const std::vector<Effect>& catalogue();
 // The entry of that name and component, or of that name alone, whose shapes are among the parameters.
@@ -199,6 +207,7 @@ std::vector<Effect> traction_slip();
 std::vector<Effect> turn_scrub();
 std::vector<Effect> one_sided_drag();
 std::vector<Effect> bump();
+std::vector<Effect> bump_across();  // the way, as a cable: an entry "bump", too
 std::vector<Effect> slip_zone();
 std::vector<Effect> floor_slope_creep();
 std::vector<Effect> collision();

@@ -247,6 +247,9 @@ inline constexpr Lying kBumpsLying[] = {
     {0.1, {0.0, 0.004}},     {0.1, {0.0, 0.015}},     {0.1, {0.06}, true},    {0.1, {}},
     {0.04, {}, false, true}, {0.08, {}, false, true}, {0.14, {}, false, true}};
 inline constexpr std::size_t kLyingAsLongAsWide = 7;
+
+// What lies across the way, as a cable or a sill, is climbed so wherever a wheel crosses it.
+inline constexpr Climb kCablesClimbed[] = {{0.06}, {0.2}, {0.0, 0.004}, {0.0, 0.015}};
 // What reaches no further to either side, in radii of a wheel, is something that it climbs; and what does is a patch.
 inline constexpr double kClimbedWithin = 1.5;
 

@@ -132,7 +132,7 @@ std::vector<int> free_shapes(const Effect& effect) {
   std::vector<int> free;
   if (effect.shape_follows_amplitude) return free;
   for (std::size_t k = 0; k < effect.shapes.size(); ++k)
-    if (is_estimated(effect.shapes[k])) free.push_back(static_cast<int>(k));
+    if (is_estimated(effect.shapes[k]) && !is_only_bounded(effect.shapes[k])) free.push_back(static_cast<int>(k));
   return free;
 }
 
@@ -264,10 +264,12 @@ std::vector<FoundParameter> parameters_of(const AcceptedEffect& a, const MatrixX
                    a.effect->shapes[s].unit});
     ++k;
   }
-  for (std::size_t k = 0; k < a.effect->shapes.size(); ++k)
-    if (a.effect->shapes[k].name == kSessionStart &&
-        effects::drifts_through_the_session(static_cast<int>(std::lround(a.shape.back()))))
-      out.push_back({kSessionStart, a.shape[k], 0.0, a.effect->shapes[k].unit});
+  for (std::size_t k = 0; k < a.effect->shapes.size(); ++k) {
+    const Effect::Amplitude& s = a.effect->shapes[k];
+    const bool is_start_of_session =
+        s.name == kSessionStart && effects::drifts_through_the_session(static_cast<int>(std::lround(a.shape.back())));
+    if (is_only_bounded(s) || is_start_of_session) out.push_back({s.name, a.shape[k], 0.0, s.unit});
+  }
   return out;
 }
 

@@ -14,6 +14,13 @@ constexpr double kWidestBump_m = 0.2;
 // Of a bump that is met each time.
 bool is_lying(const Effect& e) { return e.name == "bump" && !e.of_one_recording; }
 
+// How far from its middle it is met.
+double half_length_m(const Effect& e, const std::vector<double>& shape) {
+  for (std::size_t k = 0; k < e.shapes.size(); ++k)
+    if (e.shapes[k].name == "length_m") return 0.5 * shape[k];
+  return 0.0;
+}
+
 // Whether the vehicle is on a patch about a moment.
 bool happens_on(const JointModel& joint, const std::vector<double>& moment, const std::vector<double>& patch) {
   constexpr double kAbout_s = 0.5;
@@ -69,11 +76,13 @@ bool of_the_same(const JointModel& joint, const ScoredCandidate& c) {
       return true;
     // What lies on the floor is met by one wheel or the other, more in its middle than at its edge.
     if (is_lying(*c.effect) && is_lying(*a.effect) &&
-        length(Vec2{c.test.shape[0] - a.shape[0], c.test.shape[1] - a.shape[1]}) < kWidestBump_m)
+        length(Vec2{c.test.shape[0] - a.shape[0], c.test.shape[1] - a.shape[1]}) <
+            std::max({kWidestBump_m, half_length_m(*c.effect, c.test.shape), half_length_m(*a.effect, a.shape)}))
       return true;
     // A bump that is met now and then by its edge is met less, or more, at some moment.
     if (c.effect->of_one_recording && is_lying(*a.effect) &&
-        happens_on(joint, c.test.shape, {a.shape[0], a.shape[1], kWidestBump_m}))
+        happens_on(joint, c.test.shape,
+                   {a.shape[0], a.shape[1], std::max(kWidestBump_m, half_length_m(*a.effect, a.shape))}))
       return true;
     if (c.effect->of_one_recording && a.effect->local && a.effect->of_one_recording && a.shape[0] == c.test.shape[0] &&
         std::abs(a.shape[1] - c.test.shape[1]) < 1.0)

@@ -94,6 +94,14 @@ bool is_met_by_one_of(const Effect& one, const Effect& either) {
          !one.of_one_recording && one.name == either.name && one.component != either.component;
 }
 
+bool lies_across(const Effect& e) { return e.name == "bump" && static_cast<bool>(e.shapes_about); }
+
+// The same at one place of a line, by that wheel or whichever comes there.
+bool is_one_place_of(const Effect& place, const Effect& line) {
+  return lies_across(line) && place.name == line.name && !place.of_one_recording && !lies_across(place) &&
+         (place.component == line.component || place.component == component_of(Wheel::both));
+}
+
 // The same by a wheel of that place, at one moment of one recording.
 bool happens_once_of(const Effect& once, const Effect& each_time) {
   return once.local && once.of_one_recording && each_time.local && !each_time.of_one_recording &&
@@ -136,6 +144,9 @@ bool says_too_little(const ScoredCandidate& c, const ScoredCandidate& simpler) {
   const int more = c.test.freedom - simpler.test.freedom;
   if (is_finer(*c.effect, *simpler.effect))
     return more > 0 && chi_square_tail((c.test.statistic - simpler.test.statistic) / scale, more) > 1e-3;
+  constexpr int kNumbersOfALine = 2;  // its direction and its length
+  if (is_one_place_of(*simpler.effect, *c.effect))
+    return chi_square_tail(std::max(0.0, c.test.statistic - simpler.test.statistic) / scale, kNumbersOfALine) > 1e-3;
   // What is said of either wheel must say more than of one, by two standard errors; and what is said to come back each
   // time more than that it happened once, by more than another form does.
   constexpr double kMore = 4.0, kMoreThanAForm = 1.25;

@@ -180,7 +180,8 @@ double first_stride(const Effect& e, int entry, double value) {
   const std::string &unit = e.shapes[entry].unit, &name = e.shapes[entry].name;
   if (name == "lasts_s") return 0.05;
   if (unit == "s") return e.local ? 0.1 : 3.0;
-  if (name == "radius_m") return 0.25 * std::abs(value);
+  if (is_extent(e.shapes[entry])) return 0.25 * std::abs(value);
+  if (name == "direction_rad") return 0.2;
   if (unit == "m") return 0.2;
   return std::max(0.15 * std::abs(value), 1e-6);
 }

@@ -20,8 +20,10 @@ std::vector<std::vector<double>> shapes_near(const Effect& e, const std::vector<
       const std::string& unit = e.shapes[k].unit;
       if (unit == "s" && !e.shape_follows_amplitude)
         s[k] += side * scale * (e.local ? 0.1 : 3.0);
-      else if (e.shapes[k].name == "radius_m")
+      else if (is_extent(e.shapes[k]))
         s[k] *= 1.0 + side * 0.25 * scale;
+      else if (e.shapes[k].name == "direction_rad")
+        s[k] += side * scale * 0.3;
       else if (unit == "m")
         s[k] += side * scale * 0.2;
       else
@@ -199,9 +201,20 @@ class ShapeSearch {
 
   void climb_from_given_places() {
     for (std::vector<double> start : also_from_) {
+      if (e_.shapes_about) {
+        climb_from_best_of(with_forms(e_.shapes_about({start[0], start[1]}), false));
+        continue;
+      }
       if (forms_ > 1) start.push_back(0.0);
       climb_in_each_form(start);
     }
+  }
+
+  void climb_from_best_of(const std::vector<std::vector<double>>& starts) {
+    const CandidateTest top = best();
+    best().statistic = 0.0;
+    if (take_best_of(starts) && climbs_towards(top.statistic)) try_other_forms(), climb();
+    if (best().statistic <= top.statistic) best() = top;
   }
 
   // A place is looked for from several starts.
@@ -299,8 +312,8 @@ CandidateTest tested_in_form(const JointModel& joint, std::size_t accepted, std:
 Apart apart(const Effect& e, const std::vector<double>& a, const std::vector<double>& b) {
   Apart p;
   for (std::size_t k = 0; k < e.shapes.size(); ++k) {
-    if (e.shapes[k].name == "radius_m")
-      p.radii_m = a[k] + b[k];
+    if (is_extent(e.shapes[k]))
+      p.radii_m = e.shapes[k].name == "radius_m" ? a[k] + b[k] : 0.5 * (a[k] + b[k]);
     else if (e.shapes[k].unit == "m")
       p.away_m2 += (a[k] - b[k]) * (a[k] - b[k]);
   }

@@ -168,7 +168,7 @@ TEST(Bump, IsSoughtWhereverAWheelComesTwiceHoweverLongTheWay) {
   nominal.kind = drive;
   const JointModel joint = uncalibrated_model({twice_round}, nominal);
   for (const Effect& e : catalogue()) {
-    if (e.name != "bump" || e.of_one_recording || e.component != "left_wheel") continue;
+    if (e.name != "bump" || e.of_one_recording || e.shapes_about || e.component != "left_wheel") continue;
     const std::vector<std::vector<double>> places = e.scan(joint.views());
     ASSERT_FALSE(places.empty());
     for (const EffectStep& s : joint.views().front().steps) {
@@ -189,12 +189,13 @@ TEST(Bump, TakesNoMoreThanTwoThirdsOfTheWayOverIt) {
   for (const Effect& e : catalogue()) {
     if (e.name != "bump") continue;
     ++asked;
-    const std::vector<double> at{0.0, 0.0, 0.0};  // in its first form, evenly over 6 cm
+    std::vector<double> at(e.shapes.size() + 1, 1.0);
+    at.back() = 0.0;  // in its first form, evenly over 6 cm
     ASSERT_TRUE(e.form_goes_with) << e.component;
     EXPECT_TRUE(e.form_goes_with({0.025, 0.0}, at, 0.0, {})) << e.component;
     EXPECT_FALSE(e.form_goes_with({0.06, 0.0}, at, 0.0, {})) << e.component;
   }
-  EXPECT_EQ(asked, 6);
+  EXPECT_EQ(asked, 9);
 }
 
 }  // namespace

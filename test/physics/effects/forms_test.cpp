@@ -44,6 +44,8 @@ ActiveEffect found(const Effect& effect, int form) {
     active.parameters.emplace_back(shape.name, shape.name == "x_m"               ? 0.7
                                                : shape.name == "y_m"             ? effect.name == "bump" ? 0.15 : 0.02
                                                : shape.name == "radius_m"        ? 0.4
+                                               : shape.name == "direction_rad"   ? 1.3
+                                               : shape.name == "length_m"        ? 0.6
                                                : shape.name == kSessionStart     ? -20.0
                                                : shape.name == "phase_rad"       ? 0.5
                                                : shape.name == "above_radps"     ? 3.0
