@@ -16,6 +16,22 @@ double pace_radps(const std::vector<WheelSample>& wheels, double WheelSample::*w
   return (wheels[to].*wheel - wheels[from].*wheel) / std::max(1e-6, wheels[to].time_s - wheels[from].time_s);
 }
 
+std::size_t reading_at(const std::vector<WheelSample>& wheels, double time_s) {
+  return static_cast<std::size_t>(std::lower_bound(wheels.begin(), wheels.end(), time_s,
+                                                   [](const WheelSample& w, double t) { return w.time_s < t; }) -
+                                  wheels.begin());
+}
+
+// Whether a wheel goes on meanwhile as it went before.
+bool goes_on(const std::vector<WheelSample>& wheels, double WheelSample::*wheel,
+             const std::pair<double, double>& meanwhile) {
+  constexpr double kOfThePace = 0.7;
+  const std::size_t first = reading_at(wheels, meanwhile.first), last = reading_at(wheels, meanwhile.second);
+  return first >= kReadingsOfPace &&
+         std::abs(pace_radps(wheels, wheel, first, last)) >
+             kOfThePace * std::abs(pace_radps(wheels, wheel, first - kReadingsOfPace, first));
+}
+
 struct Hold {
   double from_s, to_s;
   bool left, right;
@@ -32,16 +48,17 @@ bool is_seen(const Hold& hold, const InnovationRun& run, double truth_late_s) {
          });
 }
 
-// Of both wheels where they hold at once, to a reading: that no two wheels do, however short it is.
+// Of both wheels where they hold at once, to a reading: that no two wheels do, however short it is. Of one for less
+// than three intervals where the other goes on.
 std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDrive& drive) {
-  constexpr std::size_t kFewestOfOne = 3, kFewestOfBoth = 1;  // intervals
-  TimeStretches left = abrupt_holds(run.wheels, Wheel::left, drive, kFewestOfBoth),
-                right = abrupt_holds(run.wheels, Wheel::right, drive, kFewestOfBoth);
+  constexpr std::size_t kLong = 3, kFewest = 1;  // intervals
+  TimeStretches left = abrupt_holds(run.wheels, Wheel::left, drive, kFewest),
+                right = abrupt_holds(run.wheels, Wheel::right, drive, kFewest);
   const double interval_s =
       (run.wheels.back().time_s - run.wheels.front().time_s) / static_cast<double>(run.wheels.size() - 1);
   // A stretch reaches to the reading that holds no more.
   const auto is_long = [&](const std::pair<double, double>& hold) {
-    return hold.second - hold.first > (static_cast<double>(kFewestOfOne) + 0.5) * interval_s;
+    return hold.second - hold.first > (static_cast<double>(kLong) + 0.5) * interval_s;
   };
   std::vector<Hold> holds;
   for (const auto& [from_s, to_s] : left) {
@@ -49,14 +66,17 @@ std::vector<Hold> abrupt_holds_of(const InnovationRun& run, const DifferentialDr
       return std::abs(r.first - from) < 1.5 * interval_s && std::abs(r.second - to) < 1.5 * interval_s;
     });
     if (same == right.end()) {
-      if (is_long({from_s, to_s})) holds.push_back({from_s, to_s, true, false});
+      const std::pair hold{from_s, to_s};
+      if (is_long(hold) || goes_on(run.wheels, &WheelSample::right_rad, hold))
+        holds.push_back({from_s, to_s, true, false});
       continue;
     }
     holds.push_back({std::max(from_s, same->first), std::min(to_s, same->second), true, true});
     right.erase(same);
   }
   for (const auto& hold : right)
-    if (is_long(hold)) holds.push_back({hold.first, hold.second, false, true});
+    if (is_long(hold) || goes_on(run.wheels, &WheelSample::left_rad, hold))
+      holds.push_back({hold.first, hold.second, false, true});
   return holds;
 }
 
@@ -68,12 +88,7 @@ JumpsOfWheels lost_counts(const InnovationRun& run, const InnovationModel& calib
   JumpsOfWheels lost;
   for (const Hold& hold : abrupt_holds_of(run, calibrated.drive)) {
     if (!is_seen(hold, run, calibrated.truth.time_offset_s)) continue;
-    const auto at = [&](double time_s) {
-      return static_cast<std::size_t>(std::lower_bound(run.wheels.begin(), run.wheels.end(), time_s,
-                                                       [](const WheelSample& w, double t) { return w.time_s < t; }) -
-                                      run.wheels.begin());
-    };
-    const std::size_t first = at(hold.from_s), last = at(hold.to_s);
+    const std::size_t first = reading_at(run.wheels, hold.from_s), last = reading_at(run.wheels, hold.to_s);
     if (first < kReadingsOfPace + 1 || last + kReadingsOfPace >= run.wheels.size()) continue;
     const double lasts_s = hold.to_s - hold.from_s;
     // The last interval before may be in part of the hold.
