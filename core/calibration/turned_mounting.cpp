@@ -52,10 +52,24 @@ void keep_those_that_know(std::vector<TurnedBy>& turned) {
   std::erase_if(turned, [&](const TurnedBy& t) { return t.stderr_rad > std::max(kWell_rad, kAboutAsWell * best_rad); });
 }
 
+// Those that are alike, where two of three and more are: what a run on few arcs makes of it may be off by more than it
+// says. None where they are not.
+std::vector<TurnedBy> those_alike(const std::vector<TurnedBy>& turned) {
+  constexpr double kAlike_rad = 0.2;
+  std::vector<TurnedBy> most;
+  for (const TurnedBy& one : turned) {
+    std::vector<TurnedBy> alike;
+    for (const TurnedBy& other : turned)
+      if (std::abs(wrapped(other.by_rad - one.by_rad)) <= kAlike_rad) alike.push_back(other);
+    if (alike.size() > most.size()) most = std::move(alike);
+  }
+  return 3 * most.size() >= 2 * turned.size() ? most : std::vector<TurnedBy>{};
+}
+
 }  // namespace
 
 Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle& nominal) {
-  constexpr double kAlike_rad = 0.2, kExplained = 0.9;
+  constexpr double kExplained = 0.9, kByEnds_rad = 0.2;
   if (!std::holds_alternative<DifferentialDrive>(nominal.kind)) return nominal;
   std::vector<std::optional<RunFit>> fits(recordings.size());
   parallel_for(static_cast<int>(fits.size()), [&](int i) {
@@ -72,14 +86,12 @@ Vehicle turned_as_driven(const std::vector<Recording>& recordings, const Vehicle
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (fits[r] || !problems_in(recordings[r]).empty()) continue;
     const std::optional<double> own_rad = turned_by_ends(recordings[r], std::get<DifferentialDrive>(nominal.kind));
-    if (own_rad) turned_by.push_back({*own_rad, kAlike_rad});
+    if (own_rad) turned_by.push_back({*own_rad, kByEnds_rad});
   }
   if (by_ends && turned_by.size() < kFewest) return nominal;
   keep_those_that_know(turned_by);
+  turned_by = those_alike(turned_by);
   const double middle_rad = middle_angle_rad(turned_by);
-  if (std::any_of(turned_by.begin(), turned_by.end(),
-                  [&](const TurnedBy& own) { return std::abs(wrapped(own.by_rad - middle_rad)) > kAlike_rad; }))
-    return nominal;
   Vehicle turned = nominal;
   double& heading_rad = turned.truth.axle_T_tracked.heading_rad;
   if (!turned_by.empty() && std::abs(wrapped(middle_rad - heading_rad)) > kFar_rad) heading_rad = middle_rad;
