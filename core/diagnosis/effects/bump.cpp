@@ -17,10 +17,10 @@ namespace {
 // So much of a wheel's way from a step on.
 Steps steps_from(const DriveView& view, Wheel wheel, std::size_t first, double length_m) {
   Steps s{first, first};
-  double gone = std::abs(way_m(wheel, view.steps[first]));
+  double gone = std::abs(way_of(view.steps[first], wheel));
   while (s.last + 1 < view.steps.size() && gone < length_m &&
          view.steps[s.last].time_s - view.steps[first].time_s < kLongestBump_s)
-    gone += std::abs(way_m(wheel, view.steps[++s.last]));
+    gone += std::abs(way_of(view.steps[++s.last], wheel));
   return s;
 }
 
@@ -85,7 +85,7 @@ Motions at_place(const DriveView& view, Wheel which, Vec2 place, const Lying& ly
   for (const Wheel wheel : {Wheel::left, Wheel::right}) {
     if (which != Wheel::both && which != wheel) continue;
     view.steps_near(place, lying.reach_m + 0.5 * b, [&](std::size_t i) {
-      const Vec2 away = contact(wheel, view.steps[i], b) - place;
+      const Vec2 away = place_of_wheel(view.steps[i], b, wheel) - place;
       const double away_m2 = dot(away, away);
       if (away_m2 >= lying.reach_m * lying.reach_m) return;
       if (visits.empty() || visits.back().wheel != wheel || visits.back().met.last + 1 != i)
@@ -166,7 +166,7 @@ std::vector<std::vector<double>> places_met_again(const std::vector<DriveView>& 
       std::set<Cell> before;  // as long as it stays near it is one visit
       Vec2 last{1e9, 1e9};
       for (const EffectStep& s : view.steps) {
-        const Vec2 at = contact(wheel, s, view.drive.wheelbase_m);
+        const Vec2 at = place_of_wheel(s, view.drive.wheelbase_m, wheel);
         if (length(at - last) < 0.3 * kGrid_m) continue;
         last = at;
         std::set<Cell> now;

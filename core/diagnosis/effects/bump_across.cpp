@@ -29,7 +29,7 @@ std::vector<Climbing> crossings(const DriveView& view, Wheel which, const Cable&
     std::size_t before = view.steps.size();
     double beside_m = 0.0;  // of the step before
     view.steps_near(cable.middle, cable.half_m + 0.5 * b + view.longest_step_m, [&](std::size_t i) {
-      const Vec2 from = contact(wheel, view.steps[i], b) - cable.middle;
+      const Vec2 from = place_of_wheel(view.steps[i], b, wheel) - cable.middle;
       const double now_m = cross(cable.along, from);
       if (before + 1 == i && (beside_m < 0.0) != (now_m < 0.0) && std::abs(dot(cable.along, from)) < cable.half_m) {
         const std::size_t nearest = std::abs(now_m) < std::abs(beside_m) ? i : before;

@@ -42,38 +42,31 @@ bool is_climbed(double extra_m, const Climb& climb) {
   return climb.evenly_over_m == 0.0 || extra_m <= kSteepest * climb.evenly_over_m;
 }
 
-double way_m(Wheel wheel, const EffectStep& s) { return wheel == Wheel::left ? s.left_m : s.right_m; }
-
 double radius_m(Wheel wheel, const DriveView& view) {
   return wheel == Wheel::left ? view.drive.wheel_radius_left_m : view.drive.wheel_radius_right_m;
-}
-
-Vec2 contact(Wheel wheel, const EffectStep& s, double wheelbase_m) {
-  const double half = wheel == Wheel::left ? 0.5 * wheelbase_m : -0.5 * wheelbase_m;
-  return {s.position.x_m - half * s.sin_heading, s.position.y_m + half * s.cos_heading};
 }
 
 Steps steps_about(const DriveView& view, Wheel wheel, std::size_t middle, double length_m) {
   const double at_s = view.steps[middle].time_s;
   Steps s{middle, middle};
-  double before = 0.5 * std::abs(way_m(wheel, view.steps[middle])), behind = before;
+  double before = 0.5 * std::abs(way_of(view.steps[middle], wheel)), behind = before;
   while (s.first > 0 && before < 0.5 * length_m && at_s - view.steps[s.first].time_s < kLongestBump_s)
-    before += std::abs(way_m(wheel, view.steps[--s.first]));
+    before += std::abs(way_of(view.steps[--s.first], wheel));
   while (s.last + 1 < view.steps.size() && behind < 0.5 * length_m && view.steps[s.last].time_s - at_s < kLongestBump_s)
-    behind += std::abs(way_m(wheel, view.steps[++s.last]));
+    behind += std::abs(way_of(view.steps[++s.last], wheel));
   return s;
 }
 
 void spread(Motions& m, const DriveView& view, const Climbing& climbing, const Climb& climb, double across_m) {
   const auto& [wheel, over] = climbing;
   double total = 0.0;
-  for (std::size_t i = over.first; i <= over.last; ++i) total += std::abs(way_m(wheel, view.steps[i]));
+  for (std::size_t i = over.first; i <= over.last; ++i) total += std::abs(way_of(view.steps[i], wheel));
   if (total <= 0.01) return;
   const double extra_m = across_m > 0.0 ? total / across_m : 1.0;
   double gone = 0.0, before = 0.0;
   BodyMotion* at = m.from(over.first);
   for (std::size_t i = over.first; i <= over.last; ++i, ++at) {
-    const double goes = way_m(wheel, view.steps[i]);
+    const double goes = way_of(view.steps[i], wheel);
     gone = std::min(gone + std::abs(goes) / total, 1.0);
     const double now = climb.share_before(gone);
     const BodyMotion by = by_wheel(wheel, std::copysign(extra_m * (now - before), -goes), view.drive.wheelbase_m);

@@ -15,9 +15,7 @@ Effect bump_of(Wheel wheel);
 // Of the way over something a wheel takes two thirds at most: one that climbs as high as its axle takes one.
 bool is_climbed(double extra_m, const Climb& climb);
 
-double way_m(Wheel wheel, const EffectStep& step);
 double radius_m(Wheel wheel, const DriveView& view);
-Vec2 contact(Wheel wheel, const EffectStep& step, double wheelbase_m);  // where the wheel stands
 
 struct Steps {
   std::size_t first, last;

@@ -11,6 +11,11 @@ const char* component_of(Wheel wheel) {
   return wheel == Wheel::left ? "left_wheel" : wheel == Wheel::right ? "right_wheel" : "both_wheels";
 }
 
+Vec2 place_of_wheel(const EffectStep& s, double wheelbase_m, Wheel wheel) {
+  const double side = wheel == Wheel::left ? 1.0 : -1.0;
+  return s.position + 0.5 * side * wheelbase_m * Vec2{-s.sin_heading, s.cos_heading};
+}
+
 BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m) {
   if (wheel == Wheel::both) return {extra_m, 0.0, 0.0};
   return {0.5 * extra_m, 0.0, (wheel == Wheel::right ? extra_m : -extra_m) / wheelbase_m};

@@ -1,6 +1,7 @@
 // What an entry of the catalogue is to the diagnosis: the motion that it adds, its parameters, and what to say of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -83,6 +84,10 @@ enum class Wheel { left, right, both };
 const char* component_of(Wheel wheel);
 // The motion of a body whose wheel goes `extra_m` further.
 BodyMotion by_wheel(Wheel wheel, double extra_m, double wheelbase_m);
+
+// How far one wheel rolls in a step, and where on the floor it stands.
+inline double way_of(const EffectStep& step, Wheel wheel) { return wheel == Wheel::left ? step.left_m : step.right_m; }
+Vec2 place_of_wheel(const EffectStep& step, double wheelbase_m, Wheel wheel);
 
 // Moments {recording, at_s} of all recordings in which something may have happened, this far apart and more in long
 // ones, where `may_happen`. The first centimetres are left out: they take up whatever play there is.
@@ -178,6 +183,9 @@ inline bool is_only_bounded(const Effect::Amplitude& shape) { return shape.name 
 
 // How far it reaches, and not where it is.
 inline bool is_extent(const Effect::Amplitude& shape) { return shape.name == "radius_m" || shape.name == "length_m"; }
+
+// A bump that is straight, and met wherever its line is crossed.
+inline bool lies_across(const Effect& e) { return std::any_of(e.shapes.begin(), e.shapes.end(), is_only_bounded); }
 
 // Every entry, once for each component that it can act on.
 const std::vector<Effect>& catalogue();

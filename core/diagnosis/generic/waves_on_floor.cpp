@@ -109,13 +109,6 @@ Turned turned_on(const Grid& grid, const FloorSeen& floor, const std::vector<std
 
 }  // namespace
 
-double way_of(const EffectStep& s, Wheel wheel) { return wheel == Wheel::left ? s.left_m : s.right_m; }
-
-Vec2 place_of_wheel(const EffectStep& s, double wheelbase_m, Wheel wheel) {
-  const double side = wheel == Wheel::left ? 1.0 : -1.0;
-  return s.position + 0.5 * side * wheelbase_m * Vec2{-s.sin_heading, s.cos_heading};
-}
-
 std::vector<Heard> heard_on_floor(const std::vector<DriveView>& views,
                                   const std::vector<std::vector<BodyMotion>>& scores) {
   const std::size_t runs = views.size();

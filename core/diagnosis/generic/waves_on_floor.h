@@ -7,10 +7,6 @@
 
 namespace odolab {
 
-// How far a wheel rolls in a step, and where on the floor it stands.
-double way_of(const EffectStep& step, Wheel wheel);
-Vec2 place_of_wheel(const EffectStep& step, double wheelbase_m, Wheel wheel);
-
 // All waves of the floor, by the scores of the motions in each step. All recordings share phase and amplitude.
 std::vector<Heard> heard_on_floor(const std::vector<DriveView>& views,
                                   const std::vector<std::vector<BodyMotion>>& scores);

@@ -94,8 +94,6 @@ bool is_met_by_one_of(const Effect& one, const Effect& either) {
          !one.of_one_recording && one.name == either.name && one.component != either.component;
 }
 
-bool lies_across(const Effect& e) { return e.name == "bump" && static_cast<bool>(e.shapes_about); }
-
 // The same at one place of a line, by that wheel or whichever comes there.
 bool is_one_place_of(const Effect& place, const Effect& line) {
   return lies_across(line) && place.name == line.name && !place.of_one_recording && !lies_across(place) &&

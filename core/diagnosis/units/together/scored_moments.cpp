@@ -72,7 +72,7 @@ std::vector<ScoredTogether> scored_moments(const JoinedModel& with, std::size_t 
     for (const Effect& e : catalogue()) {
       const bool is_push = kind.wheel == Wheel::both;
       if (e.name != (is_push ? "collision" : "bump") || (!is_push && e.component != component_of(kind.wheel))) continue;
-      if (e.shapes_about) continue;  // a line is no moment
+      if (lies_across(e)) continue;  // no moment
       for (const JoinedMoment& moment : kind.strongest)
         if (moment.statistic / kind.inflation > kNearlyLeast) asked.push_back({&e, &kind, &moment});
     }
