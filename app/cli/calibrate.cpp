@@ -5,6 +5,7 @@
 #include "app/cli/file_examples.h"
 #include "app/cli/internal_calibration.h"
 #include "app/cli/overwriting.h"
+#include "app/cli/parameter_table.h"
 #include "app/cli/terminal.h"
 #include "core/calibration/external.h"
 #include "core/calibration/internal.h"
@@ -54,7 +55,7 @@ struct PerMetre {
   }
   double position_rms_m() const { return recordings > 0 ? std::sqrt(position_sum / recordings) : 0.0; }
   std::string text() const {
-    if (recordings == 0) return "not to be had: the truth has no heading";
+    if (recordings == 0) return "not to be had: the truth has no heading, or does not lie within the recording";
     return text_of("%.2f mm, %.3f degrees", 1e3 * position_rms_m(), degrees(std::sqrt(heading_sum / recordings)));
   }
 };
@@ -105,11 +106,7 @@ std::vector<std::string> warnings_of_several(const std::vector<Recording>& recor
 }
 
 void print_calibration(const LeastSquaresCalibration& calibration) {
-  std::vector<std::vector<std::string>> rows{{"parameter", "before", "estimate", "+- (1 sigma)", "unit"}};
-  for (const ParameterEstimate& p : calibration.parameters)
-    rows.push_back({p.name, text_of("%.6g", p.nominal), p.determined ? text_of("%.7g", p.value) : "as before",
-                    p.determined ? text_of("%.1e", p.stderr_value) : "not determined", p.unit});
-  print_table(rows);
+  print_parameters(calibration.parameters);
   std::printf("\nnoise: %.2f mm per root metre on each wheel; truth %.2f mm",
               1e3 * calibration.noise.wheel_m_per_sqrt_m, 1e3 * calibration.noise.truth_position_m);
   if (calibration.noise.truth_heading_rad > 0.0)
@@ -185,10 +182,7 @@ int execute_calibrate(const CalibrateOptions& options) {
     if (!part.name.empty()) std::printf("%s%s\n", &part == &calibration->parts.front() ? "" : "\n", part.name.c_str());
     print_calibration(part.calibration);
   }
-  if (!anything) {
-    std::printf("\nNothing could be determined, and no vehicle was written.\n");
-    return kDone;
-  }
+  if (!anything) return nothing_determined(options.out);
   std::printf("\nerror gathered %s (dead reckoning against truth)\n", over_which_way(median_of(after.windows)).c_str());
   std::vector<std::vector<std::string>> rows{{"before", before.text()}, {"after", after.text()}};
   if (recordings.size() > 1) rows.push_back({"after, each recording predicted from the others", held_out.text()});

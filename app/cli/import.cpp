@@ -5,6 +5,7 @@
 #include "app/cli/terminal.h"
 #include "core/io/bag/bag.h"
 #include "core/io/import/imported_recording.h"
+#include "core/io/import/numbered_otherwise.h"
 
 namespace odolab {
 
@@ -97,6 +98,7 @@ int execute_import(ImportOptions& options) {
       import_into_csv(options.sources, options.wishes, options.out, terminal_progress("import"));
   if (!imported) return bad_input(imported.error());
   for (const std::string& warning : imported->warnings) print_message("warning: " + warning);
+  if (const auto of_two_runs = numbered_otherwise(options.sources)) print_message("warning: " + *of_two_runs);
   std::printf("%s: %llu rows over %.1f s, %s\n", name_of_output(options.out).c_str(),
               static_cast<unsigned long long>(imported->rows), imported->duration_s,
               joined(imported->channels).c_str());

@@ -296,8 +296,8 @@ class FitOfAll {
     }
     result.innovations_are_correlated = true;
     result.of_misfit.push_back(
-        formatted("the innovations are correlated (%.2f from one to the next): there is something that these "
-                  "parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
+        formatted("the innovations are correlated (%.2f from one to the next): noise that lasts, or something that "
+                  "these parameters do not describe; standard errors were enlarged, at most by a factor of %.1f",
                   largest, n > 0 ? factor.maxCoeff() : 1.0));
     return factor.asDiagonal() * covariance * factor.asDiagonal();
   }
@@ -400,6 +400,21 @@ class FitOfAll {
     return said;
   }
 
+  // No length of it is near what the file says.
+  static void warn_of_another_vehicle(LeastSquaresCalibration& result) {
+    constexpr double kOff = 0.25;
+    int lengths = 0;
+    for (const ParameterEstimate& p : result.parameters) {
+      if (!p.determined || p.unit != "m" || p.name.rfind("wheel", 0) != 0) continue;
+      if (std::abs(p.value / p.nominal - 1.0) < kOff) return;
+      ++lengths;
+    }
+    if (lengths == 3)
+      result.warnings.push_back(
+          "neither wheel nor the wheelbase is near what the vehicle's file has: is it another vehicle's? What comes "
+          "once per turn of a wheel is judged by the counts per turn that it states");
+  }
+
   static void warn_of_values(const Clock& clock, LeastSquaresCalibration& result) {
     if (clock.scatter > 5.0) {
       const auto [least, most] = std::minmax_element(result.time_offset_s.begin(), result.time_offset_s.end());
@@ -419,6 +434,7 @@ class FitOfAll {
         if (w.radius == p.name) warning += ": " + counts_in_words(w);
       result.warnings.push_back(warning);
     }
+    warn_of_another_vehicle(result);
     // No two wheels are made twice too large.
     constexpr double kAlike = 0.03;
     for (const double times : {2.0, 4.0, 0.5, 0.25})

@@ -40,6 +40,10 @@ Driven driven_in(const std::vector<InnovationRun>& runs, const DifferentialDrive
   return driven;
 }
 
+bool knows_ends_alone(const std::vector<InnovationRun>& runs) {
+  return std::all_of(runs.begin(), runs.end(), [](const InnovationRun& run) { return run.truth.size() <= 2; });
+}
+
 }  // namespace
 
 std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined, bool scale_is_open,
@@ -52,24 +56,30 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
   for (int c : active) some_clock_is_open = some_clock_is_open || (c >= column::shared && !determined[c]);
   const bool left = open(column::wheel_radius_left), right = open(column::wheel_radius_right),
              base = open(column::wheelbase);
+  const bool ends_alone = knows_ends_alone(runs);
+  const std::string straight =
+      ends_alone ? "measure the poses at both ends of a straight of a few metres" : "drive a straight of a few metres";
   const std::string so_far =
       formatted(" (here: %.1f m of travel, %.1f rad of turning)", driven.travel_m, driven.turn_rad);
   if (scale_is_open)
     sentences.push_back("wheel radii and wheelbase: only their ratios show here, not the scale" + so_far +
-                        ": the mean radius is as it was given; drive a straight of a few metres");
+                        ": the mean radius is as it was given; " + straight);
   if (left || right)
     sentences.push_back(std::string(left && right ? "wheel_radius_left_m and wheel_radius_right_m"
                                     : left        ? "wheel_radius_left_m"
                                                   : "wheel_radius_right_m") +
-                        ": too little travel against the truth's noise" + so_far +
-                        "; drive a straight of a few metres");
+                        (ends_alone ? ": the poses at the ends lie too close together against the truth's noise"
+                                    : ": too little travel against the truth's noise") +
+                        so_far + "; " + straight);
   constexpr double kTurned_rad = 1.0;
   if (base)
     sentences.push_back(std::string("wheelbase_m: ") +
                         (driven.turn_rad < kTurned_rad ? "the robot hardly turned"
                          : driven.by_one_wheel()       ? "one wheel alone rolled: its radius shows by the wheelbase"
                                                        : "what it does to these turns the wheel radii do as well") +
-                        so_far + "; drive a full turn on the spot each way, or arcs");
+                        so_far +
+                        (ends_alone ? "; measure the poses at both ends of full turns on the spot each way, or of arcs"
+                                    : "; drive a full turn on the spot each way, or arcs"));
   if (open(column::mounting_x) || open(column::mounting_y))
     sentences.push_back(std::string("truth_mounting.") +
                         (open(column::mounting_x) && open(column::mounting_y) ? "x_m and y_m"
@@ -79,8 +89,11 @@ std::vector<std::string> what_cannot_be_told(const std::vector<char>& determined
                         "straights or arcs both ways" +
                         so_far + "; drive turns on the spot and arcs with the truth sampled on the way");
   if (open(column::mounting_heading))
-    sentences.push_back("truth_mounting.heading_rad: no straight long enough to see the direction of travel" + so_far +
-                        "; drive a straight of a few metres");
+    sentences.push_back((ends_alone
+                             ? "truth_mounting.heading_rad: the poses at the ends do not show the direction of travel"
+                             : "truth_mounting.heading_rad: no straight long enough to see the direction of "
+                               "travel") +
+                        so_far + "; " + straight);
   else if (!any_heading)
     sentences.push_back("truth_mounting.heading_rad: the truth has no heading, so there is none to align");
   if (some_clock_is_open)

@@ -184,8 +184,8 @@ std::optional<EvenedRecording> evened_once(const Recording& recording, const Eve
   std::optional<EvenedRecording> out = even(once);
   if (!out) out = EvenedRecording{std::move(once), {}};
   out->said.insert(out->said.begin(),
-                   name_or_words(recording.name) +
-                       formatted(": %d of its rows stand there twice; read once", static_cast<int>(twice.size())));
+                   name_or_words(recording.name) + formatted(": %d of its rows are written twice; each is used once",
+                                                             static_cast<int>(twice.size())));
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/formatted.h"
+#include "core/base/two_digits.h"
 #include "core/calibration/column_names.h"
 #include "core/calibration/turned_mounting.h"
 #include "core/diagnosis/advice/advice.h"
@@ -34,10 +35,9 @@ namespace {
 constexpr double kOfTheUnnamed = 0.25;  // of the family-wise error of names, that something without one may have
 
 std::string undone_in_words(const Undone& u, const std::string& recording) {
-  return recording + formatted(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) +
-         formatted(" by %.2g mm and %.2g degrees, and then back", 1e3 * u.away_m,
-                   std::abs(u.turned_rad) * 180.0 / kPi) +
-         ", as where a tracker loses a marker or the vehicle gives way; left out";
+  return recording + formatted(": from %.2f to %.2f s the truth is elsewhere", u.from_s, u.to_s) + " by " +
+         two_digits(1e3 * u.away_m) + " mm and " + two_digits(std::abs(u.turned_rad) * 180.0 / kPi) +
+         " degrees, and then back, as where a tracker loses a marker or the vehicle gives way; left out";
 }
 
 // Names sought beside a calibration, and what of the recordings was left out on the way.

@@ -118,7 +118,8 @@ void add_mounting(std::vector<Finding>& findings, const JointModel& joint, const
   Finding first = toe_instead(mounting), second = mounting.finding;
   if (!is_toe_first(mounting)) std::swap(first, second);
   first.alternatives.push_back({second.effect, second.component, second.log_likelihood_gain,
-                                "a look at how the markers sit: the motion is the same"});
+                                std::string("a look at how the markers sit: the motion is the same") +
+                                    (mounting.is_shifted ? ", so far as the tracked point is turned" : "")});
   findings.push_back(first);
 }
 

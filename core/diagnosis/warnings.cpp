@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/formatted.h"
+#include "core/base/two_digits.h"
 #include "core/geometry/angles.h"
 
 namespace odolab {
@@ -17,8 +18,8 @@ std::string ripple_in_words(const Adequacy::Ripple& r) {
 }
 
 std::string ripple_in_words(const Adequacy::Sway& sway) {
-  return "the vehicle, or the truth by itself, comes and goes by " +
-         formatted("%.2g mm to either side with ", 1e3 * sway.to_either_side_m) + sway.wave +
+  return "the vehicle, or the truth by itself, comes and goes by " + two_digits(1e3 * sway.to_either_side_m) +
+         " mm to either side with " + sway.wave +
          ": no more than one sample of the truth errs, so which of both it is cannot be told; a stop of "
          "two such waves would tell";
 }
@@ -27,10 +28,9 @@ std::string lasting_in_words(const FittedNoise& noise) {
   const double spread = std::sqrt(0.5 * noise.wander_lasts_s);
   const double off_rad = spread * noise.heading_wander_rad_per_sqrt_s;
   return formatted("the truth's error lasts for about %.2g s: ", noise.wander_lasts_s) +
-         formatted("%.2g mm", 1e3 * spread * noise.wander_m_per_sqrt_s) +
-         (off_rad > 0.0 ? formatted(" and %.2g degrees", off_rad * 180.0 / kPi) : "") +
-         formatted(" of it, beside %.2g mm from one sample to the next; this is reckoned with",
-                   1e3 * noise.truth_position_m);
+         two_digits(1e3 * spread * noise.wander_m_per_sqrt_s) + " mm" +
+         (off_rad > 0.0 ? formatted(" and %.2g degrees", off_rad * 180.0 / kPi) : "") + " of it, beside " +
+         two_digits(1e3 * noise.truth_position_m) + " mm from one sample to the next; this is reckoned with";
 }
 
 }  // namespace

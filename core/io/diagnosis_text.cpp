@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/formatted.h"
+#include "core/base/two_digits.h"
 #include "core/diagnosis/chosen_model.h"
 #include "core/diagnosis/effects/effect.h"
 #include "core/diagnosis/refuted.h"
@@ -145,6 +146,10 @@ bool is_fault(const Finding& finding) {
          (finding.effect == "truth_mounting_offset" && !finding.where.recording.empty());
 }
 
+bool is_of_the_measurement(const Finding& finding) {
+  return is_of_the_truth(finding.effect) || finding.effect == "clock_rate";
+}
+
 bool is_switched_on(const FitTable& simulation) {
   const std::optional<FitFigures>&before = simulation.calibrated, &after = simulation.with_findings;
   if (!before || !after) return after.has_value();
@@ -188,8 +193,7 @@ std::string quantity_text(double value, double stderr_value, const std::string& 
 
 std::string size_text(double value, const std::string& unit) {
   const Shown shown = shown_as(unit);
-  const double size = value * shown.factor;
-  return (std::abs(size) < 99.5 ? number_text("%.2g", size) : decimals_of(size, 0)) + shown.unit;
+  return two_digits(value * shown.factor) + shown.unit;
 }
 
 std::string moved_text(const MovedTrack& moved) {
@@ -319,7 +323,7 @@ std::vector<std::string> calibration_and_proof(const Diagnosis& diagnosis, std::
   constexpr std::size_t kMostLengths = 8;
   std::string calibration;
   if (lengths.size() > kMostLengths)
-    calibration = std::to_string(lengths.size()) + " lengths of its parts, which --json and --html list";
+    calibration = std::to_string(lengths.size()) + " parameters of its parts, which --json and --html list";
   else
     for (const ParameterEstimate* p : lengths)
       calibration += (calibration.empty() ? "" : ", ") + parameter_words(p->name) + " " +
@@ -374,9 +378,13 @@ std::vector<std::string> summary_lines(const Diagnosis& diagnosis, std::size_t m
   const std::vector<std::string> end = calibration_and_proof(diagnosis, columns);
 
   constexpr std::size_t kMostFindings = 4;
-  // A marker that is off shows a hundred times as strongly as what is looked for. The rest stays the strongest first.
+  // In the order of the sentence above, so that what it names is what is listed: a marker that is off shows a hundred
+  // times as strongly as what is looked for. The rest stays the strongest first.
   std::vector<Finding> physics_first = faults_together(diagnosis.findings);
-  const auto rank = [](const Finding& f) { return is_fault(f) ? 2 : is_of_the_truth(f.effect) ? 1 : 0; };
+  const auto rank = [&](const Finding& f) {
+    const bool is_open = diagnosis.verdict == Verdict::ambiguous && f.effect != "unknown" && !f.alternatives.empty();
+    return is_fault(f) ? 3 : is_of_the_measurement(f) ? 2 : is_open ? 1 : 0;
+  };
   std::stable_sort(physics_first.begin(), physics_first.end(),
                    [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });
   // Each as a whole or not at all; the last line is kept for how many more there are.

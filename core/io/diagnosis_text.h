@@ -14,6 +14,9 @@ std::string list_of(const std::vector<std::string>& words, const char* last_word
 // Of the data: a tracked point that sat elsewhere in one recording is a fault of that one.
 bool is_fault(const Finding& finding);
 
+// What is measured otherwise than the vehicle's file says, and not driven otherwise.
+bool is_of_the_measurement(const Finding& finding);
+
 // "3.41 mm, 0.401 degrees".
 // Whether anything that was found is switched on in the simulator: where nothing is it does the same to the last digit.
 bool is_switched_on(const FitTable& simulation);

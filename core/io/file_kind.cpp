@@ -18,6 +18,33 @@ bool is_name(std::string_view text) {
   return !text.empty();
 }
 
+// Whatever is TOML and nothing else is taken for a scenario, as may be a vehicle that lacks its kind.
+bool has_table_of_a_scenario(const std::string& path) {
+  const std::string start = "\n" + read_file_start(path, 65536);
+  for (const char* table : {"\n[path]", "\n[driving]", "\n[sensors]", "\n[[expect]]", "\nvehicle ="})
+    if (start.find(table) != std::string::npos) return true;
+  return false;
+}
+
+std::string kind_in_words(FileKind kind) {
+  switch (kind) {
+    case FileKind::scenario:
+      return "a scenario's file";
+    case FileKind::vehicle:
+      return "a vehicle's file";
+    case FileKind::lesson:
+      return "a lesson's file";
+    case FileKind::guide:
+      return "a guide's session";
+    case FileKind::recording:
+    case FileKind::foreign_recording:
+      return "a recording";
+    case FileKind::unknown:
+      break;
+  }
+  return "another file";
+}
+
 }  // namespace
 
 FileKind file_kind(const std::string& path) {
@@ -47,6 +74,13 @@ FileKind file_kind(const std::string& path) {
   }
   if (is_toml) return FileKind::scenario;
   return path.ends_with(".csv") && !start.empty() ? FileKind::recording : FileKind::unknown;
+}
+
+Error or_another_kind(const Error& error, const std::string& path, FileKind wanted) {
+  const FileKind kind = file_kind(path);
+  const bool is_another =
+      kind != wanted && kind != FileKind::unknown && (kind != FileKind::scenario || has_table_of_a_scenario(path));
+  return is_another ? Error{path, kind_in_words(kind), kind_in_words(wanted)} : error;
 }
 
 }  // namespace odolab

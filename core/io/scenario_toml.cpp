@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/io/actual_toml.h"
+#include "core/io/file_kind.h"
 #include "core/io/toml_table.h"
 #include "core/io/toml_text.h"
 #include "core/io/vehicle_toml.h"
@@ -400,7 +401,10 @@ std::string beside(const std::string& scenario_path, const std::string& named_fi
   return (std::filesystem::path(scenario_path).parent_path() / named).lexically_normal().string();
 }
 
-Result<Scenario> read_scenario(const std::string& path) { return read_scenario(Reading{path}); }
+Result<Scenario> read_scenario(const std::string& path) {
+  Result<Scenario> scenario = read_scenario(Reading{path});
+  return scenario ? scenario : or_another_kind(scenario.error(), path, FileKind::scenario);
+}
 
 Result<Scenario> scenario_from(TomlTable& table, const std::string& path) {
   Scenario scenario;

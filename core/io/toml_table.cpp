@@ -314,7 +314,11 @@ Result<Done> TomlTable::finish() const {
       of = node.get();
     }
   }
-  if (file_->missing && !(first && near(first->str(), file_->missing_key))) return *file_->missing;
+  const auto is_misspelt = [&] {
+    return near(first->str(), file_->missing_key) ||
+           (of == file_->missing_in && nearest_word(first->str(), of->asked) != nullptr);
+  };
+  if (file_->missing && !(first && is_misspelt())) return *file_->missing;
   if (!first) return Done{};
   return Error{place(file_->path, first->source()), "the key '" + std::string(first->str()) + "'",
                expected_instead_of(first->str(), of->asked)};

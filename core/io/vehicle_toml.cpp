@@ -3,6 +3,7 @@
 #include <array>
 #include <type_traits>
 
+#include "core/io/file_kind.h"
 #include "core/io/toml_table.h"
 #include "core/io/toml_text.h"
 #include "core/io/whole_file.h"
@@ -264,11 +265,12 @@ void write_vehicle_kind(TomlText& text, const VehicleKind& kind, const std::stri
 }
 
 Result<Vehicle> read_vehicle(const std::string& path) {
+  const auto failed = [&](const Error& error) { return or_another_kind(error, path, FileKind::vehicle); };
   Result<TomlTable> table = TomlTable::read(path);
-  if (!table) return table.error();
+  if (!table) return failed(table.error());
   Vehicle vehicle = vehicle_from(*table, "");
   const Result<Done> done = table->finish();
-  if (!done) return done.error();
+  if (!done) return failed(done.error());
   return vehicle;
 }
 

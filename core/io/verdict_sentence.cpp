@@ -13,11 +13,6 @@ namespace odolab {
 
 namespace {
 
-// What is measured otherwise than the vehicle's file says, and not driven otherwise.
-bool is_of_the_measurement(const Finding& finding) {
-  return is_of_the_truth(finding.effect) || finding.effect == "clock_rate";
-}
-
 // What all names together do to a stretch, where that is little: after ten metres a thousandth of the way. Else empty.
 std::string little_sentence(const Diagnosis& d) {
   constexpr double kLittle_m = 1e-4, kLittle_rad = 2e-4;
@@ -43,6 +38,15 @@ bool is_one_incident(const Diagnosis& d) {
     if (f.is_parted) stretches += f.where.time_s.size();
   }
   return stretches == 1;
+}
+
+// Names between which nothing is decided, each a choice of its own.
+std::string listed(const std::vector<std::string>& choices) {
+  if (choices.size() == 1) return choices.front();
+  std::string text;
+  for (std::size_t i = 0; i < choices.size(); ++i)
+    text += std::string(i == 0 ? "" : i + 1 == choices.size() ? "; and " : "; ") + "either " + choices[i];
+  return text;
 }
 
 }  // namespace
@@ -87,7 +91,7 @@ std::string verdict_sentence(const Diagnosis& diagnosis) {
       if (!open.empty())
         sentence += (any ? " Not told apart by these recordings: "
                          : "Something is missing, and these recordings cannot tell what: ") +
-                    list_of(open, "and") + ".";
+                    listed(open) + ".";
       break;
     }
     case Verdict::nothing_missing:

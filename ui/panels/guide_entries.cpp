@@ -35,7 +35,7 @@ void clusters(const GuideView& view, bool last_alone, GuidePageState& state, con
   Bench bench;
   bench.experiments = &rounds;
   bench.running = view.busy;
-  ImGui::BeginChild("clusters", {0, std::max(theme.px(200), ImGui::GetContentRegionAvail().y - theme.px(4))}, false);
+  ImGui::BeginChild("clusters", {0, std::max(theme.px(260), ImGui::GetContentRegionAvail().y - theme.px(4))}, false);
   cluster_panel(bench, state.clusters, theme);
   ImGui::EndChild();
 }

@@ -63,6 +63,18 @@ void view_menu(WindowChoices& choices) {
   }
 }
 
+// The same choice for a window too narrow to show them beside each other.
+void modes_to_unfold(const std::vector<std::string>& modes, Mode now, ImVec2 at, const Theme& theme, Actions& actions) {
+  ImGui::SetCursorPos(at);
+  ImGui::SetNextItemWidth(theme.px(110));
+  if (!ImGui::BeginCombo("##modes", modes[static_cast<std::size_t>(now)].c_str())) return;
+  for (std::size_t i = 0; i < modes.size(); ++i)
+    if (ImGui::Selectable(modes[i].c_str(), i == static_cast<std::size_t>(now)))
+      actions.push_back(SetMode{static_cast<Mode>(i)});
+  close_on_escape();
+  ImGui::EndCombo();
+}
+
 }  // namespace
 
 Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
@@ -139,6 +151,10 @@ Actions top_bar(const TopBar& bar, WindowChoices& choices, const Theme& theme) {
   ImGui::SetCursorPos({std::round(x + theme.px(16) + 0.5f * (room - ImGui::CalcTextSize(title.c_str()).x)), y});
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", title.c_str());
+  if (room < 0.0f) {
+    modes_to_unfold(modes, bar.mode, {x + theme.px(12), y}, theme, actions);
+    return actions;
+  }
   ImGui::SetCursorPos({modes_x, y});
   if (const auto choice = segmented("modes", modes, int(bar.mode), theme)) actions.push_back(SetMode{Mode(*choice)});
   return actions;

@@ -11,6 +11,8 @@ namespace odolab::ui {
 
 namespace {
 
+constexpr float kSpeedChoice = 96.0f;  // its width in points
+
 void transport_buttons(const Transport& t, const Theme& theme, Actions& actions) {
   const auto button = [&](const char* id, Icon icon, const char* tip, bool enabled, const char* why,
                           bool primary = false) {
@@ -42,9 +44,10 @@ void transport_buttons(const Transport& t, const Theme& theme, Actions& actions)
     actions.push_back(ToEnd{});
 }
 
-void speed_choice(const Transport& t, const Theme& theme, Actions& actions) {
+// `until`: where on the line something else begins; what was reached is left out where it would lie under that.
+void speed_choice(const Transport& t, float until, const Theme& theme, Actions& actions) {
   static const double kSpeeds[] = {0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 50.0, 0.0};
-  ImGui::SetNextItemWidth(theme.px(96));
+  ImGui::SetNextItemWidth(theme.px(kSpeedChoice));
   const std::string now = t.speed == 0.0 ? "fastest" : times(t.speed);
   if (ImGui::BeginCombo("##speed", now.c_str())) {
     for (const double s : kSpeeds)
@@ -55,10 +58,11 @@ void speed_choice(const Transport& t, const Theme& theme, Actions& actions) {
   }
   tooltip("Speed wanted, as a multiple of real time (+ and −)", theme);
   ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
   const std::string reached = t.playing                              ? "reached " + times(t.reached_speed)
                               : t.finished && t.time_s >= t.latest_s ? "finished"
                                                                      : "paused";
+  if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(reached.c_str()).x > until - theme.px(8)) return;
+  ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", reached.c_str());
 }
 
@@ -128,16 +132,18 @@ Actions transport_bar(const Transport& t, TransportState& state, const Theme& th
   Actions actions;
   transport_buttons(t, theme, actions);
   ImGui::SameLine(0, theme.px(14));
-  speed_choice(t, theme, actions);
-
-  const std::string time =
-      clock(t.time_s) + " / " + (t.total_is_planned ? "about " + clock(t.total_s) : clock(t.latest_s));
+  const float speed_x = ImGui::GetCursorPosX();
+  std::string time = clock(t.time_s);
+  const std::string of_all = " / " + (t.total_is_planned ? "about " + clock(t.total_s) : clock(t.latest_s));
   const std::vector<std::string> kinds{"position", "heading"};
   float kinds_width = 0.0f;
   for (const std::string& k : kinds) kinds_width += ImGui::CalcTextSize(k.c_str()).x + theme.px(24);
   const float right_edge = ImGui::GetWindowSize().x - ImGui::GetStyle().WindowPadding.x;
-  const float time_width = ImGui::CalcTextSize(time.c_str()).x;
-  ImGui::SameLine(right_edge - kinds_width - time_width - theme.px(18));
+  const float time_room = right_edge - kinds_width - theme.px(18) - speed_x - theme.px(kSpeedChoice + 16);
+  if (ImGui::CalcTextSize((time + of_all).c_str()).x < time_room) time += of_all;
+  const float time_x = right_edge - kinds_width - theme.px(18) - ImGui::CalcTextSize(time.c_str()).x;
+  speed_choice(t, time_x, theme, actions);
+  ImGui::SameLine(time_x);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(time.c_str());
   ImGui::SameLine(right_edge - kinds_width);

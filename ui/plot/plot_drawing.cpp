@@ -138,8 +138,10 @@ void draw_area(ImDrawList& draw, const PlotArea& a, const Frame& frame) {
 void draw_axes(ImDrawList& draw, const Plot& what, const Frame& frame, const Theme& theme, ImVec2 outer_low) {
   const float line_height = ImGui::GetTextLineHeight();
   const double sx = what.x.unit.per_si, sy = what.y.unit.per_si;
+  // Four numbers along y where they have room, however low the plot.
+  const int with_room = std::max(1, int(frame.height() / (1.2f * line_height)));
   const int most_x = std::max(2, int(frame.width() / theme.px(80))),
-            most_y = std::max(4, int(frame.height() / theme.px(36)));
+            most_y = std::max(std::min(4, with_room), int(frame.height() / theme.px(36)));
   double step_x = round_step((frame.view.x1 - frame.view.x0) * sx, most_x);
   double step_y = step_with_two_numbers(frame.view.y0 * sy, frame.view.y1 * sy, most_y, frame.height());
   if (what.equal_scale && sx == sy) {  // the same marks on both, as close as the numbers along x allow

@@ -7,6 +7,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
+#include "core/base/two_digits.h"
 #include "core/geometry/angles.h"
 
 namespace odolab {
@@ -172,8 +173,6 @@ bool any_size_shows(const Visible& v) {
   return v.excited && v.needed < kNoSize && v.needed * a.medium <= std::max(std::abs(a.low), std::abs(a.high));
 }
 
-std::string size_in_words(double size) { return formatted(std::abs(size) < 99.5 ? "%.2g" : "%.0f", size); }
-
 }  // namespace
 
 std::optional<FoundParameter> least_seen(const Visible& v) {
@@ -190,8 +189,8 @@ std::string because_of(const Visible& v) {
                                                  100.0 * (1.0 - v.survives))
                                      : "";
   if (!any_size_shows(v)) return share + "none of any size that it can have would have shown here";
-  return share + "less than " + size_in_words(least.value * factor) + unit + " would not have shown here, and " +
-         size_in_words(medium.value * factor) + unit + " is of importance";
+  return share + "less than " + two_digits(least.value * factor) + unit + " would not have shown here, and " +
+         two_digits(medium.value * factor) + unit + " is of importance";
 }
 
 }  // namespace odolab

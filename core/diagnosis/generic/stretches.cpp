@@ -8,6 +8,7 @@
 
 #include "core/base/formatted.h"
 #include "core/base/quantile.h"
+#include "core/base/two_digits.h"
 #include "core/diagnosis/generic/bursts.h"
 #include "core/diagnosis/generic/generic_tests.h"
 #include "core/diagnosis/generic/trembling_truth.h"
@@ -196,8 +197,8 @@ std::string displaced_in_words(const std::vector<Displaced>& stretches, const Jo
     words += (k == 0 ? "" : "; ") + joint.runs()[static_cast<std::size_t>(s.burst.run)].name +
              formatted(" from %.1f to %.1f s by ", s.from_s(), s.to_s());
     if (s.goes == Goes::elsewhere)
-      words +=
-          formatted("%.2g mm and %.2g degrees", 1e3 * std::hypot(s.by[0], s.by[1]), std::abs(s.by[2]) * 180.0 / kPi);
+      words += two_digits(1e3 * std::hypot(s.by[0], s.by[1])) + " mm and " +
+               two_digits(std::abs(s.by[2]) * 180.0 / kPi) + " degrees";
     else
       words += formatted("%+.2g %% of the left wheel's way and %+.2g %% of the right one's", 100.0 * s.by[0],
                          100.0 * s.by[2]);

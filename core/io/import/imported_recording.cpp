@@ -40,12 +40,14 @@ const ForeignFormat* format_of(const std::string& path) {
   return nullptr;
 }
 
-// Whether the first line that is no comment names a column time_s.
+// Whether the first line that is no comment names a column time_s and what a vehicle did, as no track does.
 bool has_recording_header(const std::string& path) {
   const std::string start = read_file_start(path);
   std::string_view rest = start;
   while (rest.substr(0, 1) == "#" && rest.find('\n') != std::string_view::npos) rest.remove_prefix(rest.find('\n') + 1);
-  return rest.substr(0, rest.find('\n')).find("time_s") != std::string_view::npos;
+  const std::string_view header = rest.substr(0, rest.find('\n'));
+  const auto names = [&](const char* column) { return header.find(column) != std::string_view::npos; };
+  return names("time_s") && (names("wheel_rad") || names("_ticks") || names("command_"));
 }
 
 Error folder_given(const std::string& path) {

@@ -373,7 +373,7 @@ TEST(EvenedRecording, ReadsARowThatStandsThereTwiceOnce) {
   for (Channel& c : twice.channels) lose_and_double(c.values);
   const auto even = evened(twice, g.drive);
   ASSERT_TRUE(even);
-  EXPECT_NE(even->said.front().find("1 of its rows stand there twice"), std::string::npos) << even->said.front();
+  EXPECT_NE(even->said.front().find("1 of its rows are written twice"), std::string::npos) << even->said.front();
   EXPECT_EQ(even->recording.time_s.size(), once.time_s.size() - 1);
   for (std::size_t i = 1; i < even->recording.time_s.size(); ++i)
     EXPECT_GT(even->recording.time_s[i], even->recording.time_s[i - 1]);

@@ -342,6 +342,22 @@ TEST(LeastSquares, FindsTheClockOfEachRecording) {
   EXPECT_GT(shared->noise.wheel_m_per_sqrt_m, 2 * result->noise.wheel_m_per_sqrt_m);  // the misfit goes into the noise
 }
 
+TEST(LeastSquares, AsksWhetherTheFileIsAnotherVehiclesWhereNoLengthIsNearIt) {
+  Random random(13);
+  const std::vector<Recording> recordings = {generated(off_the_drawing(), test::rich_driving, random)};
+  const auto of_file = [&](double wheels_times, double wheelbase_times) {
+    Vehicle file = labmate();
+    auto& drive = std::get<DifferentialDrive>(file.kind);
+    drive.wheel_radius_left_m *= wheels_times, drive.wheel_radius_right_m *= wheels_times;
+    drive.wheelbase_m *= wheelbase_times;
+    const auto result = calibrate_least_squares(recordings, file);
+    return result.ok() && says(result->warnings, "is it another vehicle's?");
+  };
+  EXPECT_TRUE(of_file(0.6, 1.6));
+  EXPECT_FALSE(of_file(1.0, 1.6));  // a wheelbase mistyped
+  EXPECT_FALSE(of_file(2.0, 1.0));  // diameters in place of radii
+}
+
 TEST(LeastSquares, SaysThatTheTruthWobblesAndIsNotBentByIt) {
   Random random(12);
   const GeneratorSettings g = off_the_drawing();
@@ -425,6 +441,7 @@ TEST(LeastSquares, KeepsTheRatiosThatPosesAtBothEndsShow) {
   EXPECT_NEAR(right.value / left.value, 0.994 / 0.99, 8 * left.stderr_value / left.value);  // both move apart: 4 sigma
   EXPECT_NEAR(base.value / 0.075, g.drive.wheelbase_m / (0.075 * 0.992), 4 * base.stderr_value / 0.075);
   EXPECT_TRUE(says(result->cannot_tell, "only their ratios show here, not the scale"));
+  EXPECT_TRUE(says(result->cannot_tell, "measure the poses at both ends of a straight"));  // driven it has
 }
 
 TEST(LeastSquares, IsNotBiasedByWheelsThatAreReadTenTimesASecond) {

@@ -94,6 +94,9 @@ TEST(Import, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(complaint({folder.path("runs")}),
             "runs: found a folder with 1 file of recordings, expected one run, such as 'one.csv'");
   EXPECT_EQ(message_of(load_recording(folder.path("runs/one.csv")), ""), "ok");
+  folder.write("runs/estimated_track.csv", "time_s,x_m,y_m,heading_rad\n0,1,2,0\n");
+  EXPECT_EQ(complaint({folder.path("runs")}),
+            "runs: found a folder with 1 file of recordings, expected one run, such as 'one.csv'");
 }
 
 TEST(Import, ReadsEveryRealRecording) {

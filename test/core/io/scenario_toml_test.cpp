@@ -94,6 +94,9 @@ TEST(ScenarioToml, SaysInOneLineWhatIsWrong) {
   Scene scene;
   EXPECT_EQ(scene.complaint(replaced(kScenario, "side_m", "sidem")),
             "s.toml:24: found the key 'sidem', expected a known key; the nearest is 'side_m'");
+  EXPECT_NE(scene.complaint(replaced(kScenario, "at_most = 0.03", "at_leest = 0.03"))
+                .find("the key 'at_leest', expected a known key; the nearest is 'at_least'"),
+            std::string::npos);
   EXPECT_EQ(scene.complaint(replaced(kScenario, "[floor]", "[flor]\n[floor]")),
             "s.toml:9: found the key 'flor', expected a known key; the nearest is 'floor'");
   EXPECT_EQ(scene.complaint(replaced(kScenario, "height_m = 0.010", "radius_m = 0.010")),

@@ -33,6 +33,15 @@ TEST(VehicleToml, ReadsTheContractsExample) {
   EXPECT_EQ(drive.gear_ratio, 1.0);
 }
 
+TEST(VehicleToml, SaysWhatAFileIsThatIsNoVehicles) {
+  EXPECT_EQ(complaint("name = \"a square\"\n[path]\nkind = \"square\"\n"),
+            "x.toml: found a scenario's file, expected a vehicle's file");
+  EXPECT_EQ(complaint("lesson = \"dead reckoning\"\n"), "x.toml: found a lesson's file, expected a vehicle's file");
+  EXPECT_EQ(complaint("time_s,left_wheel_rad,right_wheel_rad\n0,0,0\n"),
+            "x.toml: found a recording, expected a vehicle's file");
+  EXPECT_EQ(complaint("name = \"LabMate\"\n"), "x.toml: found no key 'kind', expected it to be given");
+}
+
 // Its sprockets may be called wheels, as a differential drive's are.
 TEST(VehicleToml, ReadsATrackedVehicleByTheNamesOfADifferentialDrive) {
   ScratchFolder folder;
