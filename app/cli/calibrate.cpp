@@ -11,6 +11,7 @@
 #include "core/calibration/internal.h"
 #include "core/calibration/left_out.h"
 #include "core/calibration/odd_recordings.h"
+#include "core/calibration/truth_filter.h"
 #include "core/calibration/used_truth.h"
 #include "core/diagnosis/given_recordings.h"
 #include "core/diagnosis/quality/sound_recordings.h"
@@ -153,10 +154,14 @@ int execute_calibrate(const CalibrateOptions& options) {
   for (const std::string& fault : sound.said) print_message("warning: " + fault);
   if (interrupted()) return stopped_before_its_end();
   recordings = std::move(sound.recordings);
-  const LeastSquaresOptions& how = sound.how;
+  LeastSquaresOptions& how = sound.how;
   const Result<ExternalCalibration> calibration =
       calibrate_externally(recordings, *nominal, terminal_progress("calibrating"), how);
   if (!calibration) return bad_input(calibration.error());
+  if (const std::optional<TruthFilter> filter = calibration->parts.front().calibration.truth_filter) {
+    for (Recording& recording : recordings) recording = unfiltered_truth(recording, *filter);
+    how.truth_is_unfiltered = true;
+  }
   bool anything = false;
   for (const CalibratedPart& part : calibration->parts)
     for (const ParameterEstimate& p : part.calibration.parameters) anything = anything || p.determined;

@@ -196,6 +196,7 @@ class FitOfAll {
           "truth_mounting.x_m and time_offset_s: at a steady speed, and without headings, a late clock looks like a "
           "tracked point further behind; only both together show. Change the speed on the way, or stop now and then");
     result.normalised_chi2 = sums.chi2 / std::max(1, sums.scalars);
+    result.minus_two_log_likelihood = sums.chi2 + sums.log_determinant;
     FitParameters as_nominal = start_;
     as_nominal.shared.noise = model.noise;
     const LikelihoodFit::Sums nominal_sums = fit_->sums(as_nominal, false);

@@ -9,6 +9,7 @@
 #include "core/base/formatted.h"
 #include "core/calibration/even_stamps.h"
 #include "core/calibration/repeated_stamps.h"
+#include "core/recording/new_times.h"
 #include "core/recording/truth_left_out.h"
 
 namespace odolab {
@@ -40,47 +41,6 @@ std::string evened_sentence(const std::string& name, const char* what, const Spr
           : formatted(": %d of its %s stamps repeat the one before; put between their neighbours", spread.repeated,
                       what);
   return name_or_words(name) + text;
-}
-
-// New times of the rows that hold a value of the channels that belong together; NaN elsewhere.
-struct NewTimes {
-  std::function<bool(const std::string&)> belongs;
-  std::vector<double> time_s;
-};
-
-Recording with_new_times(const Recording& old, const std::vector<NewTimes>& evened) {
-  struct Row {
-    double time_s;
-    std::size_t from;
-    int part;  // which of `evened`; -1: what keeps its time
-  };
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < old.time_s.size(); ++i) {
-    bool keeps = false, moves = false;
-    for (const Channel& c : old.channels) {
-      if (std::isnan(c.values[i])) continue;
-      bool moved = false;
-      for (const NewTimes& e : evened) moved = moved || (e.belongs(c.name) && !std::isnan(e.time_s[i]));
-      keeps = keeps || !moved;
-      moves = moves || moved;
-    }
-    if (keeps || !moves) rows.push_back({old.time_s[i], i, -1});
-    for (std::size_t p = 0; p < evened.size(); ++p)
-      if (!std::isnan(evened[p].time_s[i])) rows.push_back({evened[p].time_s[i], i, static_cast<int>(p)});
-  }
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.time_s < b.time_s; });
-  Recording made{old.name, old.provenance, {}, {}};
-  for (const Row& r : rows) made.time_s.push_back(r.time_s);
-  for (const Channel& c : old.channels) {
-    Channel& values = made.add_channel(c.name);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      int part = -1;
-      for (std::size_t p = 0; p < evened.size(); ++p)
-        if (evened[p].belongs(c.name) && !std::isnan(evened[p].time_s[rows[k].from])) part = static_cast<int>(p);
-      if (part == rows[k].part) values.values[k] = c.values[rows[k].from];
-    }
-  }
-  return made;
 }
 
 // `new_s`: a time for each row that `taken` says was sampled.

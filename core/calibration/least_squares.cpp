@@ -12,6 +12,7 @@
 #include "core/calibration/correlated_truth.h"
 #include "core/calibration/smoothed_at_rest.h"
 #include "core/calibration/turned_mounting.h"
+#include "core/calibration/unfiltered_truth.h"
 
 namespace odolab {
 
@@ -61,6 +62,14 @@ Result<LeastSquaresCalibration> calibrated_by_samples_apart(double apart_s, cons
   return calibrated_by_all(thinned, nominal, options, progress);
 }
 
+// By what had been measured, where that was filtered.
+std::optional<LeastSquaresCalibration> before_a_filter(const LeastSquaresCalibration& all,
+                                                       const std::vector<Recording>& recordings, const Vehicle& nominal,
+                                                       const LeastSquaresOptions& options, const Progress& progress) {
+  if (options.truth_is_unfiltered || options.by_commands) return std::nullopt;
+  return calibrated_unfiltered(all, recordings, nominal, options, progress);
+}
+
 constexpr double kLasting = 0.2;  // by which neighbours may be correlated at most where fewer samples are used
 
 double next_to_each_other(const LeastSquaresCalibration& c) {
@@ -75,6 +84,11 @@ std::optional<Result<LeastSquaresCalibration>> calibrated_beyond_smoothing(doubl
                                                                            const LeastSquaresOptions& options,
                                                                            const Progress& progress) {
   if (for_s == 0.0) return std::nullopt;
+  if (!options.truth_is_unfiltered && !options.by_commands) {
+    Result<LeastSquaresCalibration> all = calibrated_by_all(recordings, nominal, options, {});
+    if (!all) return all;
+    if (auto measured = before_a_filter(*all, recordings, nominal, options, progress)) return measured;
+  }
   Result<LeastSquaresCalibration> of_fewer = calibrated_by_samples_apart(for_s, recordings, nominal, options, progress);
   if (!of_fewer) return of_fewer;
   if (next_to_each_other(*of_fewer) > kLasting) return std::nullopt;
@@ -101,7 +115,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
   const auto is_white = [&](const LeastSquaresCalibration& c) {
     return next(c) < kNext && c.lasting_correlation < kWhite;
   };
-  if (!all || is_white(*all) || all->correlation_after_1_s > kOfManoeuvres) return all;
+  if (!all || is_white(*all)) return all;
   // What the base, or the mast that carries its marker, does late or swings with correlates them as a tracker that
   // smooths does, but not where it stands.
   if (const auto* drive = std::get_if<DifferentialDrive>(&nominal.kind)) {
@@ -109,6 +123,8 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
         correlation_at_rest(recordings, *drive, nominal.truth.time_offset_s, options.by_commands);
     if (at_rest && *at_rest <= kLasting) return all;
   }
+  const auto unfiltered = [&] { return before_a_filter(*all, recordings, nominal, options, progress); };
+  if (all->correlation_after_1_s > kOfManoeuvres) return unfiltered().value_or(*all);
   // Clocks that run apart correlate them just so, and that is no noise.
   LeastSquaresOptions clocks_right = options;
   clocks_right.clocks = moved_clocks(recordings, *all, options);
@@ -117,6 +133,7 @@ Result<LeastSquaresCalibration> calibrated_by_white_truth(const std::vector<Reco
     const auto put_right = calibrated_by_all(recordings, nominal, clocks_right, progress);
     if (put_right && is_white(*put_right)) return all;
   }
+  if (auto measured = unfiltered()) return *std::move(measured);
   constexpr std::array<double, 7> kApart_s = {0.05, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0};
   const auto of_samples_apart = [&](double apart_s, const LeastSquaresOptions& with) {
     return calibrated_by_samples_apart(apart_s, recordings, nominal, with, {});

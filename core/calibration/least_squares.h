@@ -13,6 +13,7 @@
 #include "core/base/result.h"
 #include "core/calibration/aligned_clock.h"
 #include "core/calibration/innovations.h"
+#include "core/calibration/truth_filter.h"
 #include "core/recording/recording.h"
 #include "core/vehicle/vehicle.h"
 
@@ -30,7 +31,8 @@ struct LeastSquaresOptions {
   std::vector<std::optional<std::vector<std::pair<double, double>>>> left_out;
   // Of each recording, where they are known: held as they are, and stamps put right by the rates.
   std::vector<AlignedClock> clocks;
-  bool truth_is_white = false;  // all its samples are used, though its noise seems to last
+  bool truth_is_white = false;       // all its samples are used, though its noise seems to last
+  bool truth_is_unfiltered = false;  // what had been measured before a filter, or no filter is to be looked for
   bool by_commands = false;  // the wheels are those that would have obeyed commands; a base follows them in its own way
 
   std::optional<std::vector<std::pair<double, double>>> left_out_of(std::size_t recording) const {
@@ -63,6 +65,7 @@ struct LeastSquaresCalibration {
   int outliers = 0;                      // truth samples set aside because they contradict their neighbours
   double normalised_chi2_nominal = 0.0;  // of the innovations, with the noise as fitted; 1 is a perfect fit
   double normalised_chi2 = 0.0;
+  double minus_two_log_likelihood = 0.0;  // of the innovations, but for what their number makes it
   // Correlation of each whitened innovation with the next, of x, y and heading. Zero where the model is complete; else
   // there is something that these parameters do not describe. The standard errors are then enlarged to what the scatter
   // of the score over batches of the recordings shows.
@@ -73,6 +76,7 @@ struct LeastSquaresCalibration {
   // Where these are large and pass within half a second, the truth's noise lasts: only samples so far apart are used
   // then (correlated_truth.h). Zero: all of them.
   double truth_apart_s = 0.0;
+  std::optional<TruthFilter> truth_filter;  // it is by what had been measured before that (unfiltered_truth.h)
   double truth_smoothed_for_s = 0.0;  // as shows where the vehicle rests (smoothed_at_rest.h); 0: not, or not told
   // Whether fewer samples are used for another reason than that they are smoothed at rest.
   bool truth_lasts() const { return truth_apart_s > 0.0 && truth_apart_s != truth_smoothed_for_s; }

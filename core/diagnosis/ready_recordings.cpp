@@ -10,6 +10,7 @@
 #include "core/calibration/left_out.h"
 #include "core/calibration/recording_fault.h"
 #include "core/calibration/restamped.h"
+#include "core/calibration/unfiltered_truth.h"
 #include "core/diagnosis/model/ready_run.h"
 #include "core/diagnosis/naming/clocks_first.h"
 #include "core/diagnosis/quality/alike_holds.h"
@@ -175,8 +176,8 @@ std::string jumps_in_words(const std::vector<TruthJump>& jumps) {
       static_cast<int>(jumps.size()), 1e3 * std::sqrt(squares_m2 / static_cast<double>(jumps.size())));
 }
 
-// Whether a clock is so far from what the vehicle's file says that the truth drives on where wheels stand; less, where an
-// encoder seemed to.
+// Whether a clock is so far from what the vehicle's file says that the truth drives on where wheels stand; less, where
+// an encoder seemed to.
 bool are_clocks_far_off(const LeastSquaresCalibration& calibration, const Vehicle& nominal, bool encoders_seem_to_err) {
   constexpr double kFar_s = 0.3, kNearer_s = 0.05;
   const double far_s = encoders_seem_to_err ? kNearer_s : kFar_s;
@@ -256,6 +257,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
   ready.train.resize(train.size());
   ready.held_out.resize(held_out.size());
   std::vector<const Recording*> given;
+  std::vector<Recording> unfiltered;  // what is given instead, where the truth was filtered
   std::vector<CheckedRecording*> each;
   for (const std::vector<Recording>* of : {&train, &held_out})
     for (const Recording& r : *of) given.push_back(&r);
@@ -296,6 +298,7 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     LeastSquaresOptions with_faults_left_out;
     with_faults_left_out.by_commands = ready.from_commands;
     with_faults_left_out.truth_is_white = truth_is_white;
+    with_faults_left_out.truth_is_unfiltered = !unfiltered.empty();
     std::vector<Recording> fitted;
     for (const CheckedRecording& c : ready.train) {
       fitted.push_back(c.recording);
@@ -316,6 +319,14 @@ Result<ReadyRecordings> ready_recordings(const std::vector<Recording>& train, co
     return Done{};
   };
   if (const Result<Done> done = calibrate(); !done) return done.error();
+  if (const std::optional<TruthFilter> filter = ready.calibration.truth_filter) {
+    ready.warnings.push_back(filter_in_words(*filter));
+    for (const Recording* r : given) unfiltered.push_back(unfiltered_truth(*r, *filter));
+    for (std::size_t i = 0; i < given.size(); ++i) given[i] = &unfiltered[i];
+    check(std::vector<std::optional<AlignedClock>>(each.size()));
+    put_mountings_right();
+    if (const Result<Done> done = calibrate(); !done) return done.error();
+  }
   const auto known_clocks = [&] {
     std::vector<std::optional<AlignedClock>> known(each.size());
     for (std::size_t i = 0; i < each.size(); ++i)

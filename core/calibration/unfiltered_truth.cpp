@@ -1,0 +1,148 @@
+#include "core/calibration/unfiltered_truth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/formatted.h"
+#include "core/base/parallel.h"
+#include "core/base/quantile.h"
+#include "core/calibration/calibrated_by_all.h"
+
+namespace odolab {
+
+namespace {
+
+// From one sample of the truth's position to the next, of all recordings.
+std::vector<double> truth_periods_s(const std::vector<Recording>& recordings) {
+  std::vector<double> periods;
+  for (const Recording& r : recordings) {
+    const Channel* x = r.channel("truth_x_m");
+    double last_s = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; x && i < r.time_s.size(); ++i) {
+      if (std::isnan(x->values[i])) continue;
+      if (r.time_s[i] > last_s) periods.push_back(r.time_s[i] - last_s);
+      last_s = r.time_s[i];
+    }
+  }
+  return periods;
+}
+
+double per_innovation(const LeastSquaresCalibration& fit) {
+  return fit.minus_two_log_likelihood / std::max(1, fit.innovations);
+}
+
+bool is_white(const LeastSquaresCalibration& c) {
+  constexpr double kNext = 0.25, kLasting = 0.06;
+  return std::max({std::abs(c.correlation[0]), std::abs(c.correlation[1]), std::abs(c.correlation[2])}) < kNext &&
+         c.lasting_correlation < kLasting;
+}
+
+struct TriedFilter {
+  TruthFilter filter;
+  double minus_two_log_likelihood = std::numeric_limits<double>::infinity();  // of each innovation, as recorded
+  std::optional<LeastSquaresCalibration> fit;
+};
+
+class FilterSearch {
+ public:
+  FilterSearch(const std::vector<Recording>& recordings, const Vehicle& nominal, const LeastSquaresOptions& options)
+      : recordings_(recordings), nominal_(nominal), options_(options), periods_s_(truth_periods_s(recordings)) {}
+
+  bool has_samples() const {
+    constexpr std::size_t kFewest = 100;
+    return periods_s_.size() > kFewest;
+  }
+  double period_s() const { return quantile(periods_s_, 0.5); }
+
+  // The likeliest of these time constants, and then of ever closer ones.
+  TriedFilter likeliest(TruthFilter::Kind kind, const std::vector<double>& time_constants_s) const {
+    constexpr double kCloseEnough = 1.04;
+    TriedFilter best;
+    const auto look = [&](const std::vector<double>& all_s) {
+      std::vector<TriedFilter> tried(all_s.size());
+      parallel_for(static_cast<int>(tried.size()), [&](int k) {
+        const auto at = static_cast<std::size_t>(k);
+        tried[at] = with({kind, all_s[at]});
+      });
+      for (TriedFilter& t : tried)
+        if (t.minus_two_log_likelihood < best.minus_two_log_likelihood) best = std::move(t);
+    };
+    look(time_constants_s);
+    for (double factor = std::sqrt(2.0); best.fit && factor > kCloseEnough; factor = std::sqrt(factor))
+      look({best.filter.time_constant_s / factor, best.filter.time_constant_s * factor});
+    return best;
+  }
+
+ private:
+  TriedFilter with(const TruthFilter& filter) const {
+    TriedFilter tried;
+    tried.filter = filter;
+    std::vector<Recording> measured;
+    for (const Recording& r : recordings_) measured.push_back(unfiltered_truth(r, filter));
+    Result<LeastSquaresCalibration> fit = calibrated_by_all(measured, nominal_, options_, {});
+    if (!fit) return tried;
+    double spread = 0.0;
+    for (const double dt_s : periods_s_) spread += std::log(spread_of_measured(filter, dt_s));
+    tried.minus_two_log_likelihood = per_innovation(*fit) - 2.0 * spread / static_cast<double>(periods_s_.size());
+    tried.fit = std::move(*fit);
+    return tried;
+  }
+
+  const std::vector<Recording>& recordings_;
+  const Vehicle& nominal_;
+  const LeastSquaresOptions& options_;
+  std::vector<double> periods_s_;
+};
+
+}  // namespace
+
+std::string filter_in_words(const TruthFilter& filter) {
+  const char* how = filter.kind == TruthFilter::Kind::low_pass ? "a low pass of first order"
+                    : filter.kind == TruthFilter::Kind::low_pass_twice
+                        ? "a low pass of second order"
+                        : "one that carries the pose on at the speed so far";
+  return formatted(
+      "the truth was filtered before it was recorded, by %s over %.2g s: it is judged by what had been "
+      "measured",
+      how, filter.time_constant_s);
+}
+
+std::optional<LeastSquaresCalibration> calibrated_unfiltered(const LeastSquaresCalibration& as_it_is,
+                                                             const std::vector<Recording>& recordings,
+                                                             const Vehicle& nominal, const LeastSquaresOptions& options,
+                                                             const Progress& progress) {
+  constexpr std::array<double, 6> kPeriods = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+  constexpr double kLongest_s = 5.0, kLikelier = 50.0;
+  // For each innovation, than by the low pass: noise that lasts by itself is whitened as well by another, and is no
+  // likelier then (0.016 at most; such filters by 0.14 to 0.5).
+  constexpr double kPlainly = 0.05;
+  const FilterSearch search(recordings, nominal, options);
+  if (!search.has_samples()) return std::nullopt;
+  std::vector<double> time_constants_s;
+  for (const double periods : kPeriods)
+    if (periods * search.period_s() <= kLongest_s) time_constants_s.push_back(periods * search.period_s());
+  const auto is_likelier = [&](const TriedFilter& t) {
+    return (per_innovation(as_it_is) - t.minus_two_log_likelihood) * as_it_is.innovations > kLikelier;
+  };
+  const auto accepted = [&](TriedFilter& t) -> std::optional<LeastSquaresCalibration> {
+    if (!t.fit || !is_likelier(t) || !is_white(*t.fit)) return std::nullopt;
+    t.fit->truth_filter = t.filter;
+    t.fit->warnings.push_back(filter_in_words(t.filter));
+    return std::move(t.fit);
+  };
+  TriedFilter once = search.likeliest(TruthFilter::Kind::low_pass, time_constants_s);
+  if (!goes_on(progress, 0.5) || !is_likelier(once)) return std::nullopt;
+  if (auto fit = accepted(once)) return fit;
+  const double about_s = once.filter.time_constant_s;
+  for (const auto kind : {TruthFilter::Kind::constant_velocity, TruthFilter::Kind::low_pass_twice}) {
+    TriedFilter other = search.likeliest(kind, {0.5 * about_s, about_s, 2.0 * about_s});
+    if (!goes_on(progress, 1.0)) return std::nullopt;
+    if (other.minus_two_log_likelihood > once.minus_two_log_likelihood - kPlainly) continue;
+    if (auto fit = accepted(other)) return fit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace odolab
