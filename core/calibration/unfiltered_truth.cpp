@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 
 #include "core/base/formatted.h"
 #include "core/base/parallel.h"
@@ -45,6 +47,19 @@ struct TriedFilter {
   std::optional<LeastSquaresCalibration> fit;
 };
 
+// The least of a parabola through the value here and those to either side; nothing at an end.
+std::optional<double> summit_about(const std::map<double, double>& values, double here) {
+  const auto at = values.find(here);
+  if (at == values.end() || at == values.begin() || std::next(at) == values.end()) return std::nullopt;
+  const auto [x0, y0] = *std::prev(at);
+  const auto [x1, y1] = *at;
+  const auto [x2, y2] = *std::next(at);
+  const double left = (y1 - y0) / (x1 - x0), right = (y2 - y1) / (x2 - x1);
+  if (!(right > left)) return std::nullopt;
+  const double summit = 0.5 * (x0 + x1) - left * 0.5 * (x2 - x0) / (right - left);
+  return std::clamp(summit, x0, x2);
+}
+
 class FilterSearch {
  public:
   FilterSearch(const std::vector<Recording>& recordings, const Vehicle& nominal, const LeastSquaresOptions& options)
@@ -56,22 +71,31 @@ class FilterSearch {
   }
   double period_s() const { return quantile(periods_s_, 0.5); }
 
-  // The likeliest of these time constants, and then of ever closer ones.
+  // The likeliest of these time constants, of ever closer ones, and at last where a parabola through the three about
+  // the likeliest has its summit.
   TriedFilter likeliest(TruthFilter::Kind kind, const std::vector<double>& time_constants_s) const {
-    constexpr double kCloseEnough = 1.04;
+    constexpr double kClose = 1.05;
+    constexpr int kParabolas = 2;
     TriedFilter best;
+    std::map<double, double> by_log_of_time;
     const auto look = [&](const std::vector<double>& all_s) {
       std::vector<TriedFilter> tried(all_s.size());
       parallel_for(static_cast<int>(tried.size()), [&](int k) {
         const auto at = static_cast<std::size_t>(k);
         tried[at] = with({kind, all_s[at]});
       });
-      for (TriedFilter& t : tried)
+      for (TriedFilter& t : tried) {
+        if (!t.fit) continue;
+        by_log_of_time[std::log(t.filter.time_constant_s)] = t.minus_two_log_likelihood;
         if (t.minus_two_log_likelihood < best.minus_two_log_likelihood) best = std::move(t);
+      }
     };
     look(time_constants_s);
-    for (double factor = std::sqrt(2.0); best.fit && factor > kCloseEnough; factor = std::sqrt(factor))
+    for (double factor = std::sqrt(2.0); best.fit && factor > kClose; factor = std::sqrt(factor))
       look({best.filter.time_constant_s / factor, best.filter.time_constant_s * factor});
+    for (int k = 0; best.fit && k < kParabolas; ++k)
+      if (const std::optional<double> summit = summit_about(by_log_of_time, std::log(best.filter.time_constant_s)))
+        look({std::exp(*summit)});
     return best;
   }
 
@@ -113,7 +137,7 @@ std::optional<LeastSquaresCalibration> calibrated_unfiltered(const LeastSquaresC
                                                              const std::vector<Recording>& recordings,
                                                              const Vehicle& nominal, const LeastSquaresOptions& options,
                                                              const Progress& progress) {
-  constexpr std::array<double, 6> kPeriods = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+  constexpr std::array<double, 7> kPeriods = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
   constexpr double kLongest_s = 5.0, kLikelier = 50.0;
   // For each innovation, than by the low pass: noise that lasts by itself is whitened as well by another, and is no
   // likelier then (0.016 at most; such filters by 0.14 to 0.5).
