@@ -66,7 +66,9 @@ Result<LeastSquaresCalibration> calibrated_by_samples_apart(double apart_s, cons
 std::optional<LeastSquaresCalibration> before_a_filter(const LeastSquaresCalibration& all,
                                                        const std::vector<Recording>& recordings, const Vehicle& nominal,
                                                        const LeastSquaresOptions& options, const Progress& progress) {
-  if (options.truth_is_unfiltered || options.by_commands) return std::nullopt;
+  if (options.truth_is_unfiltered || options.by_commands ||
+      counts_are_a_long_way(largest_count_m(recordings, nominal), all.noise))
+    return std::nullopt;
   return calibrated_unfiltered(all, recordings, nominal, options, progress);
 }
 

@@ -31,6 +31,21 @@ std::vector<double> truth_periods_s(const std::vector<Recording>& recordings) {
   return periods;
 }
 
+// The beginning of each, so that all together have about so many samples of the truth.
+std::vector<Recording> beginnings(const std::vector<Recording>& recordings, std::size_t samples, std::size_t of_all) {
+  const double share =
+      std::min(1.0, static_cast<double>(samples) / static_cast<double>(std::max<std::size_t>(1, of_all)));
+  std::vector<Recording> shorter;
+  for (const Recording& r : recordings) {
+    const double until_s = r.time_s.front() + share * (r.time_s.back() - r.time_s.front());
+    const auto rows = std::upper_bound(r.time_s.begin(), r.time_s.end(), until_s) - r.time_s.begin();
+    shorter.push_back({r.name, r.provenance, {r.time_s.begin(), r.time_s.begin() + rows}, {}});
+    for (const Channel& c : r.channels)
+      shorter.back().channels.push_back({c.name, {c.values.begin(), c.values.begin() + rows}});
+  }
+  return shorter;
+}
+
 double per_innovation(const LeastSquaresCalibration& fit) {
   return fit.minus_two_log_likelihood / std::max(1, fit.innovations);
 }
@@ -65,15 +80,28 @@ class FilterSearch {
   FilterSearch(const std::vector<Recording>& recordings, const Vehicle& nominal, const LeastSquaresOptions& options)
       : recordings_(recordings), nominal_(nominal), options_(options), periods_s_(truth_periods_s(recordings)) {}
 
+  // What it takes to look about among these: calibrations by no more than so many samples.
+  static constexpr std::size_t kSamples = 2500;
+  bool is_long() const { return periods_s_.size() > kSamples; }
+
   bool has_samples() const {
     constexpr std::size_t kFewest = 100;
     return periods_s_.size() > kFewest;
   }
+  std::size_t samples() const { return periods_s_.size(); }
   double period_s() const { return quantile(periods_s_, 0.5); }
+
+  // -2 log L of each innovation by the samples as they are; unset where nothing can be fitted.
+  std::optional<double> as_recorded() const {
+    const Result<LeastSquaresCalibration> fit = calibrated_by_all(recordings_, nominal_, options_, {});
+    if (!fit) return std::nullopt;
+    return per_innovation(*fit);
+  }
 
   // The likeliest of these time constants, of ever closer ones, and at last where a parabola through the three about
   // the likeliest has its summit.
-  TriedFilter likeliest(TruthFilter::Kind kind, const std::vector<double>& time_constants_s) const {
+  TriedFilter likeliest(TruthFilter::Kind kind, const std::vector<double>& time_constants_s,
+                        double first_factor = 1.4142) const {
     constexpr double kClose = 1.05;
     constexpr int kParabolas = 2;
     TriedFilter best;
@@ -91,7 +119,7 @@ class FilterSearch {
       }
     };
     look(time_constants_s);
-    for (double factor = std::sqrt(2.0); best.fit && factor > kClose; factor = std::sqrt(factor))
+    for (double factor = first_factor; best.fit && factor > kClose; factor = std::sqrt(factor))
       look({best.filter.time_constant_s / factor, best.filter.time_constant_s * factor});
     for (int k = 0; best.fit && k < kParabolas; ++k)
       if (const std::optional<double> summit = summit_about(by_log_of_time, std::log(best.filter.time_constant_s)))
@@ -142,28 +170,36 @@ std::optional<LeastSquaresCalibration> calibrated_unfiltered(const LeastSquaresC
   // For each innovation, than by the low pass: noise that lasts by itself is whitened as well by another, and is no
   // likelier then (0.016 at most; such filters by 0.14 to 0.5).
   constexpr double kPlainly = 0.05;
-  const FilterSearch search(recordings, nominal, options);
-  if (!search.has_samples()) return std::nullopt;
+  constexpr double kCloserByAll = 1.06;  // one look to either side, and the parabolas
+  const FilterSearch by_all(recordings, nominal, options);
+  if (!by_all.has_samples()) return std::nullopt;
+  const std::vector<Recording> some =
+      by_all.is_long() ? beginnings(recordings, FilterSearch::kSamples, by_all.samples()) : recordings;
+  const FilterSearch search(some, nominal, options);
+  const std::optional<double> as_recorded = by_all.is_long() ? search.as_recorded() : per_innovation(as_it_is);
   std::vector<double> time_constants_s;
   for (const double periods : kPeriods)
     if (periods * search.period_s() <= kLongest_s) time_constants_s.push_back(periods * search.period_s());
   const auto is_likelier = [&](const TriedFilter& t) {
-    return (per_innovation(as_it_is) - t.minus_two_log_likelihood) * as_it_is.innovations > kLikelier;
+    return as_recorded && t.fit && (*as_recorded - t.minus_two_log_likelihood) * t.fit->innovations > kLikelier;
   };
   const auto accepted = [&](TriedFilter& t) -> std::optional<LeastSquaresCalibration> {
-    if (!t.fit || !is_likelier(t) || !is_white(*t.fit)) return std::nullopt;
+    if (!is_likelier(t) || !is_white(*t.fit)) return std::nullopt;
+    if (by_all.is_long()) t = by_all.likeliest(t.filter.kind, {t.filter.time_constant_s}, kCloserByAll);
+    if (!t.fit || !is_white(*t.fit)) return std::nullopt;
     t.fit->truth_filter = t.filter;
     t.fit->warnings.push_back(filter_in_words(t.filter));
     return std::move(t.fit);
   };
   TriedFilter once = search.likeliest(TruthFilter::Kind::low_pass, time_constants_s);
   if (!goes_on(progress, 0.5) || !is_likelier(once)) return std::nullopt;
+  const TriedFilter first = once;
   if (auto fit = accepted(once)) return fit;
-  const double about_s = once.filter.time_constant_s;
+  const double about_s = first.filter.time_constant_s;
   for (const auto kind : {TruthFilter::Kind::constant_velocity, TruthFilter::Kind::low_pass_twice}) {
     TriedFilter other = search.likeliest(kind, {0.5 * about_s, about_s, 2.0 * about_s});
     if (!goes_on(progress, 1.0)) return std::nullopt;
-    if (other.minus_two_log_likelihood > once.minus_two_log_likelihood - kPlainly) continue;
+    if (other.minus_two_log_likelihood > first.minus_two_log_likelihood - kPlainly) continue;
     if (auto fit = accepted(other)) return fit;
   }
   return std::nullopt;
