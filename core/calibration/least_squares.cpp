@@ -199,9 +199,12 @@ Result<LeastSquaresCalibration> calibrate_least_squares(const std::vector<Record
   const double smoothed_s = is_white ? 0.0 : smoothed_at_rest_for_s(measured, turned, options.by_commands);
   std::optional<Result<LeastSquaresCalibration>> smoothed =
       calibrated_beyond_smoothing(smoothed_s, measured, turned, options, progress);
-  Result<LeastSquaresCalibration> result = smoothed   ? *std::move(smoothed)
-                                           : is_white ? calibrated_by_all(measured, turned, options, progress)
-                                                      : calibrated_by_white_truth(measured, turned, options, progress);
+  LeastSquaresOptions filter_is_looked_for = options;
+  filter_is_looked_for.truth_is_unfiltered |= smoothed_s > 0.0;  // beyond what is smoothed at rest, just now
+  Result<LeastSquaresCalibration> result =
+      smoothed   ? *std::move(smoothed)
+      : is_white ? calibrated_by_all(measured, turned, options, progress)
+                 : calibrated_by_white_truth(measured, turned, filter_is_looked_for, progress);
   if (!result) return result;
   result->truth_smoothed_for_s = smoothed_s;
   if (const double count_m = largest_count_m(measured, turned); counts_are_a_long_way(count_m, result->noise))

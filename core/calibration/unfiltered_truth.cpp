@@ -193,13 +193,12 @@ std::optional<LeastSquaresCalibration> calibrated_unfiltered(const LeastSquaresC
   };
   TriedFilter once = search.likeliest(TruthFilter::Kind::low_pass, time_constants_s);
   if (!goes_on(progress, 0.5) || !is_likelier(once)) return std::nullopt;
-  const TriedFilter first = once;
+  const double about_s = once.filter.time_constant_s, by_low_pass = once.minus_two_log_likelihood;
   if (auto fit = accepted(once)) return fit;
-  const double about_s = first.filter.time_constant_s;
   for (const auto kind : {TruthFilter::Kind::constant_velocity, TruthFilter::Kind::low_pass_twice}) {
     TriedFilter other = search.likeliest(kind, {0.5 * about_s, about_s, 2.0 * about_s});
     if (!goes_on(progress, 1.0)) return std::nullopt;
-    if (other.minus_two_log_likelihood > first.minus_two_log_likelihood - kPlainly) continue;
+    if (other.minus_two_log_likelihood > by_low_pass - kPlainly) continue;
     if (auto fit = accepted(other)) return fit;
   }
   return std::nullopt;
